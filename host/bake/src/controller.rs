@@ -19,13 +19,23 @@ pub(super) struct Parts<'a> {
     pub storage: &'a str,
     /// The memory before the first tick.
     pub zeros: &'a str,
-    /// The model that is lent to the memory.
-    pub setup: &'a str,
+    /// The model that is lent to the memory, and how it is solved.
+    pub lent: [&'a str; 2],
 }
 
 /// The alias, and the scene behind it.
 pub(super) fn controller(parts: &Parts) -> String {
-    let Parts { first, from, ends, limits, has_ranges, is_cold, storage, zeros, setup } = parts;
+    let Parts {
+        first,
+        from,
+        ends,
+        limits,
+        has_ranges,
+        is_cold,
+        storage,
+        zeros,
+        lent: [model, setup],
+    } = parts;
     let ranges = if *has_ranges { "&Inputs::RANGES" } else { "&[]" };
     format!(
         "
@@ -67,9 +77,12 @@ impl controller::Scene for Scene {{
 
     fn lend<T>(
         &self,
-        take: impl FnOnce(&<Self::Storage as controller::Storage<Scalar>>::Model<'_>) -> T,
+        take: impl FnOnce(
+            &<Self::Storage as controller::Storage<Scalar>>::Model<'_>,
+            &<Self::Storage as controller::Storage<Scalar>>::Setup<'_>,
+        ) -> T,
     ) -> T {{
-        take(&{setup})
+        take(&{model}, &{setup})
     }}
 }}
 

@@ -7,9 +7,9 @@ use crate::named;
 use crate::report::Report;
 use crate::scene::{Inputs, Scalar};
 use crate::state::State;
+use signorini_device::codes::Refusal;
 use signorini_device::kernel::Verdict;
 use signorini_device::kernel::codes::word;
-use signorini_device::codes::Refusal;
 use signorini_device::kernel::report::Ended;
 
 /// # Safety

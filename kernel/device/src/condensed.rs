@@ -18,23 +18,19 @@ use signorini_kernel::error::Error;
 use signorini_kernel::limits::{Deadline, Limits};
 use signorini_kernel::report::Report;
 
-/// A model, and how far its method may go (borrowed).
-#[derive(Debug, Clone, Copy)]
-pub struct Setup<'a, M, R> {
-    /// The model: [`Condensed`], or one with modes.
-    pub system: &'a M,
+/// How far a method may go.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort<R> {
     /// Most exchanges of a tick.
     pub pivots: u32,
     /// The factor of sweeps, and when they end; their number is that of the limits.
     pub sweeps: Sweeps<R>,
 }
 
-impl<'a, M, R: Real> Setup<'a, M, R> {
-    /// A model whose method needs no telling.
-    pub const fn of(system: &'a M) -> Self {
-        let sweeps = Sweeps { omega: R::ONE, tolerance: R::ZERO, most: 0 };
-        Self { system, pivots: 0, sweeps }
-    }
+impl<R: Real> Effort<R> {
+    /// For methods that come to their end.
+    pub const NONE: Self =
+        Self { pivots: 0, sweeps: Sweeps { omega: R::ONE, tolerance: R::ZERO, most: 0 } };
 }
 
 /// A method with what it keeps from tick to tick.
@@ -158,7 +154,8 @@ where
     Spans: AsMut<[R]>,
     M: Solver<R>,
 {
-    type Model<'m> = Setup<'m, Condensed<'m, R>, R>;
+    type Model<'m> = Condensed<'m, R>;
+    type Setup<'m> = Effort<R>;
 
     fn reset(&mut self) {
         self.iterate.reset();
@@ -167,16 +164,17 @@ where
 
     fn tick<O: Outputs<R>, F: FnMut() -> u32>(
         &mut self,
-        model: &Self::Model<'_>,
-        terms: &[R],
+        system: &Self::Model<'_>,
+        &Effort { pivots, sweeps }: &Self::Setup<'_>,
+        terms: &impl AsRef<[R]>,
         limits: Limits<R>,
         deadline: &mut Deadline<F>,
     ) -> Result<Answer<O, R>, Error> {
-        let Setup { system, pivots, sweeps } = *model;
         let sweeps = Sweeps { most: limits.sweeps, ..sweeps };
         let mut method = self.solver.method(system, pivots, sweeps)?;
         let memory = &mut self.iterate.memory(system);
-        let report = &system.tick(terms, &mut method, deadline, memory)?;
+        let report = &system.tick(terms.as_ref(), &mut method, deadline, memory)?;
+        let terms = terms.as_ref();
         let outputs = O::read(&Read { system, terms, memory, report })?;
         Ok(Answer { outputs, report: *report })
     }
@@ -195,7 +193,8 @@ where
     Inputs: AsMut<[R]>,
     M: Solver<R>,
 {
-    type Model<'m> = Setup<'m, Modal<'m, R>, R>;
+    type Model<'m> = Modal<'m, R>;
+    type Setup<'m> = Effort<R>;
 
     fn reset(&mut self) {
         self.iterate.reset();
@@ -204,14 +203,14 @@ where
 
     fn tick<O: Outputs<R>, F: FnMut() -> u32>(
         &mut self,
-        model: &Self::Model<'_>,
-        terms: &[R],
+        modal: &Self::Model<'_>,
+        &Effort { pivots, sweeps }: &Self::Setup<'_>,
+        terms: &impl AsRef<[R]>,
         limits: Limits<R>,
         deadline: &mut Deadline<F>,
     ) -> Result<Answer<O, R>, Error> {
-        let Setup { system: modal, pivots, sweeps } = *model;
         // A tableau belongs to one value of the coefficient.
-        if self.iterate.set(modal, terms)? {
+        if self.iterate.set(modal, terms.as_ref())? {
             self.solver.reset();
         }
         let (system, mut memory) = self.iterate.at(modal);

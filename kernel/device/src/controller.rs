@@ -33,10 +33,13 @@ pub trait Scene {
     /// Whether every tick starts anew.
     fn is_cold(&self) -> bool;
 
-    /// Lends the model to `take`.
+    /// Lends the model, and how it is solved, to `take`.
     fn lend<T>(
         &self,
-        take: impl FnOnce(&<Self::Storage as Storage<Self::Scalar>>::Model<'_>) -> T,
+        take: impl FnOnce(
+            &<Self::Storage as Storage<Self::Scalar>>::Model<'_>,
+            &<Self::Storage as Storage<Self::Scalar>>::Setup<'_>,
+        ) -> T,
     ) -> T;
 }
 
@@ -84,8 +87,11 @@ pub trait Reading<R> {
 
 /// The memory of a model, and how its ticks are solved.
 pub trait Storage<R: Real> {
-    /// What it solves (borrowed).
+    /// What it solves (borrowed). By itself: within another struct its numbers would be no constants of a tick's code.
     type Model<'m>;
+
+    /// How it is solved (borrowed).
+    type Setup<'m>;
 
     /// Forgets all ticks.
     fn reset(&mut self);
@@ -97,7 +103,8 @@ pub trait Storage<R: Real> {
     fn tick<O: Outputs<R>, F: FnMut() -> u32>(
         &mut self,
         model: &Self::Model<'_>,
-        terms: &[R],
+        setup: &Self::Setup<'_>,
+        terms: &impl AsRef<[R]>,
         limits: Limits<R>,
         deadline: &mut Deadline<F>,
     ) -> Result<Answer<O, R>, Error>;
@@ -162,14 +169,14 @@ impl<S: Scene> Controller<S> {
         limits: Limits<S::Scalar>,
         deadline: &mut Deadline<F>,
     ) -> Result<Answer<S::Outputs, S::Scalar>, Error> {
-        let terms = inputs.terms();
-        let terms = terms.as_ref();
-        check(terms.get(1..).unwrap_or_default(), self.scene.ranges())?;
+        // By its own type: the length of a slice would be no constant of the tick's code.
+        let terms = &inputs.terms();
+        check(terms.as_ref().get(1..).unwrap_or_default(), self.scene.ranges())?;
         if self.scene.is_cold() {
             self.storage.reset();
         }
         let Self { scene, storage } = self;
-        scene.lend(|model| storage.tick(model, terms, limits, deadline))
+        scene.lend(|model, setup| storage.tick(model, setup, terms, limits, deadline))
     }
 
     /// Forgets all ticks: the next one is the first again.

@@ -7,7 +7,7 @@ use signorini_contact::dense::ranges::Given;
 use signorini_contact::method::{Linear, Method, Pivots, SolveSummary, Sweeps, TwoPhases};
 use signorini_contact::modes::ModalStorage;
 use signorini_contact::storage::{Storage, TableauStorage};
-use signorini_device::condensed::{ControllerStorage, Setup, Solver};
+use signorini_device::condensed::{ControllerStorage, Effort, Solver};
 use signorini_device::controller::{self, Answer, Outputs, Scene};
 use signorini_kernel::Error;
 use signorini_kernel::limits::{Deadline, Limits};
@@ -90,8 +90,8 @@ impl<R: Scalar> Scene for Desk<'_, R> {
         self.0.cold
     }
 
-    fn lend<T>(&self, take: impl FnOnce(&Baked<R>) -> T) -> T {
-        take(self.0)
+    fn lend<T>(&self, take: impl FnOnce(&Baked<R>, &()) -> T) -> T {
+        take(self.0, &())
     }
 }
 
@@ -137,6 +137,7 @@ impl<R: Scalar> DeskStorage<R> {
 
 impl<R: Scalar> controller::Storage<R> for DeskStorage<R> {
     type Model<'m> = Baked<R>;
+    type Setup<'m> = ();
 
     fn reset(&mut self) {
         match self {
@@ -148,19 +149,19 @@ impl<R: Scalar> controller::Storage<R> for DeskStorage<R> {
     fn tick<O: Outputs<R>, F: FnMut() -> u32>(
         &mut self,
         baked: &Baked<R>,
-        terms: &[R],
+        (): &(),
+        terms: &impl AsRef<[R]>,
         limits: Limits<R>,
         deadline: &mut Deadline<F>,
     ) -> Result<Answer<O, R>, Error> {
-        let (pivots, sweeps) = (baked.work.pivots.unwrap_or(0), baked.sweeps);
+        let pivots = baked.work.pivots.unwrap_or(0);
+        let effort = &Effort { pivots, sweeps: baked.sweeps };
         baked.with_model(|system| match (self, &baked.modes) {
-            (Self::Plain(of), _) => {
-                of.tick(&Setup { system, pivots, sweeps }, terms, limits, deadline)
-            }
+            (Self::Plain(of), _) => of.tick(system, effort, terms, limits, deadline),
             (Self::Modal(of), Some(modes)) => {
                 of.solver.has_begun_anew = false;
                 let system = &modes.view(system);
-                of.tick(&Setup { system, pivots, sweeps }, terms, limits, deadline)
+                of.tick(system, effort, terms, limits, deadline)
             }
             (Self::Modal(_), None) => Err(Error::Relaxation),
         })

@@ -40,7 +40,7 @@ const NAMES: &[(&str, &str)] = &[
     ("ControllerStorage", "condensed::ControllerStorage"),
     ("Exchanges", "condensed::Exchanges"),
     ("Phased", "condensed::Phased"),
-    ("Setup", "condensed::Setup"),
+    ("Effort", "condensed::Effort"),
     ("Swept", "condensed::Swept"),
     ("Linear", "contact::method::Linear"),
     ("Sweeps", "contact::method::Sweeps"),
@@ -110,10 +110,10 @@ fn controller<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
     let is_limited = matches!(solver, Solver::Sweeps | Solver::Exchanges(_));
     let sweeps = if is_limited { baked.sweeps.most } else { 0 };
     let (storage, zeros) = memory(baked);
-    let setup = match solver {
-        Solver::Linear | Solver::TwoPhases => "Setup::of(&data::SYSTEM)",
-        Solver::Sweeps => "Setup { sweeps: SWEEPS, ..Setup::of(&data::SYSTEM) }",
-        Solver::Exchanges(_) => "Setup { system: &data::SYSTEM, pivots: PIVOTS, sweeps: SWEEPS }",
+    let effort = match solver {
+        Solver::Linear | Solver::TwoPhases => "Effort::NONE",
+        Solver::Sweeps => "Effort { sweeps: SWEEPS, ..Effort::NONE }",
+        Solver::Exchanges(_) => "Effort { pivots: PIVOTS, sweeps: SWEEPS }",
     };
     let text = controller::controller(&Parts {
         first: "begins with the answer to the scene's own inputs",
@@ -127,7 +127,7 @@ fn controller<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         is_cold: baked.cold,
         storage: &storage,
         zeros: &zeros,
-        setup,
+        lent: ["data::SYSTEM", effort],
     });
     text + "\npub use data::SYSTEM;\n"
 }

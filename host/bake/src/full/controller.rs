@@ -3,7 +3,7 @@
 use signorini_bound::certificate::Curved;
 use signorini_device::controller::{self, Scene};
 use signorini_device::full::controller::{ControllerStorage, Setup, Solver, Task};
-use signorini_device::full::{Lengths, Memory, Numbers, Storage};
+use signorini_device::full::{Full, Lengths, Memory, Numbers, Storage};
 use signorini_device::sparse::{Exact, Solved};
 use signorini_device::tick::{
     CertifiedSweeps, Deadline, Figures, Limits, Report, Substitutions, UncertifiedSweeps,
@@ -169,11 +169,11 @@ impl<R: Scalar, const WIDTH: usize> Scene for Desk<'_, R, WIDTH> {
         self.baked.how.cold
     }
 
-    fn lend<T>(&self, take: impl FnOnce(&Setup<R, u32>) -> T) -> T {
+    fn lend<T>(&self, take: impl FnOnce(&Full<R, u32>, &Setup<R, u32>) -> T) -> T {
         let Self { baked, lengths, .. } = self;
         let factored = baked.factored.as_ref().map(|factored| factored.view());
         let (factored, units) = (factored.as_ref(), baked.scale.map(|scale| scale.kernel));
-        baked.with(|full| take(&Setup { full, lengths, factored, units }))
+        baked.with(|full| take(full, &Setup { lengths, factored, units }))
     }
 }
 
@@ -190,15 +190,15 @@ struct DeskSolver<R: Scalar> {
 impl<R: Scalar> Solver<R, u32> for DeskSolver<R> {
     fn tick<F: FnMut() -> u32, const WIDTH: usize>(
         &mut self,
-        of: &Setup<R, u32>,
-        task: Task<R>,
+        full: &Full<R, u32>,
+        task: Task<R, u32>,
         deadline: &mut Deadline<F>,
         memory: Memory<R, u32, WIDTH>,
         outputs: &mut [R],
     ) -> Result<Report<R>, Error> {
         let report = match self.is_fast {
-            true => self.with(R::FAST, of, task, deadline, memory, outputs)?,
-            false => self.with(Libm, of, task, deadline, memory, outputs)?,
+            true => self.with(R::FAST, full, task, deadline, memory, outputs)?,
+            false => self.with(Libm, full, task, deadline, memory, outputs)?,
         };
         self.solved = self.solved.filter(|_| report.sweeps == 0);
         self.figures = Some(report.figures);
@@ -211,21 +211,21 @@ impl<R: Scalar> DeskSolver<R> {
     fn with<M: Math<R> + Copy, F: FnMut() -> u32, const WIDTH: usize>(
         &mut self,
         math: M,
-        of: &Setup<R, u32>,
-        task: Task<R>,
+        full: &Full<R, u32>,
+        task: Task<R, u32>,
         deadline: &mut Deadline<F>,
         memory: Memory<R, u32, WIDTH>,
         outputs: &mut [R],
     ) -> Result<Report<R>, Error> {
         let (mut certified, mut plain) = (CertifiedSweeps(math), UncertifiedSweeps(math));
-        let Some((factored, own)) = of.factored.zip(self.exchanges.as_mut()) else {
+        let Some((factored, own)) = task.setup.factored.zip(self.exchanges.as_mut()) else {
             return match self.is_certified {
-                true => certified.tick(of, task, deadline, memory, outputs),
-                false => plain.tick(of, task, deadline, memory, outputs),
+                true => certified.tick(full, task, deadline, memory, outputs),
+                false => plain.tick(full, task, deadline, memory, outputs),
             };
         };
-        let mut exact = Exact::new(*factored, own.memory(of.lengths.active)?)?;
-        let (full, Task { inputs, limits }) = (of.full, task);
+        let mut exact = Exact::new(*factored, own.memory(task.setup.lengths.active)?)?;
+        let Task { inputs, limits, .. } = task;
         let report = match self.is_certified {
             true => {
                 let method = Substitutions { exact: &mut exact, sweeps: certified };

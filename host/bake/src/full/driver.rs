@@ -34,6 +34,7 @@ fn body<R: Scalar>(baked: &Baked<R>) -> String {
     let Limits { error, share, sweeps } = how.limits;
     let factored = if baked.factored.is_some() { "Some(&data::FACTORED)" } else { "None" };
     let units = baked.scale.as_ref().map(|scale| scale.kernel);
+    let setup = format!("Setup {{ lengths: &LENGTHS, factored: {factored}, units: {units:?} }}");
     let text = controller::controller(&Parts {
         first: "starts cold",
         from: if how.cold { "from a cold start" } else { "from where the last tick ended" },
@@ -43,9 +44,7 @@ fn body<R: Scalar>(baked: &Baked<R>) -> String {
         is_cold: how.cold,
         storage: &storage,
         zeros: &zeros,
-        setup: &format!(
-            "Setup {{ full: &data::FULL, lengths: &LENGTHS, factored: {factored}, units: {units:?} }}"
-        ),
+        lent: ["data::FULL", &setup],
     });
     lengths(baked) + &text
 }

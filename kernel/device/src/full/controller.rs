@@ -21,12 +21,10 @@ use signorini_kernel::limits::{Deadline, Limits};
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::rows::LayOut;
 
-/// A scene, and what its controller needs beside it (borrowed).
+/// What a controller needs beside its scene (borrowed).
 #[derive(Debug, Clone, Copy)]
 pub struct Setup<'a, R, I> {
-    /// The scene.
-    pub full: &'a Full<'a, R, I>,
-    /// [`Lengths::of`] it.
+    /// [`Lengths::of`] the scene.
     pub lengths: &'a Lengths,
     /// Its factor, where one solves its ticks.
     pub factored: Option<&'a Factored<'a, R, I>>,
@@ -36,7 +34,9 @@ pub struct Setup<'a, R, I> {
 
 /// One tick's task.
 #[derive(Debug, Clone, Copy)]
-pub struct Task<'t, R> {
+pub struct Task<'t, R, I> {
+    /// What the controller has beside its scene.
+    pub setup: &'t Setup<'t, R, I>,
     /// One value a pattern.
     pub inputs: &'t [R],
     /// In the units of the model.
@@ -51,8 +51,8 @@ pub trait Solver<R: Real, I: Index> {
     /// Those of [`Full::tick`].
     fn tick<F: FnMut() -> u32, const WIDTH: usize>(
         &mut self,
-        of: &Setup<R, I>,
-        task: Task<R>,
+        full: &Full<R, I>,
+        task: Task<R, I>,
         deadline: &mut Deadline<F>,
         memory: Memory<R, I, WIDTH>,
         outputs: &mut [R],
@@ -62,26 +62,26 @@ pub trait Solver<R: Real, I: Index> {
 impl<R: Real, I: Index, M: Math<R> + Copy> Solver<R, I> for CertifiedSweeps<M> {
     fn tick<F: FnMut() -> u32, const WIDTH: usize>(
         &mut self,
-        of: &Setup<R, I>,
-        Task { inputs, limits }: Task<R>,
+        full: &Full<R, I>,
+        Task { inputs, limits, .. }: Task<R, I>,
         deadline: &mut Deadline<F>,
         memory: Memory<R, I, WIDTH>,
         outputs: &mut [R],
     ) -> Result<Report<R>, Error> {
-        of.full.tick(inputs, *self, limits, deadline, memory, outputs)
+        full.tick(inputs, *self, limits, deadline, memory, outputs)
     }
 }
 
 impl<R: Real, I: Index, M: Math<R> + Copy> Solver<R, I> for UncertifiedSweeps<M> {
     fn tick<F: FnMut() -> u32, const WIDTH: usize>(
         &mut self,
-        of: &Setup<R, I>,
-        Task { inputs, limits }: Task<R>,
+        full: &Full<R, I>,
+        Task { inputs, limits, .. }: Task<R, I>,
         deadline: &mut Deadline<F>,
         memory: Memory<R, I, WIDTH>,
         outputs: &mut [R],
     ) -> Result<Report<R>, Error> {
-        of.full.tick(inputs, *self, limits, deadline, memory, outputs)
+        full.tick(inputs, *self, limits, deadline, memory, outputs)
     }
 }
 
@@ -106,17 +106,17 @@ where
 {
     fn tick<F: FnMut() -> u32, const WIDTH: usize>(
         &mut self,
-        of: &Setup<R, I>,
-        Task { inputs, limits }: Task<R>,
+        full: &Full<R, I>,
+        Task { inputs, limits, setup }: Task<R, I>,
         deadline: &mut Deadline<F>,
         memory: Memory<R, I, WIDTH>,
         outputs: &mut [R],
     ) -> Result<Report<R>, Error> {
         let missing = Error::Length { of: Array::MatrixValues, found: 0, expected: 1 };
-        let factored = of.factored.ok_or(missing)?;
-        let exact = &mut Exact::new(*factored, self.exchanges.memory(of.lengths.active)?)?;
+        let factored = setup.factored.ok_or(missing)?;
+        let exact = &mut Exact::new(*factored, self.exchanges.memory(setup.lengths.active)?)?;
         let method = Substitutions { exact, sweeps: self.sweeps };
-        of.full.tick(inputs, method, limits, deadline, memory, outputs)
+        full.tick(inputs, method, limits, deadline, memory, outputs)
     }
 }
 
@@ -154,7 +154,8 @@ where
     M: Solver<R, I>,
     Values: AsMut<[R]>,
 {
-    type Model<'m> = Setup<'m, R, I>;
+    type Model<'m> = Full<'m, R, I>;
+    type Setup<'m> = Setup<'m, R, I>;
 
     fn reset(&mut self) {
         self.own.reset();
@@ -162,17 +163,18 @@ where
 
     fn tick<O: Outputs<R>, F: FnMut() -> u32>(
         &mut self,
-        model: &Self::Model<'_>,
-        terms: &[R],
+        full: &Self::Model<'_>,
+        setup: &Self::Setup<'_>,
+        terms: &impl AsRef<[R]>,
         limits: Limits<R>,
         deadline: &mut Deadline<F>,
     ) -> Result<Answer<O, R>, Error> {
-        let Setup { full, lengths, units, .. } = *model;
+        let Setup { lengths, units, .. } = *setup;
         let limits = units.map_or(limits, |units| units.limits(limits));
-        let task = Task { inputs: terms.get(1..).unwrap_or_default(), limits };
+        let task = Task { setup, inputs: terms.as_ref().get(1..).unwrap_or_default(), limits };
         let memory = self.own.memory(full, lengths)?;
         let outputs = self.outputs.as_mut();
-        let report = self.solver.tick(model, task, deadline, memory, outputs)?;
+        let report = self.solver.tick(full, task, deadline, memory, outputs)?;
         let report = units.map_or(report, |units| units.answer(full.outputs, outputs, report));
         let outputs = O::read(&Read(outputs))?;
         Ok(Answer { outputs, report: report.with(()) })

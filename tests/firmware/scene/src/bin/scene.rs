@@ -12,9 +12,9 @@ use core::hint::black_box;
 use cortex_m_rt::entry;
 use signorini_board::clock::{Clock, UNIT};
 use signorini_board::{run, stack};
-use signorini_kernel::Error;
 use signorini_scene::play::play;
-use signorini_scene::scene::{Answer, Controller, Inputs};
+use signorini_scene::scene::Controller;
+use signorini_scene::tick;
 
 /// Bytes of stack that are watched, where there are as many.
 const WATCHED: u32 = 1 << 16;
@@ -43,10 +43,4 @@ fn main() -> ! {
         });
         journal.row(&["@ stack"], &[deepest, watched]);
     })
-}
-
-/// A call of its own, so that the stack is the controller's.
-#[inline(never)]
-fn tick(controller: &mut Controller, inputs: Inputs) -> Result<Answer, Error> {
-    controller.tick(inputs)
 }

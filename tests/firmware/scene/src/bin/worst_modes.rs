@@ -48,9 +48,8 @@ impl Starts for Chosen {
         Ok(())
     }
 
-    #[inline(never)]
     fn tick(&mut self, inputs: Inputs) -> Result<Report<Scalar>, Error> {
-        let answer = self.controller.tick(inputs)?;
+        let answer = signorini_scene::tick(&mut self.controller, inputs)?;
         black_box(answer.outputs);
         Ok(answer.report)
     }
