@@ -2,6 +2,7 @@
 //!
 //! Source files are read as syntax; tests within them may do as they like.
 
+mod first_lines;
 mod rules;
 mod sources;
 
@@ -19,4 +20,5 @@ pub fn run(steps: &mut Steps) {
             if culprits.is_empty() { Ok(()) } else { Err(culprits.join("; ")) }
         });
     }
+    first_lines::run(steps);
 }

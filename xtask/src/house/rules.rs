@@ -13,10 +13,17 @@ pub struct Rule {
 }
 
 /// The rules that hold.
-pub const RULES: [Rule; 1] = [Rule {
-    name: "one function decides what an empty range of fluxes is",
-    broken_by: empty_ranges,
-}];
+pub const RULES: [Rule; 4] = [
+    Rule { name: "no text in bake holds Rust of a tick", broken_by: ticks_as_text },
+    Rule { name: "solve does not know bake", broken_by: solve_with_bake },
+    Rule { name: "one function decides what a parallelogram is", broken_by: parallelograms },
+    Rule { name: "one function decides what an empty range of fluxes is", broken_by: empty_ranges },
+];
+
+/// Those found, where there are more than one.
+fn beyond_one(found: Vec<String>) -> Vec<String> {
+    if found.len() > 1 { found } else { Vec::new() }
+}
 
 /// Looks through all files; `found` takes what a visitor has found in each, by the file's path.
 fn found_in<V: VisitMut + Default>(
@@ -30,6 +37,73 @@ fn found_in<V: VisitMut + Default>(
         names.map(|name| format!("{}: {name}", source.path)).collect::<Vec<_>>()
     };
     sources.iter().flat_map(of).collect()
+}
+
+/// Functions of a controller that are written once, in the kernel.
+const OF_A_TICK: [&str; 5] = ["tick", "tick_within", "reset", "advance", "solve"];
+
+/// Texts of bake with a function of a tick in them.
+fn ticks_as_text(sources: &[Source]) -> Vec<String> {
+    let bake: Vec<_> =
+        sources.iter().filter(|source| source.path.starts_with("host/bake/")).cloned().collect();
+    found_in(&bake, |texts: Texts| texts.0)
+}
+
+#[derive(Default)]
+struct Texts(Vec<String>);
+
+impl VisitMut for Texts {
+    fn visit_lit_str_mut(&mut self, text: &mut syn::LitStr) {
+        self.look_at(&text.value());
+    }
+
+    /// Texts within macros are tokens.
+    fn visit_macro_mut(&mut self, of: &mut syn::Macro) {
+        let words = of.tokens.to_string();
+        words.split('"').skip(1).step_by(2).for_each(|text| self.look_at(text));
+    }
+
+    /// Documentation is text, too.
+    fn visit_attribute_mut(&mut self, _: &mut syn::Attribute) {}
+}
+
+impl Texts {
+    fn look_at(&mut self, text: &str) {
+        let names = text.split("fn ").skip(1).filter_map(|rest| {
+            rest.split(|letter: char| !letter.is_alphanumeric() && letter != '_').next()
+        });
+        let of_a_tick = names.filter(|name| OF_A_TICK.contains(name));
+        self.0.extend(of_a_tick.map(|name| format!("a text has `fn {name}`")));
+    }
+}
+
+/// Files of the solver, and of its command, that name bake.
+fn solve_with_bake(sources: &[Source]) -> Vec<String> {
+    let solve: Vec<_> = sources
+        .iter()
+        .filter(|source| {
+            source.path.starts_with("host/solve/") || source.path == "host/src/cli/solve.rs"
+        })
+        .cloned()
+        .collect();
+    found_in(&solve, |named: Bake| named.0.into_iter().take(1).collect())
+}
+
+#[derive(Default)]
+struct Bake(Vec<String>);
+
+impl VisitMut for Bake {
+    fn visit_ident_mut(&mut self, name: &mut syn::Ident) {
+        if name == "signorini_bake" {
+            self.0.push(name.to_string());
+        }
+    }
+}
+
+/// Functions that answer whether a cell is a parallelogram.
+fn parallelograms(sources: &[Source]) -> Vec<String> {
+    let decides = |function: &Function| function.answers && function.name.contains("parallelogram");
+    beyond_one(functions(sources, decides))
 }
 
 /// Functions that refuse a range of fluxes as empty and do not ask the kernel's `settled`.
@@ -50,6 +124,8 @@ fn functions(sources: &[Source], is_asked: impl Fn(&Function) -> bool) -> Vec<St
 /// A function and what it does.
 struct Function {
     name: String,
+    /// Whether its answer is yes or no.
+    answers: bool,
     /// Whether it refuses an empty range and asks no other function what that is.
     decides: bool,
 }
@@ -61,8 +137,12 @@ impl Functions {
     fn add(&mut self, signature: &syn::Signature, block: &syn::Block) {
         let mut body = Body::default();
         body.visit_block_mut(&mut block.clone());
+        let is_bool =
+            |of: &syn::Type| matches!(of, syn::Type::Path(path) if path.path.is_ident("bool"));
+        let answers = matches!(&signature.output, syn::ReturnType::Type(_, of) if is_bool(of));
         self.0.push(Function {
             name: signature.ident.to_string(),
+            answers,
             decides: body.refuses && !body.asks,
         });
     }
@@ -106,6 +186,48 @@ mod tests {
     fn broken(rule: fn(&[Source]) -> Vec<String>, files: &[(&str, &str)]) -> Vec<String> {
         let parse = |(path, text): &(&str, &str)| Source::parse(path, text).expect("syntax");
         rule(&files.iter().map(parse).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn a_tick_as_text_is_named() {
+        let data = r#"/// Writes `fn tick()`.
+            const ALIAS: &str = "pub type Controller = X; // a fn";"#;
+        assert_eq!(broken(ticks_as_text, &[("host/bake/src/a.rs", data)]), Vec::<String>::new());
+        let tick = r#"const TICK: &str = "pub fn tick(&mut self) {";"#;
+        let found =
+            broken(ticks_as_text, &[("host/bake/src/a.rs", tick), ("host/lab/src/a.rs", tick)]);
+        assert_eq!(found, ["host/bake/src/a.rs: a text has `fn tick`"]);
+        let written = r#"fn f() { write!(text, "fn {name}() {{}} fn reset<R>(x: R)"); }"#;
+        assert_eq!(broken(ticks_as_text, &[("host/bake/src/a.rs", written)]).len(), 1);
+    }
+
+    #[test]
+    fn a_solver_that_knows_bake_is_named() {
+        let bake = "use signorini_bake::asked::solver;";
+        let files = [
+            ("host/solve/src/a.rs", bake),
+            ("host/lab/src/a.rs", bake),
+            ("host/src/cli/solve.rs", bake),
+        ];
+        let found = broken(solve_with_bake, &files);
+        assert_eq!(
+            found,
+            ["host/solve/src/a.rs: signorini_bake", "host/src/cli/solve.rs: signorini_bake"]
+        );
+    }
+
+    #[test]
+    fn a_second_decision_is_named() {
+        let one = (
+            "kernel/src/a.rs",
+            "fn is_parallelogram(c: C) -> bool { true } fn of_parallelogram(c: C) -> T { t }",
+        );
+        assert_eq!(broken(parallelograms, &[one]), Vec::<String>::new());
+        let second = ("host/a.rs", "impl A { fn parallelogram(&self) -> bool { true } }");
+        assert_eq!(
+            broken(parallelograms, &[one, second]),
+            ["kernel/src/a.rs: is_parallelogram", "host/a.rs: parallelogram"]
+        );
     }
 
     #[test]

@@ -58,13 +58,12 @@ impl Arrays {
             ))
             .into());
         }
-        let outside = |of: &str, vertices: &[u32]| {
-            let vertex = vertices.iter().find(|&&at| at as usize >= points);
-            vertex.map_or(Ok(()), |vertex| {
-                let message =
-                    format!("{of} has the vertex {vertex}, and there are {points} points");
-                Err(InputError::new(message).hint("vertices count from 0"))
-            })
+        let outside = |of: &str, vertices: &[u32]| -> Result<()> {
+            let Some(vertex) = vertices.iter().find(|&&at| at as usize >= points) else {
+                return Ok(());
+            };
+            let message = format!("{of} has the vertex {vertex}, and there are {points} points");
+            Err(InputError::new(message).hint("vertices count from 0").into())
         };
         let cells = self.triangles.iter().map(|of| &of[..]);
         let cells = (0..).zip(cells.chain(self.quads.iter().map(|of| &of[..])));
@@ -107,10 +106,10 @@ fn curve((name, edges): (String, Vec<[u32; 2]>), sound: &Sound) -> Result<Curve>
         sound.edge([a, b]).ok_or_else(|| {
             let ends = format!("from vertex {a} to vertex {b}");
             let error = InputError::new(format!("curve `{name}`: no cell has the edge {ends}"));
-            error.hint("an edge is a pair of vertices of one cell side")
+            error.hint("an edge is a pair of vertices of one cell side").into()
         })
     };
-    let mut edges = edges.iter().map(edge).collect::<std::result::Result<Vec<_>, _>>()?;
+    let mut edges = edges.iter().map(edge).collect::<Result<Vec<_>>>()?;
     edges.sort_unstable();
     edges.dedup();
     Ok(Curve { name, edges })

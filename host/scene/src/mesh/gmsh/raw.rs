@@ -1,5 +1,7 @@
 //! The sections of a file as they stand in it, the same for both formats.
 
+use std::collections::hash_map::Entry;
+
 use super::cursor::Cursor;
 use crate::error::InputError;
 use crate::mesh::assemble::draft::{Draft, Element, Groups, Kind, Names, Node, Parsed};
@@ -29,7 +31,7 @@ impl Raw {
         let mut groups = self.entities.unwrap_or_default();
         for element in elements.iter().filter(|element| element.kind != Kind::Point) {
             let (dimension, label) = (element.kind.dimension(), element.label);
-            if !groups.contains_key(&(dimension, label)) {
+            if let Entry::Vacant(group) = groups.entry((dimension, label)) {
                 if is_complete {
                     let title = element.title();
                     let message = format!(
@@ -39,7 +41,7 @@ impl Raw {
                 }
                 // Format 2.2, where 0 is none, or 4.1 without entities and so without groups.
                 let is_group = self.labels_are_physical && label != 0;
-                groups.insert((dimension, label), is_group.then_some(label).into_iter().collect());
+                group.insert(is_group.then_some(label).into_iter().collect());
             }
         }
         let names = self.names.unwrap_or_default();
