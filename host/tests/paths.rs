@@ -29,9 +29,8 @@ fn paths(page: &str) -> impl Iterator<Item = &str> {
 
 #[test]
 fn files_that_pages_name_exist() {
-    let mut all: Vec<_> = ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "kernel/README.md"]
-        .map(|page| repository(page))
-        .into();
+    let mut all: Vec<_> =
+        ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "kernel/README.md"].map(repository).into();
     pages(&repository("docs"), &mut all);
     let mut count = 0;
     for page in all {

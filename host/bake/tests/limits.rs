@@ -25,9 +25,9 @@ fn against_the_direct_solver<R: Scalar, const WIDTH: usize>(
     problem: &Problem,
     allowed: Tolerance,
 ) -> Result<()> {
-    let (least, is_undefined): (fn(&_) -> f64, fn(&_, &_) -> bool) = (|_| 2.0, |_, _| false);
     let steps = STEPS.map(Vec::from).into();
-    let beside = Beside { problem, feature: "limited", steps, least, is_undefined };
+    let beside =
+        Beside { problem, feature: "limited", steps, least: |_| 2.0, is_undefined: |_, _| false };
     let (mut short, mut kept) = ([false; 2], [false; 2]);
     beside.ticks::<R, WIDTH>(allowed, |found, _, _| {
         short[usize::from(found[1] > R::ZERO)] = true;

@@ -49,9 +49,13 @@ fn against_the_direct_solver<R: Scalar, const WIDTH: usize>(
         [1.0, 0.0, 0.5, 1.0, 0.0],
     ];
     let steps = steps.map(Vec::from).into();
-    let (least, is_undefined): (fn(&Solution) -> f64, fn(&_, &_) -> bool) =
-        (Solution::largest_flux, |_, _| false);
-    let beside = Beside { problem, feature: "transfer", steps, least, is_undefined };
+    let beside = Beside {
+        problem,
+        feature: "transfer",
+        steps,
+        least: Solution::largest_flux,
+        is_undefined: |_, _| false,
+    };
     beside.ticks::<R, WIDTH>(allowed, |_, report, solution| {
         // What a tick leaves out is at least what this coefficient does.
         let of_tick = report.verdict.certificate().expect("a bound").oscillation.wide();
