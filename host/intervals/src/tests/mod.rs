@@ -103,10 +103,17 @@ fn they_hold_the_values_of_finer_meshes() -> Result<()> {
 
 /// Every force, flux and mean that a scene's boundaries have, and a probe in the middle.
 const ALL_OUTPUTS: &str = r#"
-output.force = { kind = "force" }
-output.skin = { kind = "mean", of = "contact" }
-output.out = { kind = "flux", of = "dirichlet" }
-output.middle = { kind = "probe", at = [0.03, 0.51] }
+[output.force]
+kind = "force"
+[output.skin]
+kind = "mean"
+of = "contact"
+[output.out]
+kind = "flux"
+of = "dirichlet"
+[output.middle]
+kind = "probe"
+at = [0.03, 0.51]
 "#;
 
 /// The scenes with an exact solution, on their meshes and refined ones.
