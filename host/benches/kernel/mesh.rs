@@ -1,4 +1,4 @@
-//! What a mesh costs before any number is computed on it.
+//! Stages that a mesh takes before any number is computed on it.
 
 use criterion::{BatchSize, Bencher};
 use signorini_kernel::mesh::Mesh;

@@ -29,7 +29,7 @@ pub fn scene(factor: f64) -> Scene {
 /// A stage in one scalar.
 pub type Stage = fn(&mut Bencher, &Strip);
 
-/// A grid of 2n × n squares, with its problem as soon as somebody needs it.
+/// A grid of 2n × n squares, with its problem as soon as it is needed.
 pub struct Strip {
     pub n: u32,
     pub cells: Cells,

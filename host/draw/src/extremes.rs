@@ -2,12 +2,11 @@
 
 use std::fmt::Write;
 
-use super::Listing;
 use super::frame::frame;
 use super::outcome_map::{OutcomeMap, key, outcome_map};
 use super::prose::{list, unrolled};
 use super::svg::escape;
-use super::table::listing;
+use super::table::Table;
 
 /// Outcomes of scenes whose numbers were pushed.
 #[derive(Debug, Clone, Default)]
@@ -19,7 +18,7 @@ pub struct Extremes {
     /// The studies.
     pub studies: Vec<ExtremesStudy>,
     /// The cases that are not correct, with the reason.
-    pub reasons: Listing,
+    pub reasons: Table,
 }
 
 /// One axis, or one pair.
@@ -48,7 +47,7 @@ pub fn extremes(found: &Extremes) -> String {
     }
     html += "</ul>\n<div class=\"studies\">\n";
     html.extend(found.studies.iter().map(study));
-    let reasons = listing(&found.reasons);
+    let reasons = found.reasons.html(&[]);
     let count = found.reasons.rows.len();
     let _ = write!(
         html,

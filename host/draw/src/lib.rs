@@ -55,7 +55,8 @@ pub use outcome_map::{OutcomeMap, Square};
 pub use page::html;
 pub use pareto::{ParetoPlot, ParetoPoint, pareto_file};
 pub use scale::plain;
-pub use tradeoff::{Listing, TradePanel, TradeStudy, Tradeoff};
+pub use table::{Column, Heading, Mark, Table, TableRow};
+pub use tradeoff::{TradePanel, TradeStudy, Tradeoff};
 
 /// Everything the page shows, in the order it shows it.
 #[derive(Debug, Clone, Default)]
@@ -80,24 +81,6 @@ pub struct Report {
     pub tradeoff: Option<Tradeoff>,
     /// Outcomes of scenes whose numbers were pushed.
     pub extremes: Option<Extremes>,
-}
-
-/// A table in which every row passes or fails.
-#[derive(Debug, Clone, Default)]
-pub struct Table {
-    /// The names of the columns.
-    pub header: Vec<String>,
-    /// The rows; one whose first cell is the name of a panel links to it.
-    pub rows: Vec<TableRow>,
-}
-
-/// A row of the main table.
-#[derive(Debug, Clone)]
-pub struct TableRow {
-    /// A text for each column.
-    pub cells: Vec<String>,
-    /// Whether everything the row claims holds.
-    pub passed: bool,
 }
 
 /// A claim that was tested.

@@ -10,9 +10,8 @@ use super::panel::panel;
 use super::prose::list;
 use super::section::{Section, contents, counted};
 use super::svg::escape;
-use super::table::checked;
 use super::tradeoff::tradeoff;
-use super::{Check, Report, ScenePanel};
+use super::{Check, Mark, Report, ScenePanel};
 
 /// The whole page as one file, complete in itself.
 pub fn html(report: &Report) -> String {
@@ -59,7 +58,7 @@ fn scene_links(scenes: &[ScenePanel]) -> String {
 
 fn runs(report: &Report) -> Option<Section> {
     let count = report.table.rows.len();
-    let body = checked(&report.table, &report.scenes);
+    let body = report.table.html(&report.scenes);
     let extent = counted(count, "run");
     (count > 0).then_some(Section { id: "runs", heading: "Every run", extent, body })
 }
@@ -91,7 +90,7 @@ fn rates(report: &Report) -> Option<Section> {
 
 fn cut_off(report: &Report) -> Option<Section> {
     let count = report.cut_off.rows.len();
-    let table = checked(&report.cut_off, &report.scenes);
+    let table = report.cut_off.html(&report.scenes);
     let plots: String = report.sweeps.iter().filter_map(figure).collect();
     let body = format!(
         "<p class=\"lead\">A control loop stops the solver when its time is up, and the bound says how \
@@ -147,8 +146,9 @@ const PICTURES: [&str; 4] = [
 
 /// Whether everything holds, and otherwise how much does not.
 fn verdict(report: &Report) -> String {
-    let runs = failures("run", report.table.rows.iter().map(|row| row.passed));
-    let stopped = failures("cut-off run", report.cut_off.rows.iter().map(|row| row.passed));
+    let runs = failures("run", report.table.rows.iter().map(|row| row.mark == Mark::Passed));
+    let stopped =
+        failures("cut-off run", report.cut_off.rows.iter().map(|row| row.mark == Mark::Passed));
     let checks = failures("check", report.checks.iter().map(|check| check.passed));
     let scenes = failures("scene", report.scenes.iter().map(|scene| scene.passed));
     let failed: Vec<String> = [runs, stopped, checks, scenes].into_iter().flatten().collect();

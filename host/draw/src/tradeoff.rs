@@ -5,13 +5,13 @@ use std::fmt::Write;
 use super::pareto::{ParetoPlot, pareto};
 use super::prose::{list, unrolled};
 use super::svg::escape;
-use super::table::listing;
+use super::table::Table;
 
 /// Cost and error of the settings of scenes.
 #[derive(Debug, Clone, Default)]
 pub struct Tradeoff {
     /// A row a scene.
-    pub summary: Listing,
+    pub summary: Table,
     /// Findings over all scenes, a sentence each.
     pub findings: Vec<String>,
     /// A study of problem sizes, as a table in text; empty where there is none.
@@ -20,17 +20,6 @@ pub struct Tradeoff {
     pub of_sizes: Vec<String>,
     /// The scenes; the section says what to do where there are none.
     pub scenes: Vec<TradePanel>,
-}
-
-/// A table of facts.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Listing {
-    /// The names of the columns.
-    pub header: Vec<String>,
-    /// A text for each column.
-    pub rows: Vec<Vec<String>>,
-    /// The row that stands out.
-    pub marked: Option<usize>,
 }
 
 /// One scene, on one or more targets.
@@ -56,9 +45,9 @@ pub struct TradeStudy {
     /// Error over cost.
     pub picture: ParetoPlot,
     /// The points of the front.
-    pub front: Listing,
+    pub front: Table,
     /// Further tables, each with its heading; those without rows are left out.
-    pub further: Vec<(String, Listing)>,
+    pub further: Vec<(String, Table)>,
 }
 
 /// The body of the section.
@@ -70,7 +59,7 @@ pub fn tradeoff(found: &Tradeoff) -> String {
     } else {
         let _ = writeln!(html, "<p class=\"lead\">{LEAD}</p>");
         html += &list("notes", &COLUMNS);
-        html += &listing(&found.summary);
+        html += &found.summary.html(&[]);
         html += &findings(&found.findings);
     }
     if !found.sizes.is_empty() {
@@ -124,11 +113,11 @@ fn study(study: &TradeStudy) -> String {
     let mut html = format!(
         "<h3>{heading}</h3>\n<div class=\"taken\">{recommendation}</div>\n{}{}{}",
         picture.unwrap_or_default(),
-        listing(&study.front),
+        study.front.html(&[]),
         findings(&study.notes)
     );
     for (heading, table) in study.further.iter().filter(|(_, table)| !table.rows.is_empty()) {
-        let _ = write!(html, "<h4>{}</h4>\n{}", escape(heading), listing(table));
+        let _ = write!(html, "<h4>{}</h4>\n{}", escape(heading), table.html(&[]));
     }
     html
 }

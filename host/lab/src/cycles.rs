@@ -4,13 +4,13 @@
 //! clock is; on AArch64 the generic timer CNTVCT, at a lower frequency. Figures are the smallest of
 //! several repeats: what the work costs when nothing else disturbs it.
 
-/// What [`now`] counts, for the report.
+/// The unit that [`now`] counts, for the report.
 #[cfg(target_arch = "x86_64")]
 pub const METHOD: &str = "x86-64 time-stamp counter (RDTSC), smallest of 7 repeats";
-/// What [`now`] counts, for the report.
+/// The unit that [`now`] counts, for the report.
 #[cfg(target_arch = "aarch64")]
 pub const METHOD: &str = "AArch64 generic timer (CNTVCT_EL0), smallest of 7 repeats";
-/// What [`now`] counts, for the report.
+/// The unit that [`now`] counts, for the report.
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 pub const METHOD: &str = "nanoseconds of the monotonic clock, smallest of 7 repeats";
 
@@ -28,7 +28,7 @@ pub const REGISTERS: &str = if IS_WIDE {
     "the target's own"
 };
 
-/// What to say of cycles that a wider build would have less of.
+/// A remark on cycles that a wider build would have less of.
 pub const NARROW: Option<&str> = if cfg!(target_arch = "x86_64") && !IS_WIDE {
     Some(
         "cycles of a build for any x86-64; where there is AVX2, a build with RUSTFLAGS=\"-C target-feature=+avx2,+fma\" measures with it",

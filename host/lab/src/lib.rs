@@ -1,4 +1,4 @@
-//! What measures the method: accuracy against cost, other solvers on the same problems, numbers pushed to extremes, and
+//! Measurements of the method: accuracy against cost, other solvers on the same problems, numbers pushed to extremes, and
 //! the study of the main job.
 //!
 //! ```text
@@ -10,6 +10,7 @@
 
 pub mod baseline;
 pub mod checkout;
+mod csv_file;
 pub mod cycles;
 pub mod extremes;
 pub mod study;

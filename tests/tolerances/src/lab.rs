@@ -1,10 +1,6 @@
 //! Comparisons in the tests of `host/lab`.
 
 table! {
-    CONFORMING: "errors of conforming P1, relative", 5e-3,
-        "three digits are given";
-    SAME_TRIANGLES: "force on quads that are cut, relative", 1e-14,
-        "the same matrix in another order";
     PIVOTING: "algebraic error of exact solvers", 3e-15,
         "rounding alone";
     PIVOTING_LIMITED: "algebraic error of exact solvers with limits, over the energy norm of the solution", 3e-13,

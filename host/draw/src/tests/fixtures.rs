@@ -87,10 +87,6 @@ fn bound() -> BoundTerms {
 }
 
 pub fn full(panel: ScenePanel) -> Report {
-    let row = |cells: &[&str], passed| TableRow {
-        cells: cells.iter().map(|&cell| cell.to_owned()).collect(),
-        passed,
-    };
     let series = |expected_rate: f64| Curve {
         label: format!("rate {expected_rate}"),
         values: [0.25_f64, 0.125].map(|h| Some(h.powf(expected_rate))).to_vec(),
@@ -112,21 +108,22 @@ pub fn full(panel: ScenePanel) -> Report {
     Report {
         title: "Signorini <script>".to_owned(),
         generated_by: "version \"0\"".to_owned(),
-        table: Table {
-            header: vec!["scene".to_owned(), "error".to_owned()],
-            rows: vec![row(&["half-disc", "1e-3"], true), row(&["other", "–"], false)],
-        },
+        table: Table::checked(&columns(), [["half-disc", "1e-3"], ["other", "–"]], |row| {
+            row[1] != "–"
+        }),
         checks: vec![Check { claim: "a < b".to_owned(), found: "1 < 2".to_owned(), passed: true }],
         convergence: vec![chart("L2", [0.25, 0.125], vec![series(1.0), series(2.0)])],
-        cut_off: Table {
-            header: vec!["scene".to_owned(), "1".to_owned()],
-            rows: vec![row(&["half-disc", "5.3"], true)],
-        },
+        cut_off: Table::checked(&columns(), [["half-disc", "5.3"]], |_| true),
         sweeps: vec![chart("half-disc", [1.0, 5.0], vec![bound])],
         tradeoff: Some(tradeoff()),
         extremes: Some(Extremes::default()),
         scenes: vec![panel],
     }
+}
+
+fn columns<'c>() -> [Column<'c, [&'c str; 2]>; 2] {
+    let read = |at: usize| move |row: &[&str; 2]| row[at].to_owned();
+    [Column::words("scene", read(0)), Column::number("error", read(1))]
 }
 
 /// Two settings on a front, one of them with a name that would be markup, and one beside it.
@@ -152,8 +149,7 @@ fn tradeoff() -> Tradeoff {
             point("slow", 2e4, f64::NAN, false),
         ],
     };
-    let rows = vec![vec!["f32 & <fast>".to_owned(), "1 000".to_owned()]];
-    let front = Listing { header: vec!["a".to_owned(), "b".to_owned()], rows, marked: Some(0) };
+    let front = Table::new(&columns(), [["f32 & <fast>", "1 000"]]).choosing(Some(0));
     let study = TradeStudy {
         heading: "On the host".to_owned(),
         further: vec![("a < b".to_owned(), front.clone())],

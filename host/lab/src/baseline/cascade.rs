@@ -51,7 +51,11 @@ impl<'a> Cascade<'a> {
 }
 
 impl TimedSolver for Cascade<'_> {
-    /// Always cold, and on the first tick.
+    fn starts(&self) -> &'static [InitialGuess] {
+        &[InitialGuess::Cold]
+    }
+
+    /// Solves the first tick, whichever is asked for.
     fn run(&mut self, _: usize, _: InitialGuess, tolerance: f64) -> Result<Run> {
         let (cycles, outcome) = counted(|| {
             let (mut u, mut omega, mut sweeps) = (Vec::new(), 1.0, 0);

@@ -1,4 +1,4 @@
-//! The same row of problems on its contact unknowns alone.
+//! A row of problems on its contact unknowns alone.
 //!
 //! ```text
 //!   S = K_CC − K_CI K_II⁻¹ K_IC,   b̃ = b_C − K_CI K_II⁻¹ b_I,   x = (u_C − ψ)/d,   d_i = 1/√S_ii

@@ -44,7 +44,7 @@ impl<'p, R: Scalar> Full<'p, R> {
     }
 }
 
-/// The same with given values moved to the right-hand side, solved.
+/// The problem with given values moved to the right-hand side, solved.
 pub(super) fn quadratic(
     problem: &Problem,
     parts: &Parts,

@@ -1,4 +1,4 @@
-//! What changes from tick to tick.
+//! Data that change from tick to tick.
 //!
 //! * A scene with inputs: these are drawn within a tenth of their defaults, as for its firmware. One of a transfer coefficient
 //!   stays at its default: it changes the matrix, and all ticks have one.

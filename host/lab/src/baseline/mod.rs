@@ -2,8 +2,7 @@
 //!
 //! ```text
 //!   scene, moments (t, inputs) ─► full ───────► kernel PSOR · active set · Clarabel · OSQP ─┐
-//!                                  └► condensed ► kernel pivoting · Clarabel · OSQP ────────┼─► Baseline
-//!                                 conforming P1 ► PSOR on vertices ─────────────────────────┘
+//!                                  └► condensed ► kernel pivoting · Clarabel · OSQP ────────┴─► Baseline
 //! ```
 //! What is counted and when errors count as equal stands in `contest`. Condensing happens once a scene and
 //! is outside of every count; the notes say how long it takes. Two products: [`of_scene`] and [`sizes()`].
@@ -13,7 +12,6 @@ mod benchmark;
 mod cascade;
 mod clarabel;
 mod condensed;
-pub mod conforming;
 mod contest;
 mod full;
 mod load_case;
@@ -48,7 +46,7 @@ const TICKS: usize = 20;
 /// The share of the discretisation error that a solver may leave.
 const SHARE: f64 = 0.01;
 
-/// All solvers on the problem of a scene and on its condensed problem, with remarks: who could not run and
+/// All solvers on the problem of a scene and on its condensed problem, with remarks: solvers that could not run and
 /// why, and how long condensing takes.
 ///
 /// Warm ticks have inputs within a tenth of their defaults; a scene without inputs has its loads multiplied

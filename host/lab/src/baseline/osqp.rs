@@ -78,11 +78,11 @@ struct Question {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Manner {
-    /// As it comes.
+    /// Its own defaults.
     Defaults,
     /// With the loosest tolerance that will do, looked at every 5 iterations.
     Watched,
-    /// The same, looked at after every iteration.
+    /// The loosest tolerance that will do, looked at after every iteration.
     Eager,
     /// Looked at every 5 iterations, and the answer solved again on the bounds found active.
     Polished,
@@ -96,7 +96,7 @@ struct OsqpAnswer {
     z: Option<Vec<f64>>,
 }
 
-/// Longer than any answer takes by a factor of thousands (the longest in the record is 0.06 s): who is silent that long hangs.
+/// Longer than any answer takes by a factor of thousands (the longest in the record is 0.06 s): a program silent that long hangs.
 const LIMIT: Duration = Duration::from_secs(300);
 
 /// The solver on its problem, until it is dropped.
@@ -115,7 +115,7 @@ impl Osqp {
         Self::with_limit(program, quadratic, manner, LIMIT)
     }
 
-    /// The same with another limit for the time that a problem or an answer may take.
+    /// Starts the program with a limit for the time that a problem or an answer may take.
     pub fn with_limit(
         program: &Path,
         quadratic: &Quadratic,
@@ -147,7 +147,7 @@ fn say(to: &mut impl Write, what: &impl Serialize) -> Result<()> {
     writeln!(to).and_then(|()| to.flush()).map_err(failed)
 }
 
-/// What `work` on the pipes of `child` returns. A process that keeps it waiting beyond `limit` is killed, which ends
+/// Returns the result of `work` on the pipes of `child`. A process that keeps it waiting beyond `limit` is killed, which ends
 /// both reading and writing.
 fn within<T>(limit: Duration, child: &Mutex<Child>, work: impl FnOnce() -> Result<T>) -> Result<T> {
     let (done, waiting) = channel::<()>();
@@ -194,7 +194,7 @@ impl TimedSolver for Osqp {
 }
 
 impl Drop for Osqp {
-    /// Nobody waits for an answer any more.
+    /// Ends the process: no answer is waited for any more.
     fn drop(&mut self) {
         if let Ok(child) = self.child.get_mut() {
             let _ = child.kill();
@@ -214,7 +214,7 @@ mod tests {
     use signorini_problem::{Parts, Problem};
     use signorini_scene::mesh::structured::{Cells, grid};
 
-    /// What a process does that runs this script instead of OSQP.
+    /// The error of a process that runs this script instead of OSQP.
     fn ended(script: &str, limit: Duration) -> String {
         let folder = tempfile::tempdir().unwrap();
         let program = folder.path().join("osqp");

@@ -12,7 +12,7 @@ use serde::Serialize;
 use signorini_scene::error::Result;
 
 use super::failed;
-use super::quadratic::{Quadratic, QuadraticLoads};
+use super::quadratic::{Matrix, Quadratic, QuadraticLoads};
 
 /// A matrix by columns.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -23,7 +23,7 @@ pub(super) struct Columns {
     pub values: Vec<f64>,
 }
 
-/// What all ticks of a [`Quadratic`] have in common.
+/// The part that all ticks of a [`Quadratic`] have in common.
 #[derive(Debug, Clone)]
 pub(super) struct Program {
     /// The upper triangle of K, and empty columns for s.
@@ -64,8 +64,7 @@ impl Program {
             }
             constraints.end_column();
         }
-        let (starts, rows, values) = quadratic.matrix.upper();
-        let mut matrix = Columns { starts, rows, values };
+        let mut matrix = Columns::upper(&quadratic.matrix);
         let mut count = held.len();
         for (row, _) in held.iter().enumerate().filter(|(_, edge)| edge.is_soft) {
             constraints.push(row, 1.0);
@@ -110,6 +109,19 @@ impl HeldEdge {
 }
 
 impl Columns {
+    /// The upper triangle of a symmetric matrix, rows ascending.
+    fn upper(matrix: &Matrix) -> Self {
+        let mut upper = Self { starts: vec![0], rows: Vec::new(), values: Vec::new() };
+        for column in 0..matrix.order() {
+            let above = matrix.row(column).filter(|&(row, _)| row <= column);
+            let mut above: Vec<_> = above.collect();
+            above.sort_unstable_by_key(|&(row, _)| row);
+            above.into_iter().for_each(|(row, value)| upper.push(row, value));
+            upper.end_column();
+        }
+        upper
+    }
+
     fn push(&mut self, row: usize, value: f64) {
         self.rows.push(row);
         self.values.push(value);
@@ -119,7 +131,7 @@ impl Columns {
         self.starts.push(self.rows.len());
     }
 
-    /// The same with every entry's sign changed.
+    /// The matrix with every entry's sign changed.
     pub fn negative(&self) -> Self {
         Self { values: self.values.iter().map(|value| -value).collect(), ..self.clone() }
     }

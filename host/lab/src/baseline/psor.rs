@@ -1,4 +1,4 @@
-//! The kernel's projected SOR as a contestant: on edges, and on vertices for conforming P1 alike.
+//! The kernel's projected SOR as a contestant.
 
 use signorini_kernel::flux_range::Spans;
 use signorini_kernel::law::Law;

@@ -86,19 +86,6 @@ impl Matrix {
         columns.zip(self.values[range].iter().copied())
     }
 
-    /// The upper triangle by columns, rows ascending: column starts, rows, values.
-    pub fn upper(&self) -> (Vec<usize>, Vec<usize>, Vec<f64>) {
-        let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
-        for column in 0..self.order() {
-            let mut entries: Vec<_> = self.row(column).filter(|&(row, _)| row <= column).collect();
-            entries.sort_unstable_by_key(|&(row, _)| row);
-            rows.extend(entries.iter().map(|&(row, _)| row));
-            values.extend(entries.iter().map(|&(_, value)| value));
-            starts.push(values.len());
-        }
-        (starts, rows, values)
-    }
-
     /// ‖d‖_K
     fn norm(&self, d: &[f64]) -> f64 {
         let product = |i: usize| self.row(i).map(|(j, value)| value * d[j]).sum::<f64>();

@@ -1,4 +1,4 @@
-//! What the record of a study holds of another solver, and of an error.
+//! Records of another solver, and of an error.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 pub struct PointError {
     /// ‖A^½∇_h(u − u_h)‖
     pub energy: f64,
-    /// That of s and τ, which the bound bounds; none without certificate.
+    /// Distance of s and τ, which the bound bounds; none without certificate.
     pub combined: Option<f64>,
     /// ‖u − u_h‖
     pub l2: f64,
@@ -24,7 +24,7 @@ pub struct PointError {
 pub struct Baseline {
     /// `kernel PSOR`, `Clarabel`, …
     pub solver: String,
-    /// `full`, `condensed`, `conforming P1`.
+    /// `full`, `condensed`.
     pub problem: String,
     /// Unknowns of that problem.
     pub unknowns: usize,
@@ -38,17 +38,14 @@ pub struct Baseline {
     pub worst: f64,
     /// The loosest tolerance, in powers of ten, at which `algebraic_error` comes to lie within `target`.
     pub tolerance: f64,
-    /// Cycles over those of the kernel's best answer in f64 for the same problem and start; conforming
-    /// P1 is compared with the full problem.
+    /// Cycles over those of the kernel's best answer in f64 for the same problem and start.
     pub ratio: f64,
     /// Cycles over those of the kernel's condensed model in f64, same start.
     pub to_condensed: Option<f64>,
     /// Energy distance to the solution of the discrete problem, the largest of all ticks.
     pub algebraic_error: f64,
-    /// What that should be at most: 1 % of the discretisation error.
+    /// Largest `algebraic_error` that will do: 1 % of the discretisation error.
     pub target: f64,
-    /// ‖A^½∇_h(u − u_h)‖, where it is another than the kernel's.
-    pub error: Option<PointError>,
     /// Sweeps or iterations.
     pub iterations: u32,
 }

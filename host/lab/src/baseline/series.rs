@@ -5,7 +5,8 @@ use std::time::Instant;
 use crate::baseline::record::Baseline;
 use signorini_scene::error::Result;
 
-use super::timed_solver::{Contest, InitialGuess, Run, TimedSolver};
+use super::contest::Contest;
+use super::timed_solver::{InitialGuess, TimedSolver};
 
 /// Seconds of a repeat, at least.
 const REPEAT: f64 = 0.1;
@@ -38,16 +39,16 @@ impl Contest<'_> {
     /// Begins a series: finds its tolerance.
     pub(super) fn trial(
         &self,
-        contestant: &mut dyn TimedSolver,
+        solver: &mut dyn TimedSolver,
         start: InitialGuess,
         series: &mut Series,
     ) -> Result<()> {
         let begin = Instant::now();
         let mut exponent = -1;
-        let mut trial = self.pass(contestant, start, exponent)?;
-        while trial.distance > self.target && exponent > contestant.finest() {
+        let mut trial = self.pass(solver, start, exponent)?;
+        while trial.distance > self.target && exponent > solver.finest() {
             exponent -= 1;
-            trial = self.pass(contestant, start, exponent)?;
+            trial = self.pass(solver, start, exponent)?;
         }
         let spent = begin.elapsed().as_secs_f64();
         *series = match spent < LONG {
@@ -60,7 +61,7 @@ impl Contest<'_> {
     /// One more: as many passes as time allows, the fastest of them with the largest distance of any.
     pub(super) fn repeat(
         &self,
-        contestant: &mut dyn TimedSolver,
+        solver: &mut dyn TimedSolver,
         start: InitialGuess,
         series: &mut Series,
     ) -> Result<()> {
@@ -69,7 +70,7 @@ impl Contest<'_> {
         }
         let (begin, mut passes) = (Instant::now(), Vec::new());
         while passes.is_empty() || begin.elapsed().as_secs_f64() < REPEAT {
-            passes.push(self.pass(contestant, start, series.exponent)?);
+            passes.push(self.pass(solver, start, series.exponent)?);
         }
         let distance = passes.iter().fold(0.0, |most: f64, pass| pass.distance.max(most));
         let fastest = passes.into_iter().min_by(|a, b| a.cycles.total_cmp(&b.cycles));
@@ -78,24 +79,40 @@ impl Contest<'_> {
         Ok(())
     }
 
+    /// The first tick from a cold start, or all others, warm, after it.
     fn pass(
         &self,
-        contestant: &mut dyn TimedSolver,
+        solver: &mut dyn TimedSolver,
         start: InitialGuess,
         exponent: i32,
     ) -> Result<Pass> {
         let tolerance = 10f64.powi(exponent);
-        match start {
-            InitialGuess::Cold => self.cold(contestant, tolerance),
-            InitialGuess::Warm => self.warm(contestant, tolerance),
+        let ticks = match start {
+            InitialGuess::Cold => 0..1,
+            InitialGuess::Warm => {
+                solver.run(0, InitialGuess::Cold, tolerance)?;
+                1..self.quadratic.ticks.len()
+            }
+        };
+        let (mut cycles, mut iterations, mut distance) = (Vec::new(), Vec::new(), 0.0_f64);
+        for tick in ticks {
+            let run = solver.run(tick, start, tolerance)?;
+            distance = distance.max(self.quadratic.distance(tick, &run.u));
+            cycles.push(run.cycles);
+            iterations.push(run.iterations);
         }
+        iterations.sort_unstable();
+        let iterations = iterations[iterations.len() / 2];
+        let worst = cycles.iter().fold(0.0, |most: f64, &cycles| most.max(cycles));
+        let (cycles, _) = median_and_spread(cycles.into_iter());
+        Ok(Pass { cycles, worst, iterations, distance })
     }
 
-    pub(super) fn baseline(&self, solver: &str, start: InitialGuess, series: &Series) -> Baseline {
+    pub(super) fn baseline(&self, name: &str, start: InitialGuess, series: &Series) -> Baseline {
         let Series { exponent, passes, .. } = series;
         let (cycles, cycles_spread) = median_and_spread(passes.iter().map(|pass| pass.cycles));
         Baseline {
-            solver: solver.to_owned(),
+            solver: name.to_owned(),
             problem: self.problem.to_owned(),
             unknowns: self.quadratic.matrix.order(),
             start: start.name().to_owned(),
@@ -107,33 +124,8 @@ impl Contest<'_> {
             to_condensed: None,
             algebraic_error: passes.iter().fold(0.0, |most, pass| pass.distance.max(most)),
             target: self.target,
-            error: None,
             iterations: passes.last().map_or(0, |pass| pass.iterations),
         }
-    }
-
-    fn cold(&self, contestant: &mut dyn TimedSolver, tolerance: f64) -> Result<Pass> {
-        let run = contestant.run(0, InitialGuess::Cold, tolerance)?;
-        let distance = self.quadratic.distance(0, &run.u);
-        let Run { cycles, iterations, .. } = run;
-        Ok(Pass { cycles, worst: cycles, iterations, distance })
-    }
-
-    /// The ticks after the first.
-    fn warm(&self, contestant: &mut dyn TimedSolver, tolerance: f64) -> Result<Pass> {
-        contestant.run(0, InitialGuess::Cold, tolerance)?;
-        let (mut cycles, mut iterations, mut distance) = (Vec::new(), Vec::new(), 0.0_f64);
-        for tick in 1..self.quadratic.ticks.len() {
-            let run = contestant.run(tick, InitialGuess::Warm, tolerance)?;
-            distance = distance.max(self.quadratic.distance(tick, &run.u));
-            cycles.push(run.cycles);
-            iterations.push(run.iterations);
-        }
-        iterations.sort_unstable();
-        let iterations = iterations[iterations.len() / 2];
-        let worst = cycles.iter().fold(0.0, |most: f64, &cycles| most.max(cycles));
-        let (cycles, _) = median_and_spread(cycles.into_iter());
-        Ok(Pass { cycles, worst, iterations, distance })
     }
 }
 

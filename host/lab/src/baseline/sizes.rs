@@ -28,14 +28,14 @@ const TICKS: usize = 10;
 /// The whole study.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Sizes {
-    /// What is solved, in words.
+    /// The problem, in words.
     pub title: String,
     /// The registers that this program was built for; empty in records that do not tell.
     #[serde(default)]
     pub registers: String,
     /// By size.
     pub rows: Vec<Size>,
-    /// Who could not run and why; how long condensing takes.
+    /// Solvers that could not run and why; how long condensing takes.
     pub notes: Vec<String>,
 }
 
@@ -50,13 +50,13 @@ pub struct Size {
     pub contact: usize,
     /// ‖A^½∇_h(u − u_h)‖ of the discrete solution in the first tick.
     pub discretisation_error: f64,
-    /// What a solver may leave of ‖A^½∇_h(u_h − u*_h)‖, in every tick.
+    /// The part that a solver may leave of ‖A^½∇_h(u_h − u*_h)‖, in every tick.
     pub target: f64,
     /// The solvers.
     pub baselines: Vec<Baseline>,
 }
 
-/// Measures everybody on every grid; tells `progress` in words what comes next.
+/// Measures all solvers on every grid; tells `progress` in words what comes next.
 ///
 /// # Errors
 /// The scene `meshes/catalogue/moving-tri.toml` is not there.

@@ -1,84 +1,80 @@
 //! The study of sizes as a table.
 
-use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
-
 use super::verdict::verdict;
 use super::{Size, Sizes};
 use crate::baseline::record::Baseline;
+use signorini_draw::{Column, Table};
 
-const HEADER: [&str; 12] = [
-    "unknowns",
-    "problem",
-    "solver",
-    "cold kcyc",
-    "±",
-    "iter",
-    "ratio",
-    "warm kcyc",
-    "±",
-    "iter",
-    "ratio",
-    "error/target",
-];
+/// A line of the table: a solver on a problem, cold and warm.
+struct Line<'s> {
+    problem: &'s str,
+    solver: &'s str,
+    starts: [Option<&'s Baseline>; 2],
+}
 
-/// One line a solver and size.
+/// A line for each solver and size.
 pub fn table(sizes: &Sizes) -> String {
-    let mut table = Table::new();
-    table.load_style(presets::NOTHING);
-    table.set_content_arrangement(ContentArrangement::Disabled).set_header(HEADER);
-    for size in &sizes.rows {
-        lines(size).into_iter().for_each(|line| {
-            table.add_row(line);
-        });
-    }
-    for column in table.column_iter_mut().skip(3) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
     format!(
         "Other solvers on the same matrices, at equal error: {}\n\
-         Ratio: to the kernel's fastest in f64 on that problem; ±: (largest − smallest)/median.\n\
-         {table}\n",
-        sizes.title
+         Ratio: to the kernel's fastest in f64 on that problem; ±: (largest − smallest)/median.\n{}\n",
+        sizes.title,
+        Table::new(&columns(), sizes.rows.iter().flat_map(lines)).text()
     )
 }
 
-/// What the table says, size by size, and the remarks.
+fn columns<'s>() -> Vec<Column<'s, Line<'s>>> {
+    let mut columns = vec![
+        Column::words("unknowns", |line: &Line| {
+            line.found().next().map_or(0, |b| b.unknowns).to_string()
+        }),
+        Column::words("problem", |line: &Line| line.problem.to_owned()),
+        Column::words("solver", |line: &Line| line.solver.to_owned()),
+    ];
+    for (start, cycles) in ["cold kcyc", "warm kcyc"].into_iter().enumerate() {
+        let figures: [(&str, fn(&Baseline) -> String); 4] = [
+            (cycles, |b| format!("{:.1}", 1e-3 * b.cycles)),
+            ("±", |b| format!("{:.0} %", 100.0 * b.cycles_spread)),
+            ("iter", |b| b.iterations.to_string()),
+            ("ratio", |b| format!("{:.2}", b.ratio)),
+        ];
+        columns.extend(figures.map(|(name, figure)| {
+            Column::number(name, move |line: &Line| {
+                line.starts[start].map_or("–".to_owned(), figure)
+            })
+        }));
+    }
+    columns.push(Column::number("error/target", |line: &Line| {
+        let errors = line.found().map(|b| b.algebraic_error / b.target);
+        format!("{:.0e}", errors.fold(0.0, f64::max))
+    }));
+    columns
+}
+
+impl<'s> Line<'s> {
+    fn found(&self) -> impl Iterator<Item = &'s Baseline> {
+        self.starts.into_iter().flatten()
+    }
+}
+
+/// The solvers of a size, each once.
+fn lines(size: &Size) -> Vec<Line<'_>> {
+    let mut lines: Vec<Line> = Vec::new();
+    for baseline in &size.baselines {
+        let (problem, solver) = (baseline.problem.as_str(), baseline.solver.as_str());
+        if lines.iter().any(|line| (line.problem, line.solver) == (problem, solver)) {
+            continue;
+        }
+        let of = |start: &str| {
+            let same = |b: &&Baseline| b.problem == problem && b.solver == solver;
+            size.baselines.iter().filter(same).find(|b| b.start == start)
+        };
+        lines.push(Line { problem, solver, starts: ["cold", "warm"].map(of) });
+    }
+    lines
+}
+
+/// Sentences that follow from the table, size by size, and the remarks.
 pub fn findings(sizes: &Sizes) -> Vec<String> {
     let verdicts = sizes.rows.iter().map(|size| verdict(size.unknowns, &size.baselines));
     verdicts.chain(sizes.notes.iter().cloned()).collect()
-}
-
-fn lines(size: &Size) -> Vec<Vec<String>> {
-    let mut names: Vec<(&str, &str)> = Vec::new();
-    for baseline in &size.baselines {
-        let name = (baseline.problem.as_str(), baseline.solver.as_str());
-        if !names.contains(&name) {
-            names.push(name);
-        }
-    }
-    names.into_iter().map(|(problem, solver)| line(size, problem, solver)).collect()
-}
-
-fn line(size: &Size, problem: &str, solver: &str) -> Vec<String> {
-    let of = |start: &str| {
-        let mut all = size.baselines.iter();
-        all.find(|b| b.problem == problem && b.solver == solver && b.start == start)
-    };
-    let both = [of("cold"), of("warm")];
-    let unknowns = both.iter().flatten().next().map_or(0, |b| b.unknowns);
-    let mut line = vec![unknowns.to_string(), problem.to_owned(), solver.to_owned()];
-    both.iter().for_each(|baseline| line.extend(figures(*baseline)));
-    let errors = both.iter().flatten().map(|b| b.algebraic_error / b.target);
-    line.push(format!("{:.0e}", errors.fold(0.0, f64::max)));
-    line
-}
-
-fn figures(baseline: Option<&Baseline>) -> [String; 4] {
-    let Some(b) = baseline else { return std::array::from_fn(|_| "–".to_owned()) };
-    [
-        format!("{:.1}", 1e-3 * b.cycles),
-        format!("{:.0} %", 100.0 * b.cycles_spread),
-        b.iterations.to_string(),
-        format!("{:.2}", b.ratio),
-    ]
 }

@@ -1,4 +1,4 @@
-//! Everybody agrees on small problems, and the record says so.
+//! All solvers agree on small problems, and the record says so.
 
 mod limits;
 
@@ -24,7 +24,7 @@ pub(super) fn catalogue(name: &str) -> Scene {
     read(&format!("catalogue/{name}.toml"))
 }
 
-/// Answers are compared inside: whoever is further from the active set's than 1 % of the discretisation
+/// Answers are compared inside: a solver that is further from the active set's than 1 % of the discretisation
 /// error says so in its record.
 #[test]
 fn all_solvers_agree_on_small_grids() {
@@ -34,7 +34,7 @@ fn all_solvers_agree_on_small_grids() {
         [3, 4, 8].map(|n| size(&scene, n, 3, None, &mut notes).unwrap()).into_iter().collect();
     for row in &rows {
         let cascade = usize::from(row.n != 3);
-        assert_eq!(row.baselines.len(), 2 * 12 + cascade, "{:?}", row.baselines);
+        assert_eq!(row.baselines.len(), 2 * 10 + cascade, "{:?}", row.baselines);
         for b in &row.baselines {
             assert!(b.algebraic_error <= b.target, "n = {}: {b:?}", row.n);
             assert!(b.cycles > 0.0 && b.ratio > 0.0 && b.to_condensed.is_some(), "{b:?}");
@@ -45,7 +45,7 @@ fn all_solvers_agree_on_small_grids() {
     assert!(notes.iter().all(|note| note.contains("condensing")), "{notes:?}");
     let study = Sizes { title: scene.title, registers: String::new(), rows, notes };
     let text = table(&study);
-    assert!(text.contains("Clarabel") && text.contains("conforming P1"), "{text}");
+    assert!(text.contains("Clarabel") && text.contains("kernel pivoting f64"), "{text}");
     let json = serde_json::to_string(&study).unwrap();
     assert_eq!(serde_json::from_str::<Sizes>(&json).unwrap().rows.len(), 3);
 }

@@ -1,11 +1,9 @@
-//! Who takes part in a contest, and in what.
+//! A solver as a contest runs it.
 
 use crate::cycles;
 use signorini_scene::error::Result;
 
-use super::quadratic::Quadratic;
-
-/// What a solve begins with.
+/// The state that a solve begins with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum InitialGuess {
     Cold,
@@ -35,19 +33,14 @@ pub(super) trait TimedSolver {
     /// Solves a tick and counts its own cycles: copies of data and of the answer are not part of it.
     fn run(&mut self, tick: usize, start: InitialGuess, tolerance: f64) -> Result<Run>;
 
+    /// The starts that the solver has.
+    fn starts(&self) -> &'static [InitialGuess] {
+        &[InitialGuess::Cold, InitialGuess::Warm]
+    }
+
     /// The exponent of the finest tolerance that makes sense.
     fn finest(&self) -> i32 {
         -13
-    }
-}
-
-impl<C: TimedSolver + ?Sized> TimedSolver for &mut C {
-    fn run(&mut self, tick: usize, start: InitialGuess, tolerance: f64) -> Result<Run> {
-        (**self).run(tick, start, tolerance)
-    }
-
-    fn finest(&self) -> i32 {
-        (**self).finest()
     }
 }
 
@@ -56,13 +49,4 @@ pub(super) fn counted<T>(work: impl FnOnce() -> T) -> (f64, T) {
     let start = cycles::now();
     let result = work();
     (cycles::now().saturating_sub(start) as f64, result)
-}
-
-/// What is being measured.
-pub(super) struct Contest<'q> {
-    /// `full`, `condensed`, `conforming P1`.
-    pub problem: &'static str,
-    pub quadratic: &'q Quadratic,
-    /// The energy distance that is small enough.
-    pub target: f64,
 }

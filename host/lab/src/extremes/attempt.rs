@@ -16,7 +16,7 @@ use signorini_session::tick::{Budget, ScheduledTick, TickRecord, play};
 use signorini_solve::adaptive::mesh_of_scene;
 use signorini_solve::{Ending, Options, ScalarKind, solve};
 
-/// What the solver says.
+/// An answer of the solver.
 #[derive(Debug, Clone)]
 pub struct Attempt {
     /// The mesh as read.
@@ -33,7 +33,7 @@ pub struct Attempt {
     pub flux: Vec<f64>,
     /// Its bound.
     pub bound: Option<ErrorBound>,
-    /// What the bound is about.
+    /// The fields that the bound is about.
     pub certified: CertifiedFields,
     /// The ticks, where ticks were asked for.
     pub ticks: Vec<TickRecord>,
@@ -51,7 +51,7 @@ pub fn attempt(case: &ExtremeCase, folder: &Path) -> Result<Attempt> {
     let scene = Scene::read(&path)?;
     let problem = Problem::new(&scene, mesh_of_scene(&scene)?.mesh)?;
     if case.effort.ticks > 0 {
-        return ticks(case, &scene, problem);
+        return ticks(case, problem);
     }
     let options =
         Options { scalar: case.scalar, max_sweeps: case.most_sweeps(), ..Options::default() };
@@ -87,7 +87,7 @@ fn setting(case: &ExtremeCase) -> String {
 }
 
 /// Ticks at t = 0, 1, 2, …; of the sweeps the most of one tick count.
-fn ticks(case: &ExtremeCase, _scene: &Scene, problem: Problem) -> Result<Attempt> {
+fn ticks(case: &ExtremeCase, problem: Problem) -> Result<Attempt> {
     let moment = |tick: u32| ScheduledTick { time: f64::from(tick), inputs: Vec::new() };
     let moments: Vec<ScheduledTick> = (0..case.effort.ticks).map(moment).collect();
     let budget =

@@ -1,9 +1,11 @@
 //! One point on an axis, or on the grid of a pair of axes.
 
-use super::posed::Posed;
+use super::grid::Shape;
+use super::posed::{Hold, Posed, Split};
+use super::solution::Solution;
 use signorini_solve::ScalarKind;
 
-/// What is solved, in which scalar, and with what effort.
+/// A problem, with the scalar and the effort that it is solved with.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExtremeCase {
     /// The axis.
@@ -16,11 +18,11 @@ pub struct ExtremeCase {
     pub scalar: ScalarKind,
     /// The problem.
     pub posed: Posed,
-    /// What the solver is asked for beyond its defaults.
+    /// Wishes beyond the solver's defaults.
     pub effort: Effort,
 }
 
-/// What the solver is asked for beyond its defaults.
+/// Wishes beyond the solver's defaults.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Effort {
     /// A fixed relaxation factor; `None`: the kernel finds it.
@@ -52,5 +54,54 @@ impl ExtremeCase {
     pub fn name(&self) -> String {
         let across = self.across.as_ref().map(|(axis, value)| format!(", {axis} {value:e}"));
         format!("{} {:e}{}", self.axis, self.value, across.unwrap_or_default())
+    }
+
+    /// Gives J, or the wall, this jump.
+    pub fn set_contrast(&mut self, k: f64) {
+        let solution = &mut self.posed.solution;
+        *solution = match *solution {
+            Solution::Wall { above, ends, .. } => Solution::Wall { above, ends, contrast: k },
+            _ => Solution::Jump(k),
+        };
+        // The flux of J grows like √k.
+        if let Some(ends) = &mut self.posed.ends {
+            *ends = ends.map(|end| end * k.sqrt());
+        }
+    }
+
+    /// Gives the wall another u above it, or other ends of its flux.
+    pub fn set_wall(&mut self, to: Option<f64>, between: Option<[f64; 2]>) {
+        if let Solution::Wall { above, ends, .. } = &mut self.posed.solution {
+            (*above, *ends) = (to.unwrap_or(*above), between.unwrap_or(*ends));
+            self.posed.sides = [Hold::Contact, Hold::Neumann, Hold::Dirichlet, Hold::Neumann];
+        }
+    }
+
+    /// Makes C none of the boundary, one edge next to the free point, the lower side, or all of it.
+    pub fn set_contact(&mut self, length: f64) {
+        let posed = &mut self.posed;
+        let n = posed.grid.n as usize;
+        if length == 0.0 {
+            posed.sides[0] = Hold::Neumann;
+        } else if length < 2.0 {
+            posed.split = Some(Split { of: "bottom", edges: [n - 1, n], rest: Hold::Neumann });
+        } else if length > 2.0 {
+            posed.sides = [Hold::Pressed; 4];
+        }
+    }
+
+    /// Makes D none of the boundary, the lowest edge at the right, the right side, or three sides.
+    pub fn set_dirichlet(&mut self, length: f64) {
+        let posed = &mut self.posed;
+        let n = f64::from(posed.grid.n);
+        if length > 1.0 {
+            return;
+        }
+        let right = if length > 0.0 { Hold::Dirichlet } else { Hold::Neumann };
+        posed.sides = [Hold::Contact, right, Hold::Neumann, Hold::Neumann];
+        if length > 0.0 && length < 1.0 {
+            posed.grid.shape = Shape::Graded { aspect: 1.0 / (n * length) };
+            posed.split = Some(Split { of: "right", edges: [0, 1], rest: Hold::Neumann });
+        }
     }
 }

@@ -31,7 +31,7 @@ pub enum Shape {
     /// Every other vertical side of the lines inside moves towards the next, until a width of t/n is left: a
     /// quad with t = 0 is a triangle, with t < 0 it crosses itself.
     Collapsed {
-        /// What is left of the width.
+        /// The part that is left of the width.
         left: f64,
     },
     /// Every other column moves down by a quarter of a cell: trapezoids on every grid.
@@ -43,7 +43,7 @@ pub enum Shape {
 pub struct Grid {
     /// Cells over the height.
     pub n: u32,
-    /// What a cell is.
+    /// The kind of its cells.
     pub cells: Cells,
     /// Its shape.
     pub shape: Shape,

@@ -1,4 +1,4 @@
-//! What an answer is worth.
+//! The worth of an answer.
 //!
 //! | outcome | means |
 //! |---|---|
@@ -13,11 +13,13 @@
 use serde::{Deserialize, Serialize};
 
 use super::measure::{Measured, Reference};
+use super::watch::Lost;
+use signorini_scene::error::Error;
 use signorini_solve::ScalarKind;
 
 /// A bound is useful up to this multiple of what the exact discrete solution gets.
 pub const USEFUL: f64 = 4.0;
-/// Slack for error ≤ bound: 8 points an edge and 16×16 a cell leave so much of data and gradients that have a kink or
+/// Slack for error ≤ bound: 8 points per edge and 16×16 per cell leave so much of data and gradients that have a kink or
 /// are singular inside (2e−5 was the most seen, at κ = 10⁻⁶).
 pub const INTEGRATED: f64 = 1e-4;
 /// Errors below this part of the energy norm are digits of the scalar, in f64 and f32.
@@ -25,7 +27,7 @@ pub const DIGITS: [f64; 2] = [1e-10, 1e-4];
 /// Success may be claimed without a bound up to this multiple of the exact discrete solution's error.
 pub const FAR: f64 = 4.0;
 
-/// What an answer is worth.
+/// The worth of an answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
@@ -63,9 +65,9 @@ pub enum Ended {
     RefusedLate(String),
     /// Something else failed.
     Failed(String),
-    /// It panicked.
+    /// A panic.
     Panicked,
-    /// It did not end in time.
+    /// No end in time.
     TimedOut,
     /// There is an answer.
     Answered {
@@ -76,6 +78,33 @@ pub enum Ended {
         /// How wrong it is.
         measured: Measured,
     },
+}
+
+impl From<Lost> for Ended {
+    fn from(lost: Lost) -> Self {
+        match lost {
+            Lost::TimedOut => Self::TimedOut,
+            Lost::Panicked => Self::Panicked,
+        }
+    }
+}
+
+impl From<Error> for Ended {
+    fn from(error: Error) -> Self {
+        match error {
+            Error::Input(error) if error.message().starts_with("not-finite") => {
+                Self::RefusedLate(error.message().to_owned())
+            }
+            Error::Input(error) => Self::Refused(error.message().to_owned()),
+            error => Self::Failed(error.to_string()),
+        }
+    }
+}
+
+/// A ratio, 0 of nothing; none where it is not finite.
+pub fn ratio(part: f64, whole: f64) -> Option<f64> {
+    let ratio = if part == 0.0 { 0.0 } else { part / whole };
+    ratio.is_finite().then_some(ratio)
 }
 
 /// The outcome and, unless it is correct, why.

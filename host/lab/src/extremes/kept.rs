@@ -20,7 +20,7 @@ struct Line {
     elapsed: f64,
 }
 
-/// What is finished, in a folder that goes once everything is.
+/// Finished cases, in a folder that goes once everything is finished.
 #[derive(Debug)]
 pub struct Kept {
     folder: PathBuf,
@@ -31,7 +31,7 @@ pub struct Kept {
 }
 
 impl Kept {
-    /// What an interrupted run of this very program left in the folder `out`; another program's is forgotten.
+    /// Opens what an interrupted run of this very program left in the folder `out`; another program's is forgotten.
     ///
     /// # Errors
     /// Another run goes on there; files that cannot be read or written.
@@ -82,7 +82,7 @@ impl Kept {
     }
 }
 
-/// What a thread that panicked leaves is whole: every line is written at once.
+/// Locks a journal, also after a panic: every line is written at once and whole.
 fn held<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

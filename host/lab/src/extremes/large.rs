@@ -1,4 +1,4 @@
-//! The true error with fewer points than the 16×16 a cell of [`signorini_certify::exact`].
+//! The true error with fewer points than the 16×16 per cell of [`signorini_certify::exact`].
 //!
 //! On large grids 4×4 inside: for solutions that are polynomials in each cell no point more is needed there. Where S follows curved boundary
 //! data it is rational, and all points are taken. No Robin boundary.
@@ -51,11 +51,11 @@ pub fn combined(
 mod tests {
     use super::*;
     use crate::extremes::grid::{Grid, Shape};
+    use crate::extremes::measure::solve_directly;
     use crate::extremes::plan::cases;
     use signorini_certify::exact::distance;
     use signorini_scene::mesh::structured::Cells;
     use signorini_scene::scene::Scene;
-    use signorini_solve::{Options, SolverKind, solve};
     use signorini_tolerances::lab::FEW_POINTS;
 
     /// A cut-off solve would do as well: both integrate the same functions.
@@ -65,8 +65,7 @@ mod tests {
         posed.grid = Grid { n: 6, cells: Cells::Triangles, shape: Shape::Square };
         let scene = Scene::parse(&posed.scene(), std::path::Path::new("test.toml")).unwrap();
         let problem = Problem::new(&scene, posed.mesh()).unwrap();
-        let options = Options { solver: SolverKind::Direct, ..Options::default() };
-        let solution = solve(&problem, &options).unwrap();
+        let solution = solve_directly(&problem).unwrap();
         let (exact, admissible) = (scene.exact.as_ref().unwrap(), solution.certified.admissible());
         let few = combined(exact, &problem, &admissible, INSIDE).unwrap();
         let many = distance(exact, &problem, &admissible).unwrap().combined;

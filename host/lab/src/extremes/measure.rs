@@ -1,7 +1,7 @@
 //! How wrong an answer is, at scale 1 and without the solver that gave it.
 //!
 //! The answer is divided by the factors of its scale; the exact solution is evaluated on the mesh at scale 1,
-//! where coordinates are of size 1 and numbers neither overflow nor vanish. There 16×16 points a cell
+//! where coordinates are of size 1 and numbers neither overflow nor vanish. There 16×16 points per cell
 //! (`large`: fewer) integrate the distance, and the direct solver says what the grid allows for.
 //! Where ‖u‖ spans more than 16 digits inside a cell (κ = 10⁶ and beyond), or loads are subnormal, the
 //! exact solution is itself good to a few digits only; bounds there are far above that.
@@ -32,7 +32,7 @@ pub struct Measured {
     pub error: f64,
     /// How far that number may be off: what 12×12 points instead of 16×16 change, where it seems above the bound.
     pub uncertain: f64,
-    /// The same of the exact discrete solution; none where the direct solver finds none.
+    /// The exact discrete solution beside the truth; none where the direct solver finds none.
     pub reference: Option<Reference>,
     /// |u − u_h|₁ and ‖σ − σ_h‖ on trapezoids, where they fall at different rates.
     pub of_fields: Option<[f64; 2]>,
@@ -45,7 +45,7 @@ pub struct Measured {
 pub struct Reference {
     /// Its bound, where it has one.
     pub bound: Option<f64>,
-    /// ‖A^½∇_h(u − u_h)‖; NaN where the answer has a bound, and nobody asks.
+    /// ‖A^½∇_h(u − u_h)‖; NaN where the answer has a bound, and it is not asked for.
     pub error: f64,
     /// ‖A^½∇_h u_h‖
     pub energy: f64,
@@ -157,7 +157,8 @@ fn at_scale_one(posed: &Posed, mesh: impl Into<Arc<Mesh>>) -> Result<Problem> {
     Problem::new(&Scene::parse(&posed.scene(), Path::new("scale-1.toml"))?, mesh)
 }
 
-fn solve_directly(problem: &Problem) -> Result<Solution> {
+/// The exact discrete solution.
+pub(super) fn solve_directly(problem: &Problem) -> Result<Solution> {
     let options = Options { solver: SolverKind::Direct, ..Options::default() };
     solve(problem, &options)
 }

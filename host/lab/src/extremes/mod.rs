@@ -17,18 +17,14 @@ mod grid;
 pub mod judge;
 pub mod kept;
 mod large;
-mod limited;
 mod measure;
-mod places;
 mod plan;
 mod posed;
 pub mod random;
 pub mod record;
-mod remark;
 pub mod section;
 mod solution;
 mod table;
-mod texts;
 mod watch;
 
 use std::time::{Duration, Instant};
@@ -36,11 +32,11 @@ use std::time::{Duration, Instant};
 use attempt::{Attempt, attempt};
 use case::ExtremeCase;
 use flush::flushed;
-use judge::{Ended, judge};
+use judge::{Ended, judge, ratio};
 use kept::Kept;
 use measure::{Measured, measure, of_ticks};
 use record::{Record, Row, definitions};
-use watch::{Lost, watched};
+use watch::watched;
 
 pub use table::text;
 
@@ -92,7 +88,7 @@ impl Plan {
     }
 }
 
-/// What a case left: the answer, how wrong it is, and how long it took.
+/// Remains of a case: the answer, how wrong it is, and how long it took.
 type Left = (Result<(Attempt, Measured)>, f64);
 
 /// Solves, measures and judges one case.
@@ -108,27 +104,17 @@ fn row(case: &ExtremeCase) -> Result<Row> {
         let seconds = start.elapsed().as_secs_f64();
         (found.and_then(|found| measured(&own, found)), seconds)
     });
-    let (found, seconds, lost) = match left {
-        Ok((found, seconds)) => (Some(found), seconds, None),
-        Err(lost) => (None, LIMIT.as_secs_f64(), Some(lost)),
-    };
-    let ended = match (&found, lost) {
-        (Some(Ok((attempt, measured))), _) => Ended::Answered {
-            success: attempt.status.is_success(),
-            status: attempt.status.name(),
-            measured: *measured,
-        },
-        (Some(Err(Error::Input(error))), _) if error.message().starts_with("not-finite") => {
-            Ended::RefusedLate(error.message().to_owned())
+    let (answer, seconds, ended) = match left {
+        Ok((Ok((attempt, measured)), seconds)) => {
+            let (success, status) = (attempt.status.is_success(), attempt.status.name());
+            let ended = Ended::Answered { success, status, measured };
+            (Some((attempt, measured)), seconds, ended)
         }
-        (Some(Err(Error::Input(error))), _) => Ended::Refused(error.message().to_owned()),
-        (Some(Err(error)), _) => Ended::Failed(error.to_string()),
-        (None, Some(Lost::TimedOut)) => Ended::TimedOut,
-        (None, _) => Ended::Panicked,
+        Ok((Err(error), seconds)) => (None, seconds, error.into()),
+        Err(lost) => (None, LIMIT.as_secs_f64(), lost.into()),
     };
     let (outcome, note) = judge(&ended, case.scalar);
-    let answer = found.as_ref().and_then(|found| found.as_ref().ok());
-    Ok(Row { outcome, note, seconds, ..described(case, answer) })
+    Ok(Row { outcome, note, seconds, ..described(case, answer.as_ref()) })
 }
 
 fn measured(case: &ExtremeCase, attempt: Attempt) -> Result<(Attempt, Measured)> {
@@ -149,7 +135,6 @@ fn described(case: &ExtremeCase, answer: Option<&(Attempt, Measured)>) -> Row {
     let error = measured.map(|measured| measured.error).and_then(finite);
     let reference = measured.and_then(|measured| measured.reference);
     let of_fields = measured.and_then(|measured| measured.of_fields);
-    let ratio = |error: f64, bound: f64| if error == 0.0 { 0.0 } else { error / bound };
     Row {
         axis: case.axis.clone(),
         value: case.value,
@@ -160,7 +145,7 @@ fn described(case: &ExtremeCase, answer: Option<&(Attempt, Measured)>) -> Row {
             ScalarKind::F32 => "f32".to_owned(),
         },
         outcome: judge::Outcome::Wrong,
-        error_over_bound: error.zip(bound).map(|(e, b)| ratio(e, b)).and_then(finite),
+        error_over_bound: error.zip(bound).and_then(|(error, bound)| ratio(error, bound)),
         sweeps: attempt.map(|attempt| attempt.sweeps),
         unknowns: attempt.map(|attempt| attempt.unknowns),
         status: attempt.map(|attempt| attempt.status.name().to_owned()),

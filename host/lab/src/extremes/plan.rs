@@ -1,6 +1,6 @@
-//! What is run: each axis alone, then pairs, in both scalars.
+//! The studies: each axis alone, then pairs, in both scalars.
 
-use super::axis::Axis;
+use super::axis::{self, Axis};
 use super::case::{Effort, ExtremeCase};
 use super::flush;
 use super::grid::{Grid, Shape};
@@ -10,11 +10,11 @@ use signorini_scene::mesh::structured::Cells;
 use signorini_solve::ScalarKind;
 
 /// An axis or a pair of them, with the problem whose numbers they push.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub struct AxisStudy {
     /// The axis.
     pub axis: Axis,
-    /// What it is crossed with.
+    /// The axis that it is crossed with.
     pub across: Option<Axis>,
     solution: Solution,
     /// Which of several studies along one axis; empty where it is the only one.
@@ -46,76 +46,76 @@ const fn pair(axis: Axis, across: Axis, solution: Solution, cells: Cells) -> Axi
     AxisStudy { axis, across: Some(across), solution, of: "", n: 8, cells }
 }
 
-/// All of them, in the order of the report.
+/// All studies, in the order of the report.
 pub const STUDIES: [AxisStudy; 62] = [
-    study(Axis::Contrast, "triangles", J, 16, Cells::Triangles),
-    study(Axis::Contrast, "quads", J, 16, Cells::Quads),
-    study(Axis::Anisotropy, "A, triangles", A, 16, Cells::Triangles),
-    study(Axis::Anisotropy, "H, triangles", H, 16, Cells::Triangles),
-    study(Axis::Anisotropy, "H, quads", H, 16, Cells::Quads),
-    study(Axis::Obliqueness, "A, triangles", A, 16, Cells::Triangles),
-    study(Axis::Obliqueness, "H, triangles", H, 16, Cells::Triangles),
-    study(Axis::Aspect, "triangles", A, 16, Cells::Triangles),
-    study(Axis::Aspect, "quads", A, 16, Cells::Quads),
-    study(Axis::Slivers, "triangles", A, 16, Cells::Triangles),
-    study(Axis::Slivers, "needle quads", A, 16, Cells::Quads),
-    study(Axis::Collapse, "", A, 16, Cells::Quads),
-    study(Axis::Trapezoids, "", A, 16, Cells::Quads),
-    study(Axis::Length, "", A, 16, Cells::Triangles),
-    study(Axis::Shift, "triangles", A, 16, Cells::Triangles),
-    study(Axis::Shift, "quads", A, 16, Cells::Quads),
-    study(Axis::Load, "triangles", A, 16, Cells::Triangles),
-    study(Axis::Load, "quads", A, 16, Cells::Quads),
-    study(Axis::FlushedLoad, "", A, 16, Cells::Triangles),
-    study(Axis::Stiffness, "", A, 16, Cells::Triangles),
-    study(Axis::Grazing, "", A, 16, Cells::Triangles),
-    study(Axis::Contact, "", A, 16, Cells::Triangles),
-    study(Axis::Active, "", A, 16, Cells::Mixed),
-    study(Axis::Dirichlet, "", A, 16, Cells::Triangles),
-    study(Axis::Cells, "", A, 16, Cells::Triangles),
-    study(Axis::Omega, "", A, 8, Cells::Triangles),
-    study(Axis::Sweeps, "", A, 16, Cells::Triangles),
-    study(Axis::Robin, "", A, 16, Cells::Triangles),
-    study(Axis::Switching, "", Solution::Switching, 16, Cells::Triangles),
-    pair(Axis::Contrast, Axis::Cells, J, Cells::Triangles),
-    pair(Axis::Contrast, Axis::Load, J, Cells::Triangles),
-    pair(Axis::Contrast, Axis::Anisotropy, J, Cells::Triangles),
-    pair(Axis::Contrast, Axis::Omega, J, Cells::Triangles),
-    pair(Axis::Contrast, Axis::Robin, J, Cells::Triangles),
-    pair(Axis::Anisotropy, Axis::Obliqueness, A, Cells::Triangles),
-    pair(Axis::Anisotropy, Axis::Aspect, H, Cells::Quads),
-    pair(Axis::Length, Axis::Load, A, Cells::Triangles),
-    pair(Axis::Shift, Axis::Aspect, A, Cells::Triangles),
-    study(Axis::Span, "L, triangles", L, 16, Cells::Triangles),
-    study(Axis::Span, "L, quads", L, 16, Cells::Quads),
-    study(Axis::SpanBelow, "L, mixed", L, 16, Cells::Mixed),
-    study(Axis::Ends, "heated wall", HEATED, 16, Cells::Triangles),
-    study(Axis::Ends, "cooled wall", COOLED, 16, Cells::Mixed),
-    study(Axis::Above, "wall", COOLED, 16, Cells::Triangles),
-    study(Axis::Limit, "A, triangles", A, 16, Cells::Triangles),
-    study(Axis::Limit, "A, quads", A, 16, Cells::Quads),
-    study(Axis::Least, "−A, triangles", B, 16, Cells::Triangles),
-    study(Axis::Infinite, "", A, 16, Cells::Triangles),
-    study(Axis::MovingWall, "", Solution::MovingWall([-2.0, 3.0]), 16, Cells::Triangles),
-    study(Axis::Load, "L, triangles", L, 16, Cells::Triangles),
-    study(Axis::FlushedLoad, "L", L, 16, Cells::Triangles),
-    study(Axis::Stiffness, "L", L, 16, Cells::Triangles),
-    study(Axis::Length, "L", L, 16, Cells::Triangles),
-    study(Axis::Aspect, "L, triangles", L, 16, Cells::Triangles),
-    study(Axis::Sweeps, "L", L, 16, Cells::Triangles),
-    pair(Axis::Span, Axis::Cells, L, Cells::Triangles),
-    pair(Axis::Span, Axis::Load, L, Cells::Triangles),
-    pair(Axis::Span, Axis::Sweeps, L, Cells::Quads),
-    pair(Axis::Span, Axis::Anisotropy, L, Cells::Triangles),
-    pair(Axis::Ends, Axis::Contrast, HEATED, Cells::Triangles),
-    pair(Axis::Ends, Axis::Sweeps, COOLED, Cells::Triangles),
-    pair(Axis::Limit, Axis::Contrast, J, Cells::Triangles),
+    study(axis::CONTRAST, "triangles", J, 16, Cells::Triangles),
+    study(axis::CONTRAST, "quads", J, 16, Cells::Quads),
+    study(axis::ANISOTROPY, "A, triangles", A, 16, Cells::Triangles),
+    study(axis::ANISOTROPY, "H, triangles", H, 16, Cells::Triangles),
+    study(axis::ANISOTROPY, "H, quads", H, 16, Cells::Quads),
+    study(axis::OBLIQUENESS, "A, triangles", A, 16, Cells::Triangles),
+    study(axis::OBLIQUENESS, "H, triangles", H, 16, Cells::Triangles),
+    study(axis::ASPECT, "triangles", A, 16, Cells::Triangles),
+    study(axis::ASPECT, "quads", A, 16, Cells::Quads),
+    study(axis::SLIVERS, "triangles", A, 16, Cells::Triangles),
+    study(axis::SLIVERS, "needle quads", A, 16, Cells::Quads),
+    study(axis::COLLAPSE, "", A, 16, Cells::Quads),
+    study(axis::TRAPEZOIDS, "", A, 16, Cells::Quads),
+    study(axis::LENGTH, "", A, 16, Cells::Triangles),
+    study(axis::SHIFT, "triangles", A, 16, Cells::Triangles),
+    study(axis::SHIFT, "quads", A, 16, Cells::Quads),
+    study(axis::LOAD, "triangles", A, 16, Cells::Triangles),
+    study(axis::LOAD, "quads", A, 16, Cells::Quads),
+    study(axis::FLUSHED_LOAD, "", A, 16, Cells::Triangles),
+    study(axis::STIFFNESS, "", A, 16, Cells::Triangles),
+    study(axis::GRAZING, "", A, 16, Cells::Triangles),
+    study(axis::CONTACT, "", A, 16, Cells::Triangles),
+    study(axis::ACTIVE, "", A, 16, Cells::Mixed),
+    study(axis::DIRICHLET, "", A, 16, Cells::Triangles),
+    study(axis::CELLS, "", A, 16, Cells::Triangles),
+    study(axis::OMEGA, "", A, 8, Cells::Triangles),
+    study(axis::SWEEPS, "", A, 16, Cells::Triangles),
+    study(axis::ROBIN, "", A, 16, Cells::Triangles),
+    study(axis::SWITCHING, "", Solution::Switching, 16, Cells::Triangles),
+    pair(axis::CONTRAST, axis::CELLS, J, Cells::Triangles),
+    pair(axis::CONTRAST, axis::LOAD, J, Cells::Triangles),
+    pair(axis::CONTRAST, axis::ANISOTROPY, J, Cells::Triangles),
+    pair(axis::CONTRAST, axis::OMEGA, J, Cells::Triangles),
+    pair(axis::CONTRAST, axis::ROBIN, J, Cells::Triangles),
+    pair(axis::ANISOTROPY, axis::OBLIQUENESS, A, Cells::Triangles),
+    pair(axis::ANISOTROPY, axis::ASPECT, H, Cells::Quads),
+    pair(axis::LENGTH, axis::LOAD, A, Cells::Triangles),
+    pair(axis::SHIFT, axis::ASPECT, A, Cells::Triangles),
+    study(axis::SPAN, "L, triangles", L, 16, Cells::Triangles),
+    study(axis::SPAN, "L, quads", L, 16, Cells::Quads),
+    study(axis::SPAN_BELOW, "L, mixed", L, 16, Cells::Mixed),
+    study(axis::ENDS, "heated wall", HEATED, 16, Cells::Triangles),
+    study(axis::ENDS, "cooled wall", COOLED, 16, Cells::Mixed),
+    study(axis::ABOVE, "wall", COOLED, 16, Cells::Triangles),
+    study(axis::LIMIT, "A, triangles", A, 16, Cells::Triangles),
+    study(axis::LIMIT, "A, quads", A, 16, Cells::Quads),
+    study(axis::LEAST, "−A, triangles", B, 16, Cells::Triangles),
+    study(axis::INFINITE, "", A, 16, Cells::Triangles),
+    study(axis::MOVING_WALL, "", Solution::MovingWall([-2.0, 3.0]), 16, Cells::Triangles),
+    study(axis::LOAD, "L, triangles", L, 16, Cells::Triangles),
+    study(axis::FLUSHED_LOAD, "L", L, 16, Cells::Triangles),
+    study(axis::STIFFNESS, "L", L, 16, Cells::Triangles),
+    study(axis::LENGTH, "L", L, 16, Cells::Triangles),
+    study(axis::ASPECT, "L, triangles", L, 16, Cells::Triangles),
+    study(axis::SWEEPS, "L", L, 16, Cells::Triangles),
+    pair(axis::SPAN, axis::CELLS, L, Cells::Triangles),
+    pair(axis::SPAN, axis::LOAD, L, Cells::Triangles),
+    pair(axis::SPAN, axis::SWEEPS, L, Cells::Quads),
+    pair(axis::SPAN, axis::ANISOTROPY, L, Cells::Triangles),
+    pair(axis::ENDS, axis::CONTRAST, HEATED, Cells::Triangles),
+    pair(axis::ENDS, axis::SWEEPS, COOLED, Cells::Triangles),
+    pair(axis::LIMIT, axis::CONTRAST, J, Cells::Triangles),
 ];
 
 impl AxisStudy {
     /// The name of its axis in the files.
     pub fn name(&self) -> String {
-        let name = self.axis.name();
+        let name = self.axis.name;
         if self.of.is_empty() { name.to_owned() } else { format!("{name}: {}", self.of) }
     }
 
@@ -124,11 +124,9 @@ impl AxisStudy {
         let mut cases = Vec::new();
         for scalar in [ScalarKind::F64, ScalarKind::F32] {
             match self.across {
-                None => {
-                    cases.extend(self.axis.values().iter().map(|&v| self.case(scalar, v, None)))
-                }
-                Some(across) => cases.extend(across.crossed().iter().flat_map(|&other| {
-                    let values = self.axis.crossed().iter();
+                None => cases.extend(self.axis.values.iter().map(|&v| self.case(scalar, v, None))),
+                Some(across) => cases.extend(across.crossed.iter().flat_map(|&other| {
+                    let values = self.axis.crossed.iter();
                     values.map(move |&value| self.case(scalar, value, Some((across, other))))
                 })),
             }
@@ -140,14 +138,14 @@ impl AxisStudy {
         let mut case = ExtremeCase {
             axis: self.name(),
             value,
-            across: across.map(|(axis, value)| (axis.name().to_owned(), value)),
+            across: across.map(|(axis, value)| (axis.name.to_owned(), value)),
             scalar,
             posed: self.posed(),
             effort: Effort::default(),
         };
-        self.axis.set(value, &mut case);
+        (self.axis.set)(value, &mut case);
         if let Some((axis, value)) = across {
-            axis.set(value, &mut case);
+            (axis.set)(value, &mut case);
         }
         case
     }
@@ -165,8 +163,20 @@ impl AxisStudy {
     }
 }
 
-/// Every case of every study.
+/// Every case of every study that this machine can run.
 pub fn cases() -> Vec<ExtremeCase> {
-    let can = |study: &&AxisStudy| study.axis != Axis::FlushedLoad || flush::SUPPORTED;
-    STUDIES.iter().filter(can).flat_map(AxisStudy::cases).collect()
+    let mut cases: Vec<_> = STUDIES.iter().flat_map(AxisStudy::cases).collect();
+    cases.retain(|case| flush::SUPPORTED || !case.effort.flush);
+    cases
+}
+
+/// A remark on the axes of a map of outcomes; empty where their names say it all.
+pub fn remark(study: &str, across: Option<&str>) -> &'static str {
+    let name = study.split(':').next().unwrap_or(study);
+    if (name, across) == ("anisotropy", Some("obliqueness")) {
+        return "beyond s/κ = 2¹² in f32 and 2²⁶ in f64 the stored tensor is singular";
+    }
+    let known = STUDIES.iter().map(|study| study.axis).find(|axis| axis.name == name);
+    let said = known.filter(|axis| across.is_none() || axis.is_said_of_pairs);
+    said.map_or("", |axis| axis.remark)
 }

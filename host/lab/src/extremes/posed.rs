@@ -11,8 +11,7 @@
 use std::fmt::Write;
 
 use super::grid::Grid;
-use super::solution::{Shear, Solution};
-use super::texts::Texts;
+use super::solution::{Shear, Solution, Texts};
 use signorini_scene::mesh::{Curve, Mesh};
 
 /// Factors that change numbers, not the problem.
@@ -66,7 +65,7 @@ impl Scales {
     }
 }
 
-/// What holds on a boundary curve; data are those of the solution.
+/// The condition on a boundary curve; its data are those of the solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Hold {
     /// u = u_D.
@@ -88,7 +87,7 @@ pub struct Split {
     pub of: &'static str,
     /// The position of the edges that stay.
     pub edges: [usize; 2],
-    /// What holds on the rest.
+    /// The condition on the rest.
     pub rest: Hold,
 }
 
@@ -97,7 +96,7 @@ pub struct Split {
 pub struct Posed {
     /// u
     pub solution: Solution,
-    /// What turns it oblique.
+    /// The map that turns it oblique.
     pub shear: Shear,
     /// The mesh at scale 1.
     pub grid: Grid,
@@ -107,7 +106,7 @@ pub struct Posed {
     pub sides: [Hold; 4],
     /// A curve of which a part alone has its condition.
     pub split: Option<Split>,
-    /// What σ·n may be on C, where it is not what the solution asks for.
+    /// Ends of σ·n on C, where they are not those that the solution asks for.
     pub ends: Option<[f64; 2]>,
 }
 
@@ -116,7 +115,7 @@ const SIDES: [(&str, [f64; 2]); 4] =
     [("bottom", [0.0, -1.0]), ("right", [1.0, 0.0]), ("top", [0.0, 1.0]), ("left", [-1.0, 0.0])];
 
 impl Posed {
-    /// The same at scale 1.
+    /// The problem at scale 1.
     #[must_use]
     pub fn at_scale_one(self) -> Self {
         Self { scales: Scales::ONE, ..self }

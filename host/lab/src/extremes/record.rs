@@ -1,10 +1,11 @@
-//! What a run found, as `extremes.json` and `extremes.csv` hold it.
+//! The findings of a run, as `extremes.json` and `extremes.csv` hold them.
 
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
 use super::judge::{DIGITS, FAR, INTEGRATED, Outcome, USEFUL};
+use crate::csv_file::csv_file;
 use signorini_scene::error::{Error, Result};
 
 /// The committed record, from the root of the checkout.
@@ -13,7 +14,7 @@ pub const RECORD: &str = "host/benches/extremes/extremes.json";
 /// A run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Record {
-    /// What the outcomes mean.
+    /// The meaning of the outcomes.
     pub definitions: Vec<Definition>,
     /// Wall-clock seconds of the whole run.
     pub seconds: f64,
@@ -21,7 +22,7 @@ pub struct Record {
     pub cases: Vec<Row>,
 }
 
-/// What an outcome means.
+/// The meaning of an outcome.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Definition {
     /// The outcome.
@@ -43,7 +44,7 @@ pub struct Row {
     pub value2: Option<f64>,
     /// `f64`, `f32`.
     pub scalar: String,
-    /// What the answer is worth.
+    /// The worth of the answer.
     pub outcome: Outcome,
     /// True error over bound; none without a bound.
     pub error_over_bound: Option<f64>,
@@ -96,7 +97,7 @@ pub fn definitions() -> Vec<Definition> {
 }
 
 impl Record {
-    /// The text of `extremes.json`: a line a case.
+    /// The text of `extremes.json`: a line per case.
     pub fn json(&self) -> String {
         let line = |value: serde_json::Result<String>| value.unwrap_or_default();
         let definitions: Vec<_> =
@@ -110,17 +111,12 @@ impl Record {
         )
     }
 
-    /// The text of `extremes.csv`: the same cases, an empty field for what does not exist.
+    /// The text of `extremes.csv`: the same cases.
     ///
     /// # Errors
     /// Never for plain data.
     pub fn csv(&self) -> Result<Vec<u8>> {
-        let failed = |error: String| Error::Check(format!("extremes.csv: {error}"));
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        for case in &self.cases {
-            writer.serialize(case).map_err(|error| failed(error.to_string()))?;
-        }
-        writer.into_inner().map_err(|error| failed(error.to_string()))
+        csv_file("extremes.csv", &self.cases)
     }
 
     /// Reads the record at `path`; none where there is no file.

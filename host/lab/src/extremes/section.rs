@@ -1,10 +1,10 @@
 //! A record as maps and a table of reasons.
 
 use super::judge::Outcome;
+use super::plan::remark;
 use super::record::{Record, Row};
-use super::remark::remark;
 use super::table::place;
-use signorini_draw::{Extremes, ExtremesStudy, Listing, OutcomeMap, Square, plain};
+use signorini_draw::{Column, Extremes, ExtremesStudy, OutcomeMap, Square, Table, plain};
 
 /// Everything of the section.
 pub fn section(record: &Record) -> Extremes {
@@ -52,42 +52,47 @@ fn rates(cases: &[&Row]) -> Option<String> {
     ))
 }
 
-/// Columns along the axis, a row a scalar.
+/// Columns along the axis, a row for each scalar.
 fn strip(axis: &str, cases: &[&Row]) -> OutcomeMap {
-    let columns = distinct(cases.iter().map(|case| case.value));
-    let rows = ["f32", "f64"];
-    let square = |case: &&Row| {
-        let column = columns.iter().position(|&value| value == case.value)?;
-        let row = rows.iter().position(|&scalar| scalar == case.scalar)?;
-        Some(square([column, row], case))
-    };
+    let rows = ["f32", "f64"].map(|scalar| (scalar.to_owned(), scalar));
     OutcomeMap {
         label: format!("outcomes over {axis}"),
         across: axis.split(':').next().unwrap_or(axis).to_owned(),
-        columns: columns.iter().map(|&value| tick(value)).collect(),
-        up: String::new(),
-        rows: rows.map(str::to_owned).to_vec(),
-        squares: cases.iter().filter_map(square).collect(),
+        ..squares(cases, &rows, |case| Some(&*case.scalar))
     }
 }
 
 /// Columns along the axis, rows along the other.
 fn map(axis: &str, across: &str, scalar: &str, cases: &[&Row]) -> OutcomeMap {
     let cases: Vec<&Row> = cases.iter().copied().filter(|case| case.scalar == scalar).collect();
-    let columns = distinct(cases.iter().map(|case| case.value));
     let rows = distinct(cases.iter().filter_map(|case| case.value2));
-    let place = |case: &&Row| {
-        let column = columns.iter().position(|&value| value == case.value)?;
-        let row = rows.iter().position(|&value| Some(value) == case.value2)?;
-        Some(square([column, row], case))
-    };
+    let rows: Vec<_> = rows.into_iter().map(|value| (tick(value), value)).collect();
     OutcomeMap {
         label: format!("outcomes over {axis} and {across} in {scalar}"),
         across: axis.to_owned(),
-        columns: columns.iter().map(|&value| tick(value)).collect(),
         up: across.to_owned(),
-        rows: rows.iter().map(|&value| tick(value)).collect(),
-        squares: cases.iter().filter_map(place).collect(),
+        ..squares(&cases, &rows, |case| case.value2)
+    }
+}
+
+/// The cases by their place on the axis and by what tells their `rows` apart, each with its name.
+fn squares<'r, K: PartialEq>(
+    cases: &[&'r Row],
+    rows: &[(String, K)],
+    key: impl Fn(&'r Row) -> Option<K>,
+) -> OutcomeMap {
+    let columns = distinct(cases.iter().map(|case| case.value));
+    let square = |case: &&'r Row| {
+        let column = columns.iter().position(|&value| value == case.value)?;
+        let own = key(case)?;
+        let row = rows.iter().position(|(_, row)| *row == own)?;
+        Some(square([column, row], case))
+    };
+    OutcomeMap {
+        columns: columns.iter().map(|&value| tick(value)).collect(),
+        rows: rows.iter().map(|(name, _)| name.clone()).collect(),
+        squares: cases.iter().filter_map(square).collect(),
+        ..OutcomeMap::default()
     }
 }
 
@@ -155,25 +160,22 @@ fn two_digits(value: f64) -> f64 {
     if is_near { value } else { format!("{value:.1e}").parse().unwrap_or(value) }
 }
 
-fn reasons(record: &Record) -> Listing {
-    let header = ["case", "outcome", "error/bound", "sweeps", "reason"];
+fn reasons(record: &Record) -> Table {
+    let columns = [
+        Column::words("case", |case: &&Row| place(case)),
+        Column::words("outcome", |case: &&Row| case.outcome.name().to_owned()),
+        Column::number("error/bound", |case: &&Row| {
+            case.error_over_bound.map_or("–".to_owned(), plain)
+        }),
+        Column::number("sweeps", |case: &&Row| {
+            case.sweeps.map_or("–".to_owned(), |sweeps| sweeps.to_string())
+        }),
+        Column::words("reason", |case: &&Row| case.note.clone()),
+    ];
     let mut cases: Vec<&Row> =
         record.cases.iter().filter(|case| case.outcome != Outcome::Correct).collect();
     cases.sort_by_key(|case| std::cmp::Reverse(case.outcome));
-    let row = |case: &&Row| {
-        vec![
-            place(case),
-            case.outcome.name().to_owned(),
-            case.error_over_bound.map_or("–".to_owned(), plain),
-            case.sweeps.map_or("–".to_owned(), |sweeps| sweeps.to_string()),
-            case.note.clone(),
-        ]
-    };
-    Listing {
-        header: header.map(str::to_owned).to_vec(),
-        rows: cases.iter().map(row).collect(),
-        marked: None,
-    }
+    Table::new(&columns, cases)
 }
 
 #[cfg(test)]
@@ -207,7 +209,8 @@ mod tests {
         assert_eq!(map.squares[3].at, [1, 1]);
         assert_eq!(found.reasons.rows.len(), 14);
         assert!(
-            found.reasons.rows[0][1] == "wrong" && found.reasons.rows[13][1] == "certified-poor"
+            found.reasons.rows[0].cells[1] == "wrong"
+                && found.reasons.rows[13].cells[1] == "certified-poor"
         );
     }
 

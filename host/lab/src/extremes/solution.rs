@@ -3,9 +3,24 @@
 //!
 //! Contact on y = 0, n = (0, −1), ψ = q = 0. With U any of them, u(x, y) = U(x − s y, κ y) solves the problem
 //! of that A, det A = 1, with f = κ F: anisotropy κ and obliqueness s, exactly. σ·n on C is that of U.
+//!
+//! Where the flux has a limit, lo ≤ σ·n ≤ hi on C:
+//! ```text
+//!   three states:  −(c y + β (x η + y ξ − Re s)) with x + iy = a sin(ξ + iη), s = √(z² − a²), a = 0.55,
+//!                  β = (lo − hi)/π, c = (lo + hi)/2: above the gap for x < −a, in contact between, below it for x > a
+//!   a wall:        t + σ (1 − y), the flux σ as near to −t as lo and hi let it be: Duvaut and Lions in one dimension
+//! ```
 
-use super::limited;
-use super::texts::Texts;
+/// u, ∇u and f as expressions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Texts {
+    /// u
+    pub u: String,
+    /// ∂u/∂x, ∂u/∂y
+    pub gradient: [String; 2],
+    /// −∇·(A∇u)
+    pub f: String,
+}
 
 /// A solution for A = I, or for A = k left of x = 0 and 1 right of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,7 +42,7 @@ pub enum Solution {
     Switching,
     /// [`Solution::Smooth`] negated: u is kept below ψ, by fluxes without a lower end.
     Below,
-    /// A flux between lo and hi, all three states; see [`super::limited`].
+    /// A flux between lo and hi, all three states; see above.
     ThreeStates([f64; 2]),
     /// A wall with this u above, a flux between lo and hi, and A = k left of x = 0.
     Wall {
@@ -38,7 +53,7 @@ pub enum Solution {
         /// k
         contrast: f64,
     },
-    /// The same with 5 cos πt above and A = 1: at either end in turn.
+    /// A wall with 5 cos πt above and A = 1: at either end in turn.
     MovingWall([f64; 2]),
 }
 
@@ -92,7 +107,7 @@ impl Solution {
         }
     }
 
-    /// What |σ·n| is nowhere above on C.
+    /// A bound of |σ·n| on C.
     pub fn largest_flux(self) -> f64 {
         match self {
             // Left of x = 0 it is √k α r^{α − 1} with α < 2.
@@ -114,10 +129,14 @@ impl Solution {
                 texts(format!("1 + ({x}^2 - {y}^2)/4"), [format!("{x}/2"), format!("-{y}/2")], "0")
             }
             Self::Switching => switching(x, y),
-            Self::Below => smooth(x, y, 0.0).negated(),
-            Self::ThreeStates(ends) => limited::three_states(x, y, ends),
-            Self::Wall { above, ends, .. } => limited::wall(y, &format!("{above:e}"), ends),
-            Self::MovingWall(ends) => limited::wall(y, "5*cos(pi*t)", ends),
+            Self::Below => {
+                let Texts { u, gradient, f } = smooth(x, y, 0.0);
+                let negative = |text: String| format!("-({text})");
+                Texts { u: negative(u), gradient: gradient.map(negative), f: negative(f) }
+            }
+            Self::ThreeStates(ends) => three_states(x, y, ends),
+            Self::Wall { above, ends, .. } => wall(y, &format!("{above:e}"), ends),
+            Self::MovingWall(ends) => wall(y, "5*cos(pi*t)", ends),
         }
     }
 }
@@ -133,15 +152,40 @@ fn smooth(x: &str, y: &str, grazing: f64) -> Texts {
     texts(format!("{right}^3 - {y}*{left}^3"), gradient, &f)
 }
 
-/// U' = 2 s(z) with s = √(z − a) √(z + a).
-fn punch(x: &str, y: &str) -> Texts {
-    const A: &str = "0.55";
+/// a
+const A: &str = "0.55";
+
+/// Real and imaginary part of s(z) = √(z − a) √(z + a).
+fn root(x: &str, y: &str) -> [String; 2] {
     let size = format!("((({x}-{A})^2+{y}^2)^0.25*(({x}+{A})^2+{y}^2)^0.25)");
     let angle = format!("(0.5*atan2({y},{x}-{A}) + 0.5*atan2({y},{x}+{A}))");
-    let (re, im) = (format!("{size}*cos{angle}"), format!("{size}*sin{angle}"));
+    [format!("{size}*cos{angle}"), format!("{size}*sin{angle}")]
+}
+
+/// U' = 2 s(z).
+fn punch(x: &str, y: &str) -> Texts {
+    let [re, im] = root(x, y);
     let log = format!("0.5*ln((({x}+{re})^2 + ({y}+{im})^2)/{A}^2)");
     let u = format!("{x}*{re} - {y}*{im} - {A}^2*{log}");
     texts(u, [format!("2*{re}"), format!("-2*{im}")], "0")
+}
+
+/// u and σ·n = −∂u/∂y of all three states, with the r^{3/2} of both transitions.
+fn three_states(x: &str, y: &str, [lo, hi]: [f64; 2]) -> Texts {
+    let (beta, c) = ((lo - hi) / std::f64::consts::PI, 0.5 * lo + 0.5 * hi);
+    let [re, im] = root(x, y);
+    let xi = format!("(pi/2 - atan2({y} + {im}, {x} + {re}))");
+    let eta = format!("(0.5*ln((({x} + {re})^2 + ({y} + {im})^2)/{A}^2))");
+    let u = format!("-({c:e}*{y} + {beta:e}*({x}*{eta} + {y}*{xi} - {re}))");
+    texts(u, [format!("-{beta:e}*{eta}"), format!("-({c:e} + {beta:e}*{xi})")], "0")
+}
+
+/// The wall with `above`, a number or an expression of t, given at y = 1.
+fn wall(y: &str, above: &str, [lo, hi]: [f64; 2]) -> Texts {
+    let flux = format!("max({lo:e}, min({hi:e}, -({above})))");
+    // In contact u = t y has no term that cancels.
+    let beyond = format!("(min({above} + {hi:e}, 0) + max({above} + {lo:e}, 0))");
+    texts(format!("({beyond} - {flux}*{y})"), ["0".to_owned(), format!("-{flux}")], "0")
 }
 
 /// (1 ± sign x)/2 choose between the halves. On the left the angle is taken from the negative x axis,

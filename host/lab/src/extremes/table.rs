@@ -2,36 +2,36 @@
 
 use std::fmt::Write;
 
-use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
-
 use super::judge::Outcome;
 use super::record::{Record, Row};
+use signorini_draw::{Column, Table};
 
-/// A line a study: how many cases ended in which way, and the most sweeps; then what is wrong.
+/// The cases of a study in one scalar.
+struct Line<'r> {
+    name: String,
+    scalar: &'static str,
+    cases: Vec<&'r Row>,
+}
+
+/// A line for each study: how many cases ended in which way, and the most sweeps; then what is wrong.
 pub fn text(record: &Record) -> String {
-    let mut table = Table::new();
-    table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
-    let outcomes = Outcome::ALL.map(Outcome::name);
-    table.set_header(["extremes", "scalar"].into_iter().chain(outcomes).chain(["most sweeps"]));
-    for (axis, across, cases) in record.studies() {
-        let name = across.map_or(axis.to_owned(), |across| format!("{axis} × {across}"));
-        for scalar in ["f64", "f32"] {
-            let cases: Vec<&&Row> = cases.iter().filter(|case| case.scalar == scalar).collect();
-            let count = |outcome| cases.iter().filter(|case| case.outcome == outcome).count();
-            let counts = Outcome::ALL.map(|outcome| match count(outcome) {
+    let mut columns = vec![
+        Column::words("extremes", |line: &Line| line.name.clone()),
+        Column::words("scalar", |line: &Line| line.scalar.to_owned()),
+    ];
+    columns.extend(Outcome::ALL.map(|outcome| {
+        Column::number(outcome.name(), move |line: &Line| {
+            match line.cases.iter().filter(|case| case.outcome == outcome).count() {
                 0 => "·".to_owned(),
                 some => some.to_string(),
-            });
-            let sweeps = cases.iter().filter_map(|case| case.sweeps).max();
-            let sweeps = sweeps.map_or("–".to_owned(), |sweeps| sweeps.to_string());
-            let first = if scalar == "f64" { name.clone() } else { String::new() };
-            table.add_row([first, scalar.to_owned()].into_iter().chain(counts).chain([sweeps]));
-        }
-    }
-    for column in table.column_iter_mut().skip(2) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    let mut text = format!("{}\n\n", table.trim_fmt());
+            }
+        })
+    }));
+    columns.push(Column::number("most sweeps", |line: &Line| {
+        let sweeps = line.cases.iter().filter_map(|case| case.sweeps).max();
+        sweeps.map_or("–".to_owned(), |sweeps| sweeps.to_string())
+    }));
+    let mut text = Table::new(&columns, lines(record)).text() + "\n";
     for case in record.cases.iter().filter(|case| case.outcome == Outcome::Wrong) {
         let _ = writeln!(text, "wrong: {}: {}", place(case), case.note);
     }
@@ -39,6 +39,18 @@ pub fn text(record: &Record) -> String {
         Outcome::ALL.map(|outcome| format!("{} {}", record.count(outcome), outcome.name()));
     let _ = write!(text, "{} cases: {}", record.cases.len(), counts.join(", "));
     text
+}
+
+fn lines(record: &Record) -> Vec<Line<'_>> {
+    let mut lines = Vec::new();
+    for (axis, across, cases) in record.studies() {
+        let name = across.map_or(axis.to_owned(), |across| format!("{axis} × {across}"));
+        for (scalar, name) in [("f64", name), ("f32", String::new())] {
+            let cases = cases.iter().copied().filter(|case| case.scalar == scalar).collect();
+            lines.push(Line { name, scalar, cases });
+        }
+    }
+    lines
 }
 
 /// Where a case lies, in words.

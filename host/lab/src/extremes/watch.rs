@@ -3,12 +3,12 @@
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::Duration;
 
-/// What became of work without a result.
+/// The reason why work has no result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Lost {
-    /// It panicked.
+    /// A panic.
     Panicked,
-    /// It did not end in time; its thread is left to itself.
+    /// No end in time; the thread is left to itself.
     TimedOut,
 }
 

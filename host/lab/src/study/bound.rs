@@ -1,4 +1,4 @@
-//! What must hold of the error bound on every scene, beside its exact solution where one is known.
+//! Checks of the error bound on every scene, beside its exact solution where one is known.
 
 use serde::Serialize;
 
@@ -9,7 +9,7 @@ use signorini_scene::error::Result;
 use signorini_solve::Solution;
 use signorini_solve::norms::{Errors, of_solution};
 
-/// Slack for total ≥ combined: the error itself is integrated with 16×16 points a cell, which near
+/// Slack for total ≥ combined: the error itself is integrated with 16×16 points per cell, which near
 /// kinks of the exact gradient leaves 1e−5 of it.
 const INTEGRATED: f64 = 1e-5;
 /// gap / identity: 1 up to that quadrature, which may miss more of the terms along C, of either sign.
@@ -20,7 +20,7 @@ const SHARP: f64 = 1.06;
 const EFFICIENT: f64 = 2.0;
 /// Beyond this condition number of A in a cell, s is a poor average and the ratio is only reported.
 const OBLIQUE: f64 = 10.0;
-/// The same ratio of any iterate.
+/// gap / ‖A^½∇_h(u − u_h)‖ of any iterate.
 const CUT_OFF: f64 = 8.0;
 /// A gap below this part of the energy is rounding: the exact solution lies in the discrete space.
 const ROUNDING: f64 = 1e-5;
@@ -54,7 +54,7 @@ impl Certified {
         Some(bound.duality_gap / self.errors?.energy)
     }
 
-    /// What holds of every iterate.
+    /// Checks of every iterate.
     fn guarantee(&self, subject: &str, energy: f64) -> Vec<Check> {
         let (Some(bound), Some(errors)) = (self.bound, self.errors) else { return Vec::new() };
         let (Some(combined), Some(identity)) = (errors.combined, errors.identity) else {
@@ -71,7 +71,7 @@ impl Certified {
         checks
     }
 
-    /// What holds of an iterate that was cut off.
+    /// Checks of an iterate that was cut off.
     pub fn when_cut_off(&self, subject: &str, energy: f64) -> Vec<Check> {
         let mut checks = self.guarantee(subject, energy);
         checks.extend(self.efficiency(energy).map(|ratio| {
@@ -80,7 +80,7 @@ impl Certified {
         checks
     }
 
-    /// What holds of a converged solution.
+    /// Checks of a converged solution.
     pub fn when_converged(
         &self,
         subject: &str,

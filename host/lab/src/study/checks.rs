@@ -1,4 +1,4 @@
-//! What must hold on every scene, and how closely: the main job's tolerances with their reasons.
+//! Checks of every scene: the main job's tolerances with their reasons.
 
 use serde::Serialize;
 use signorini_kernel::Real;
@@ -12,9 +12,9 @@ use signorini_solve::{ScalarKind, Solution};
 pub struct Check {
     /// The scene and the scalar, or the refined grid.
     pub subject: String,
-    /// What should hold.
+    /// The claim.
     pub claim: &'static str,
-    /// What was found, with the bound.
+    /// The value that was found, with the bound.
     pub found: String,
     /// How much of the bound is used up; above 1 (or NaN) the check fails.
     pub used: f64,

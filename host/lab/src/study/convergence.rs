@@ -21,10 +21,10 @@ use signorini_solve::{Options, SolverKind, solve};
 /// Catalogue scenes with boundary curves `contact` and `dirichlet`, refined up to 2·64 × 64.
 const SCENES: [&str; 4] = ["a", "b", "h", "hg"];
 const LEVELS: [u32; 4] = [8, 16, 32, 64];
-/// That of them which shows what trapezoids do.
+/// The scene that shows what trapezoids do.
 const ON_TRAPEZOIDS: &str = "b";
 
-/// What a scene is refined on.
+/// The grid that a scene is refined on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Grid {
     Squares(Cells),
@@ -44,7 +44,7 @@ pub struct ConvergenceStudy {
     pub force: Vec<f64>,
     /// Measured rates of h1, l2, flux: the least-squares slope over all grids.
     pub rates: [f64; 3],
-    /// What was checked.
+    /// The checks.
     pub checks: Vec<Check>,
     #[serde(skip)]
     grid: Grid,
@@ -125,7 +125,7 @@ impl Grid {
         }
     }
 
-    /// What the rates must be.
+    /// Checks of the rates.
     fn checks(self, name: &str, [h1, l2, flux]: [f64; 3]) -> Vec<Check> {
         let claim = "the mean-square error of the flux ‖σ − σ_h‖ falls with rate 1";
         let flux = Check::at_least(name, claim, flux, 0.97);

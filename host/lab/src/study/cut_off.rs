@@ -1,4 +1,4 @@
-//! What a solve that was cut off is worth: the bound after a few sweeps, beside the true error.
+//! Solves that were cut off: the bound after a few sweeps, beside the true error.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::bound::Certified;
 use super::checks::Check;
-use signorini_draw::{self as report, Chart, Curve, Strip, TableRow};
+use signorini_draw::{Chart, Column, Curve, Strip, Table};
 use signorini_problem::Problem;
 use signorini_problem::threads::on_two_threads;
 use signorini_scene::error::Result;
@@ -28,7 +28,7 @@ pub struct CutOff {
     pub stops: Vec<Certified>,
     /// gap over the energy error of u_h at each stop; `None` where both are rounding.
     pub efficiency: Vec<Option<f64>>,
-    /// What was checked.
+    /// The checks.
     pub checks: Vec<Check>,
 }
 
@@ -39,7 +39,7 @@ pub struct CutOffPlan {
     scene: Scene,
 }
 
-/// Those of the scenes that have an exact solution.
+/// The scenes that have an exact solution.
 pub fn planned(scenes: &[PathBuf]) -> Result<Vec<CutOffPlan>> {
     let read = |path: &PathBuf| {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -75,17 +75,17 @@ impl CutOffPlan {
     }
 }
 
-/// gap over the energy error of u_h: a row a scene, a column a stop.
-pub fn table(studies: &[CutOff]) -> report::Table {
-    let stops = STOPS.iter().map(u32::to_string);
-    let header = ["scene".to_owned()].into_iter().chain(stops).chain(["converged".to_owned()]);
-    let row = |study: &CutOff| {
-        let ratio =
-            |ratio: &Option<f64>| ratio.map_or("–".to_owned(), |ratio| format!("{ratio:.2}"));
-        let cells = [study.name.clone()].into_iter().chain(study.efficiency.iter().map(ratio));
-        TableRow { cells: cells.collect(), passed: study.checks.iter().all(|check| check.passed) }
+/// gap over the energy error of u_h: a row for each scene, a column for each stop.
+pub fn table(studies: &[CutOff]) -> Table {
+    let stops = STOPS.iter().map(u32::to_string).chain(["converged".to_owned()]).enumerate();
+    let stop = |(at, name): (usize, String)| {
+        Column::number(&name, move |study: &&CutOff| {
+            study.efficiency[at].map_or("–".to_owned(), |ratio| format!("{ratio:.2}"))
+        })
     };
-    report::Table { header: header.collect(), rows: studies.iter().map(row).collect() }
+    let scene = Column::words("scene", |study: &&CutOff| study.name.clone());
+    let columns: Vec<_> = std::iter::once(scene).chain(stops.map(stop)).collect();
+    Table::checked(&columns, studies, |study| study.checks.iter().all(|check| check.passed))
 }
 
 /// The pictures: the bound, the truth and what more sweeps would remove.

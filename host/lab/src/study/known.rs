@@ -1,4 +1,4 @@
-//! What the main job knows of a standard scene.
+//! The findings of the main job on a standard scene.
 
 use serde::Serialize;
 
@@ -7,7 +7,7 @@ use super::checks::Check;
 use super::cost::Cost;
 use super::outputs::KnownOutputs;
 
-/// What is known of a scene after the study.
+/// The findings on a scene.
 #[derive(Debug, Clone, Serialize)]
 pub struct KnownScene {
     /// The scene file's name.
@@ -24,13 +24,13 @@ pub struct KnownScene {
     pub force: f64,
     /// ‖A^½∇_h u_h‖
     pub energy: f64,
-    /// The kernel in f64 and f32.
+    /// The kernel in f64.
     pub f64: Run,
-    /// The same in f32.
+    /// The kernel in f32.
     pub f32: Run,
     /// The declared outputs.
     pub outputs: KnownOutputs,
-    /// What was checked.
+    /// The checks.
     pub checks: Vec<Check>,
 }
 

@@ -98,7 +98,7 @@ pub fn run() -> Result<u8> {
             env!("CARGO_PKG_VERSION"),
             crate::cycles::METHOD
         ),
-        table: table::for_report(&cases),
+        table: table::main_table(&cases),
         checks: table::checks(&checks),
         convergence: convergence::plots(&studies),
         cut_off: cut_off::table(&stopped),

@@ -11,7 +11,7 @@ use signorini_scene::error::Result;
 use signorini_solve::Solution;
 use signorini_solve::outputs::outputs;
 
-/// What is told of them.
+/// The declared outputs of a scene, as the report tells them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct KnownOutputs {
     /// The first force or flux with what it is off by, and over which length.
@@ -26,7 +26,7 @@ pub struct KnownOutputs {
 const ROUNDING: f64 = 1e-7;
 
 impl KnownOutputs {
-    /// Those of a solution, with a check for each exact value that is known.
+    /// The outputs of a solution, with a check for each exact value that is known.
     ///
     /// # Errors
     /// Data that are not finite.

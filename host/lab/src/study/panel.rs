@@ -79,9 +79,7 @@ fn exact_multiplier(problem: &Problem, edge: usize, ends: [[f64; 2]; 2]) -> Opti
     let signorini_scene::scene::Condition::Contact { flux, .. } = &boundary.condition else {
         return None;
     };
-    let half = problem.topology.half_edges[edge][0] as usize;
-    let triangles = problem.mesh.triangles.len();
-    let cell = if half < 3 * triangles { half / 3 } else { triangles + (half - 3 * triangles) / 4 };
+    let (cell, _) = problem.topology.first_side(edge);
     let material = &problem.scene.materials[problem.binding.materials[cell] as usize];
     let ([a, b], length) = (problem.segment(edge), problem.lengths[edge]);
     let normal = [(b[1] - a[1]) / length, (a[0] - b[0]) / length];

@@ -1,104 +1,81 @@
 //! The main job's tables, for the terminal and for the report.
 
-use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
-
 use super::checks::Check;
 use super::convergence::ConvergenceStudy;
 use super::known::KnownScene;
 use super::{OF_FLUX, OF_GRADIENT, OF_U};
 use signorini_certify::ErrorBound;
-use signorini_draw as report;
+use signorini_draw::{self as report, Column, Table};
 use signorini_solve::norms::Errors;
 
-const HEADER: [&str; 17] = [
-    "scene",
-    "tri",
-    "quad",
-    "unknowns",
-    "active",
-    "∫λ",
-    "sweeps",
-    "|u−faer| f64",
-    "f32",
-    "|u−u_h|₁",
-    "‖u−u_h‖",
-    "‖σ−σ_h‖",
-    "error",
-    "bound",
-    "u_h bound",
-    "cyc/DOF/sweep",
-    "kcyc/DOF",
-];
-
-/// The same columns for readers of the report, where a name may take several lines.
-const REPORT_HEADER: [&str; 17] = [
-    "scene",
-    "triangles",
-    "quads",
-    "unknowns",
-    "active contact edges",
-    "contact force ∫λ",
-    "sweeps",
-    "largest distance of u to faer’s, over the range of u, f64",
-    "the same, f32",
-    OF_GRADIENT,
-    OF_U,
-    OF_FLUX,
-    "true error of s, τ (energy norms)",
-    "bound on the error of s, τ (energy norms)",
-    "bound on the gradient error of u_h, weighed by A (energy norm)",
-    "cycles / unknown / sweep, f64 / f32",
-    "kilocycles / unknown, f64 / f32",
-];
-
-fn row(case: &KnownScene) -> Vec<String> {
-    let certified = &case.f64.certified;
-    let or_none =
-        |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{value:.2e}"));
-    let error = |pick: fn(&Errors) -> f64| or_none(certified.errors.as_ref().map(pick));
-    let bound = |pick: fn(&ErrorBound) -> f64| {
-        certified.bound.map_or("none".to_owned(), |bound| format!("{:.2e}", pick(&bound)))
-    };
-    let or_dash = |count: usize| if count == 0 { "–".to_owned() } else { count.to_string() };
-    vec![
-        case.name.clone(),
-        or_dash(case.cells[0]),
-        or_dash(case.cells[1]),
-        case.unknowns.to_string(),
-        format!("{}/{}", case.contact[0], case.contact[1]),
-        format!("{:.5e}", case.force),
-        certified.sweeps.to_string(),
-        format!("{:.0e}", case.f64.distance),
-        format!("{:.0e}", case.f32.distance),
-        error(|e| e.h1),
-        error(|e| e.l2),
-        error(|e| e.flux),
-        or_none(certified.error()),
-        bound(|bound| bound.total),
-        bound(|bound| bound.of_u),
-        format!("{:.1} / {:.1}", case.f64.cost.sweep, case.f32.cost.sweep),
-        format!("{:.1} / {:.1}", 1e-3 * case.f64.solve_cycles, 1e-3 * case.f32.solve_cycles),
-    ]
+/// A number of a scene.
+fn of_scene<'c>(
+    name: &str,
+    cell: impl Fn(&KnownScene) -> String + 'c,
+) -> Column<'c, &'c KnownScene> {
+    Column::number(name, move |case: &&KnownScene| cell(case))
 }
 
-fn passed(case: &KnownScene) -> bool {
-    case.checks.iter().all(|check| check.passed)
+/// A distance to the exact solution, where one is known.
+fn error(name: &str, pick: fn(&Errors) -> f64) -> Column<'_, &KnownScene> {
+    of_scene(name, move |case| or_none(case.f64.certified.errors.as_ref().map(pick)))
 }
 
-/// One line a scene.
+/// A bound, where there is one.
+fn bound(name: &str, pick: fn(&ErrorBound) -> f64) -> Column<'_, &KnownScene> {
+    let text = move |bound: ErrorBound| format!("{:.2e}", pick(&bound));
+    of_scene(name, move |case| case.f64.certified.bound.map_or("none".to_owned(), text))
+}
+
+fn or_none(value: Option<f64>) -> String {
+    value.map_or("–".to_owned(), |value| format!("{value:.2e}"))
+}
+
+fn or_dash(count: usize) -> String {
+    if count == 0 { "–".to_owned() } else { count.to_string() }
+}
+
+/// The main table: a row for each scene.
+pub fn main_table(cases: &[KnownScene]) -> Table {
+    let columns = [
+        Column::words("scene", |case: &&KnownScene| case.name.clone()),
+        of_scene("tri", |case| or_dash(case.cells[0])).titled("triangles"),
+        of_scene("quad", |case| or_dash(case.cells[1])).titled("quads"),
+        of_scene("unknowns", |case| case.unknowns.to_string()),
+        of_scene("active", |case| format!("{}/{}", case.contact[0], case.contact[1]))
+            .titled("active contact edges"),
+        of_scene("∫λ", |case| format!("{:.5e}", case.force)).titled("contact force ∫λ"),
+        of_scene("sweeps", |case| case.f64.certified.sweeps.to_string()),
+        of_scene("|u−faer| f64", |case| format!("{:.0e}", case.f64.distance))
+            .titled("largest distance of u to faer’s, over the range of u, f64"),
+        of_scene("f32", |case| format!("{:.0e}", case.f32.distance)).titled("the same, f32"),
+        error("|u−u_h|₁", |e| e.h1).titled(OF_GRADIENT),
+        error("‖u−u_h‖", |e| e.l2).titled(OF_U),
+        error("‖σ−σ_h‖", |e| e.flux).titled(OF_FLUX),
+        of_scene("error", |case| or_none(case.f64.certified.error()))
+            .titled("true error of s, τ (energy norms)"),
+        bound("bound", |b| b.total).titled("bound on the error of s, τ (energy norms)"),
+        bound("u_h bound", |b| b.of_u)
+            .titled("bound on the gradient error of u_h, weighed by A (energy norm)"),
+        of_scene("cyc/DOF/sweep", |case| {
+            format!("{:.1} / {:.1}", case.f64.cost.sweep, case.f32.cost.sweep)
+        })
+        .titled("cycles / unknown / sweep, f64 / f32"),
+        of_scene("kcyc/DOF", |case| {
+            let [double, single] = [&case.f64, &case.f32].map(|run| 1e-3 * run.solve_cycles);
+            format!("{double:.1} / {single:.1}")
+        })
+        .titled("kilocycles / unknown, f64 / f32"),
+    ];
+    Table::checked(&columns, cases, |case| case.checks.iter().all(|check| check.passed))
+}
+
+/// The main table with what its columns mean, for the terminal.
 pub fn scenes(cases: &[KnownScene]) -> String {
-    let mut table = Table::new();
-    table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
-    table.set_header(HEADER.iter().copied().chain(["ok"]));
-    for case in cases {
-        let mark = if passed(case) { "yes" } else { "NO" };
-        table.add_row(row(case).into_iter().chain([mark.to_owned()]));
-    }
-    align(&mut table);
     let over_error: Vec<f64> =
         cases.iter().flat_map(|case| case.outputs.over_error.iter().copied()).collect();
     format!(
-        "Standard scenes: kernel in f64 and f32 against the faer reference and exact solutions\n{table}\n\
+        "Standard scenes: kernel in f64 and f32 against the faer reference and exact solutions\n{}\
          bound: guaranteed, in the energy norm, for the continuous s with the flux τ; error: their true one; \
          u_h bound: for the means over the edges, in ‖A^½∇(u − u_h)‖\n\
          |u−u_h|₁: gradient error of u, unweighed; ‖u−u_h‖ and ‖σ−σ_h‖: mean-square errors of u and of \
@@ -106,6 +83,7 @@ pub fn scenes(cases: &[KnownScene]) -> String {
          intervals of outputs: half-widths {:.1} times the true errors in the median of {} with an exact value\n\
          cycles in f64 / f32: {}; a sweep reads {:.0} / {:.0} bytes and does {:.1} multiply-adds an \
          unknown, and takes {:.1} / {:.1} times as long as reading the matrix alone (medians)",
+        main_table(cases).text(),
         middle(over_error.clone()),
         over_error.len(),
         crate::cycles::METHOD,
@@ -129,65 +107,37 @@ fn middle(mut values: Vec<f64>) -> f64 {
 
 /// Errors on the finest grid, and rates over all of them.
 pub fn convergence(studies: &[ConvergenceStudy]) -> String {
-    let mut table = Table::new();
-    table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
-    table.set_header([
-        "grid",
-        "n",
-        "|u−u_h|₁",
-        "rate",
-        "‖u−u_h‖",
-        "rate",
-        "‖σ−σ_h‖",
-        "rate",
-        "∫λ",
-        "ok",
-    ]);
-    for study in studies {
-        let (Some(errors), Some(force)) = (study.errors.last(), study.force.last()) else {
-            continue;
-        };
-        let [h1, l2, flux] = study.rates.map(|rate| format!("{rate:.3}"));
-        let [first, last] = [study.n.first(), study.n.last()].map(|n| n.copied().unwrap_or(0));
-        let passed = study.checks.iter().all(|check| check.passed);
-        table.add_row([
-            study.name.clone(),
-            format!("{first}…{last}"),
-            format!("{:.5e}", errors.h1),
-            h1,
-            format!("{:.5e}", errors.l2),
-            l2,
-            format!("{:.5e}", errors.flux),
-            flux,
-            format!("{force:.6}"),
-            if passed { "yes" } else { "NO" }.to_owned(),
-        ]);
-    }
-    align(&mut table);
+    type Finest<'s> = (&'s ConvergenceStudy, &'s Errors, f64);
+    let rate = |at: usize| {
+        Column::number("rate", move |(study, ..): &Finest| format!("{:.3}", study.rates[at]))
+    };
+    let columns = [
+        Column::words("grid", |(study, ..): &Finest| study.name.clone()),
+        Column::number("n", |(study, ..): &Finest| {
+            let [first, last] = [study.n.first(), study.n.last()].map(|n| n.copied().unwrap_or(0));
+            format!("{first}…{last}")
+        }),
+        Column::number("|u−u_h|₁", |(_, errors, _): &Finest| format!("{:.5e}", errors.h1)),
+        rate(0),
+        Column::number("‖u−u_h‖", |(_, errors, _): &Finest| format!("{:.5e}", errors.l2)),
+        rate(1),
+        Column::number("‖σ−σ_h‖", |(_, errors, _): &Finest| format!("{:.5e}", errors.flux)),
+        rate(2),
+        Column::number("∫λ", |(.., force): &Finest| format!("{force:.6}")),
+    ];
+    let finest = studies
+        .iter()
+        .filter_map(|study| Some((study, study.errors.last()?, *study.force.last()?)));
+    let passed = |(study, ..): &Finest| study.checks.iter().all(|check| check.passed);
+    let table = Table::checked(&columns, finest, passed).text();
     format!(
         "Convergence on grids of 2n × n squares, or trapezoids in their place: errors at the largest n, rates \
-         over all\n{table}"
+         over all\n{}",
+        table.trim_end()
     )
 }
 
-fn align(table: &mut Table) {
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-}
-
-/// The same table for the report.
-pub fn for_report(cases: &[KnownScene]) -> report::Table {
-    report::Table {
-        header: REPORT_HEADER.map(str::to_owned).to_vec(),
-        rows: cases
-            .iter()
-            .map(|case| report::TableRow { cells: row(case), passed: passed(case) })
-            .collect(),
-    }
-}
-
-/// One line a claim, with the subject that comes nearest to breaking it.
+/// A line for each claim, with the subject that comes nearest to breaking it.
 pub fn checks(all: &[&Check]) -> Vec<report::Check> {
     let mut claims: Vec<&str> = Vec::new();
     all.iter().for_each(|check| {

@@ -120,7 +120,6 @@ fn baseline(solver: &str, ratio: f64, iterations: u32) -> Baseline {
         cycles_spread: 0.042,
         ratio,
         algebraic_error: 1e-9 * ratio,
-        error: None,
         iterations,
     }
 }

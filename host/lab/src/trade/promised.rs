@@ -8,11 +8,10 @@
 
 use std::fmt::Write;
 
-use super::digits::grouped;
-use super::table::lines;
+use super::digits::{grouped, or_dash};
 use signorini_bake::choice::{Candidate, Wanted};
 use signorini_bake::promise;
-use signorini_draw::Listing;
+use signorini_draw::{Column, Table};
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::{Error, Result};
@@ -117,50 +116,40 @@ fn baked<R: Scalar>(problem: &Problem, promise: &Promise) -> Result<Firmware> {
 
 /// The table of one scene, for the terminal and for the record.
 pub fn text(title: &str, all: &[Taken]) -> String {
-    let header = [
-        "error",
-        "refined",
-        "unknowns",
-        "contact",
-        "bound/error",
-        "RAM",
-        "flash",
-        "instructions",
-        "model",
+    let of = |name: &str, cell: fn(&Firmware) -> String| {
+        Column::number(name, move |taken: &&Taken| {
+            taken.found.as_ref().map_or("–".to_owned(), cell)
+        })
+    };
+    let columns = [
+        Column::number("error", |taken: &&Taken| taken.goal.to_string()),
+        Column::words("refined", |taken: &&Taken| taken.refined().to_owned()),
+        of("unknowns", |found| grouped(found.promise.unknowns as u64)),
+        of("contact", |found| grouped(found.contact as u64)),
+        of("bound/error", |found| format!("{:.2}", found.promise.largest)),
+        of("RAM", |found| grouped(found.ram)),
+        of("flash", |found| grouped(found.flash)),
+        of("instructions", |found| or_dash(found.instructions, |count| grouped(count as u64))),
+        Column::words("model", |taken: &&Taken| {
+            taken.found.as_ref().map_or("–".to_owned(), |found| found.model.clone())
+        }),
     ];
-    let mut notes = String::new();
-    let mut rows = Vec::new();
-    for Taken { goal, refining, found } in all {
-        let refined = match refining {
-            Refining::Marked => "where needed",
-            Refining::Everywhere => "everywhere",
-        };
-        let mut row = vec![goal.to_string(), refined.to_owned()];
-        match found {
-            Ok(found) => row.extend(found.cells()),
-            Err(why) => {
-                row.extend(["–"; 7].map(str::to_owned));
-                let _ = writeln!(notes, "{goal}, refined {refined}: {why}");
-            }
+    let mut text = format!("{title}\n{}", Table::new(&columns, all).text());
+    for taken in all {
+        if let Err(why) = &taken.found {
+            let _ = writeln!(text, "{}, refined {}: {why}", taken.goal, taken.refined());
         }
-        rows.push(row);
     }
-    let header = header.map(str::to_owned).to_vec();
-    format!("{title}\n{}{notes}", lines(&Listing { header, rows, marked: None }))
+    text
 }
 
-impl Firmware {
-    fn cells(&self) -> [String; 7] {
-        let Self { promise, contact, model, ram, flash, instructions } = self;
-        [
-            grouped(promise.unknowns as u64),
-            grouped(*contact as u64),
-            format!("{:.2}", promise.largest),
-            grouped(*ram),
-            grouped(*flash),
-            instructions.map_or("–".to_owned(), |count| grouped(count as u64)),
-            model.clone(),
-        ]
+impl Taken {
+    /// Which cells were refined, in words.
+    fn refined(&self) -> &'static str {
+        match self.refining {
+            Refining::Marked => "where needed",
+            Refining::Everywhere => "everywhere",
+        }
     }
 }
 

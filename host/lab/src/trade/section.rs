@@ -11,7 +11,7 @@ use super::records::Records;
 use super::verdict::{certificate, knob_values, sentences};
 use crate::baseline;
 use crate::baseline::record::Baseline;
-use signorini_draw::{Listing, TradePanel, TradeStudy, Tradeoff, plain};
+use signorini_draw::{Column, Table, TradePanel, TradeStudy, Tradeoff, plain};
 
 /// Everything of the section.
 pub fn section(records: &Records) -> Tradeoff {
@@ -43,54 +43,50 @@ fn named<'t>(trades: &'t [Trade], name: &str) -> Option<&'t Trade> {
     trades.iter().find(|trade| trade.scene == name)
 }
 
-const HEADER: [&str; 12] = [
-    "scene",
-    "take on the host",
-    "error of u_h %",
-    "error of s, τ %",
-    "bound of s, τ %",
-    "cycles/unknown",
-    "take on the M4F",
-    "instructions",
-    "RAM, bytes",
-    "flash, bytes",
-    "Clarabel",
-    "OSQP",
-];
-
-/// A row a scene: what to take, and how much longer general solvers take.
-fn summary(scenes: &[Scene]) -> Listing {
-    let rows = scenes.iter().map(|scene| {
-        let name = scene.iter().flatten().next().map(|trade| trade.scene.clone());
-        let mut row: Vec<String> = name.into_iter().collect();
-        row.extend(on_host(scene[0]));
-        row.extend(on_board(scene[1]));
-        row.extend(["Clarabel", "OSQP"].map(|solver| or_dash(warm_ratio(scene[0], solver), times)));
-        row
-    });
-    Listing { header: HEADER.map(str::to_owned).to_vec(), rows: rows.collect(), marked: None }
+/// A row for each scene: what to take, and how much longer general solvers take.
+fn summary(scenes: &[Scene]) -> Table {
+    let name = |scene: &&Scene| {
+        let trade = scene.iter().flatten().next();
+        trade.map(|trade| trade.scene.clone()).unwrap_or_default()
+    };
+    let mut columns = vec![
+        Column::words("scene", name),
+        Column::words("take on the host", |scene: &&Scene| {
+            taken(scene[0], |_, point| point.name.clone())
+        }),
+        Column::number("error of u_h %", |scene: &&Scene| {
+            taken(scene[0], |trade, point| percent(point.error.energy, trade.energy))
+        }),
+        Column::number("error of s, τ %", |scene: &&Scene| {
+            taken(scene[0], |trade, point| {
+                or_dash(point.error.combined, |error| percent(error, trade.energy))
+            })
+        }),
+        Column::number("bound of s, τ %", |scene: &&Scene| {
+            taken(scene[0], |trade, point| {
+                or_dash(point.bound, |bound| percent(bound, trade.energy))
+            })
+        }),
+        Column::number("cycles/unknown", |scene: &&Scene| {
+            taken(scene[0], |_, point| plain(point.cycles_per_unknown))
+        }),
+        Column::words("take on the M4F", |scene: &&Scene| {
+            taken(scene[1], |_, point| point.name.clone())
+        }),
+    ];
+    columns.extend(costs("m4f").iter().map(|&(name, text)| {
+        Column::number(name, move |scene: &&Scene| taken(scene[1], |_, point| text(point)))
+    }));
+    columns.extend(["Clarabel", "OSQP"].map(|solver| {
+        Column::number(solver, move |scene: &&Scene| or_dash(warm_ratio(scene[0], solver), times))
+    }));
+    Table::new(&columns, scenes)
 }
 
-fn taken(trade: Option<&Trade>) -> Option<(&Trade, &Point)> {
-    trade.and_then(|trade| Some((trade, trade.recommendation.point.as_ref()?)))
-}
-
-fn on_host(trade: Option<&Trade>) -> Vec<String> {
-    let Some((trade, point)) = taken(trade) else { return vec!["–".to_owned(); 5] };
-    vec![
-        point.name.clone(),
-        percent(point.error.energy, trade.energy),
-        or_dash(point.error.combined, |error| percent(error, trade.energy)),
-        or_dash(point.bound, |bound| percent(bound, trade.energy)),
-        plain(point.cycles_per_unknown),
-    ]
-}
-
-fn on_board(trade: Option<&Trade>) -> Vec<String> {
-    let Some((trade, point)) = taken(trade) else { return vec!["–".to_owned(); 4] };
-    let mut row = vec![point.name.clone()];
-    row.extend(costs(&trade.target, point));
-    row
+/// What `text` says of the recommended setting; a dash where there is none.
+fn taken(trade: Option<&Trade>, text: impl FnOnce(&Trade, &Point) -> String) -> String {
+    let both = trade.and_then(|trade| Some((trade, trade.recommendation.point.as_ref()?)));
+    or_dash(both, |(trade, point)| text(trade, point))
 }
 
 /// Cycles of a warm solve of the condensed problem over those of the kernel.
@@ -146,7 +142,8 @@ mod tests {
         };
         let found = section(&records);
         let [levee, pit] = &found.summary.rows[..] else { panic!("{:?}", found.summary) };
-        assert_eq!((levee.len(), &*levee[0], &*levee[6]), (HEADER.len(), "levee", "–"));
+        let (levee, pit) = (&levee.cells, &pit.cells);
+        assert_eq!((levee.len(), &*levee[0], &*levee[6]), (12, "levee", "–"));
         assert_eq!((&*pit[10], &*pit[11]), ("24.0×", "150×"));
         assert_ne!(pit[6], "–");
         assert_eq!(found.scenes[1].studies.len(), 2);
@@ -162,7 +159,7 @@ mod tests {
         board.recommendation.point = None;
         board.baselines.clear();
         let found = section(&Records { m4f: vec![board], ..Records::default() });
-        assert_eq!(found.summary.rows[0][1..], vec!["–"; HEADER.len() - 1]);
+        assert_eq!(found.summary.rows[0].cells[1..], ["–"; 11]);
     }
 
     #[test]

@@ -2,13 +2,10 @@
 
 use std::fmt::Write;
 
-use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
-
 use super::digits::grouped;
 use super::listings::{baselines, front, math, skipped};
 use super::picture::target_name;
 use super::record::Trade;
-use signorini_draw::Listing;
 
 /// The front, other solvers, micromath, what was skipped, and last what to take.
 pub fn text(trade: &Trade) -> String {
@@ -18,7 +15,7 @@ pub fn text(trade: &Trade) -> String {
         trade.title,
         trade.scene,
         target_name(&trade.target),
-        lines(&front(trade))
+        front(trade).text()
     );
     let _ = writeln!(text, "errors: true ones, {}; force: of the contact force", trade.truth);
     let further = [
@@ -26,39 +23,12 @@ pub fn text(trade: &Trade) -> String {
         ("What micromath does to the solution", math(trade)),
     ];
     for (heading, table) in further.iter().filter(|(_, table)| !table.rows.is_empty()) {
-        let _ = write!(text, "\n{heading}\n{}", lines(table));
+        let _ = write!(text, "\n{heading}\n{}", table.text());
     }
     trade.notes.iter().for_each(|note| text += &format!("* {note}\n"));
     let skipped = skipped(trade).map_or(String::new(), |skipped| skipped + "\n");
     let _ = write!(text, "\n{skipped}{}\n", trade.recommendation.text);
     text
-}
-
-/// The table, an arrow before the row that stands out.
-pub(super) fn lines(listing: &Listing) -> String {
-    let mut table = Table::new();
-    table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
-    let mut header = listing.header.clone();
-    let mut rows = listing.rows.clone();
-    if let Some(marked) = listing.marked {
-        header.insert(0, String::new());
-        for (at, row) in rows.iter_mut().enumerate() {
-            row.insert(0, if at == marked { "→" } else { "" }.to_owned());
-        }
-    }
-    table.set_header(header);
-    table.add_rows(rows);
-    for (column, cells) in table.column_iter_mut().skip(listing.marked.iter().len()).enumerate() {
-        let words = listing.rows.iter().any(|row| !is_number(row.get(column)));
-        let alignment = if words { CellAlignment::Left } else { CellAlignment::Right };
-        cells.set_cell_alignment(alignment);
-    }
-    format!("{}\n", table.trim_fmt())
-}
-
-/// Whether a cell is no word.
-fn is_number(cell: Option<&String>) -> bool {
-    cell.is_none_or(|cell| !cell.chars().next().is_some_and(char::is_alphabetic))
 }
 
 #[cfg(test)]

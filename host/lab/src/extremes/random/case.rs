@@ -20,7 +20,7 @@ pub enum Yardstick {
     Finer,
 }
 
-/// Who solves it.
+/// The solver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Way {
     /// Sweeps of the kernel, as `solve` has them.
@@ -36,7 +36,7 @@ pub enum Way {
 /// How it is solved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Effort {
-    /// Who solves it.
+    /// The solver.
     pub way: Way,
     /// In which scalar.
     pub scalar: ScalarKind,
@@ -55,9 +55,9 @@ pub struct RandomCase {
     pub number: u32,
     /// Where its truth comes from.
     pub truth: Yardstick,
-    /// What holds it.
+    /// The condition that holds it.
     pub hold: Hold,
-    /// What cells its mesh has.
+    /// The kind of its cells.
     pub kind: Kind,
     /// The scene, whose mesh is `mesh.msh` beside it.
     pub scene: String,

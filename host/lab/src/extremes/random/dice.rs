@@ -31,7 +31,7 @@ impl Random {
         self.between(low.ln(), high.ln()).exp()
     }
 
-    /// The same with either sign.
+    /// A number of [`Self::log`] with either sign.
     pub fn signed_log(&mut self, low: f64, high: f64) -> f64 {
         let sign = if self.chance(0.5) { 1.0 } else { -1.0 };
         sign * self.log(low, high)

@@ -150,7 +150,7 @@ impl Function {
         Self { terms, frame }
     }
 
-    /// The same on `axis` alone: a function of one coordinate.
+    /// A smooth function of the coordinate `axis` alone.
     pub fn draw_along(random: &mut Random, axis: usize, steepest: f64) -> Self {
         let mut function = Self::draw(random, Frame::RECTANGLE, Rough::Smooth, steepest);
         for term in &mut function.terms {
@@ -161,7 +161,7 @@ impl Function {
         function
     }
 
-    /// The same, `factor` times as large.
+    /// The function, `factor` times as large.
     #[must_use]
     pub fn times(mut self, factor: f64) -> Self {
         self.terms.iter_mut().for_each(|term| term.factor *= factor);

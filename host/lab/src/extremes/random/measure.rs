@@ -10,6 +10,7 @@ use super::attempt::Attempt;
 use super::case::{RandomCase, Way, Yardstick};
 use super::nested::{Apart, MeshSolution, apart};
 use super::outputs::{Asked, Intervals};
+use crate::extremes::measure::solve_directly;
 use signorini_certify::ErrorBound;
 use signorini_certify::exact::{Distance, distance_on};
 use signorini_certify::robin::missed;
@@ -21,20 +22,18 @@ use signorini_scene::mesh::refine::refined;
 use signorini_scene::scene::units::Units;
 use signorini_solve::norms::errors;
 use signorini_solve::outputs::Reading;
-use signorini_solve::{Options, Solution, SolverKind, choose_units, solve, times};
+use signorini_solve::{Solution, choose_units, times};
 
 /// An answer beside the truth, in units in which its numbers are near 1.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Measured {
     /// Its bound.
-    pub bound: Option<ErrorBound>,
-    /// The bound on u_h.
-    pub of_u_bound: f64,
+    pub bound: ErrorBound,
     /// The distance of s and τ from the truth; without a bound NaN.
     pub combined: f64,
-    /// That of u_h.
+    /// The distance of u_h from the truth.
     pub of_u: f64,
-    /// What the bound is up to quadrature, and how far its square may be off by rounding, where the exact solution is
+    /// The number that the bound is up to quadrature, and how far its square may be off by rounding, where the exact solution is
     /// known.
     pub identity: Option<[f64; 2]>,
     /// The bound of the truth: 0 where it is exact.
@@ -50,6 +49,14 @@ pub struct Measured {
 }
 
 impl Measured {
+    /// |gap/identity − 1| less what rounding may be of it, where the exact solution is known and the gap is no rounding.
+    pub fn identity_off(&self) -> Option<f64> {
+        let ([identity, rounding], gap) = (self.identity?, self.bound.duality_gap);
+        // |gap² − identity²| = |gap − identity| (gap + identity)
+        let off = (gap - identity).abs() - rounding / (gap + identity);
+        (gap > ROUNDINGS * self.bound.rounding).then(|| off.max(0.0) / identity)
+    }
+
     /// The errors, less what they may be off.
     pub fn least(&self) -> [f64; 2] {
         [self.combined - self.uncertain[0], self.of_u - self.uncertain[1]].map(|of| of.max(0.0))
@@ -70,6 +77,8 @@ const PANELS: [u32; 3] = [1, 4, 24];
 
 /// |gap/identity − 1| up to which the integrals of the exact solution are trusted.
 pub const IDENTITY: f64 = 2e-3;
+/// The identity is asked for where the gap is above so many times its rounding.
+const ROUNDINGS: f64 = 100.0;
 /// Part of the gap up to which what 8 points miss of u_ext leaves the identity as it is.
 const RESOLVED: f64 = 1e-4;
 
@@ -92,7 +101,7 @@ pub fn measure(case: &RandomCase, attempt: &Attempt) -> Result<Option<Measured>>
         Yardstick::Catalogue | Yardstick::Made => Some(held.by_exact()?),
     };
     if let Some(found) = &mut found {
-        found.best = directly(&problem).ok().and_then(|of| of.bound).map(|of| of.total);
+        found.best = solve_directly(&problem).ok().and_then(|of| of.bound).map(|of| of.total);
     }
     Ok(found)
 }
@@ -128,8 +137,7 @@ impl Held<'_> {
         let (problem, own) = (self.problem, self.side());
         let within = apart(&own, &own, 0, &gauss(POINTS))?;
         let mut found = Measured {
-            bound: Some(self.bound),
-            of_u_bound: self.bound.of_u,
+            bound: self.bound,
             combined: f64::NAN,
             of_u: f64::NAN,
             energy: within.energy,
@@ -161,7 +169,7 @@ impl Held<'_> {
         found.combined > self.bound.total || of_gap > 0.1 * IDENTITY
     }
 
-    /// What 8 points of the edges of R miss.
+    /// The part that 8 points of the edges of R miss.
     fn missed(&self) -> Result<f64> {
         let problem = self.problem;
         let laws = problem.loads.robin.iter();
@@ -180,7 +188,7 @@ impl Held<'_> {
         }
         let mut finer = Problem::new(&problem.scene, mesh)?;
         finer.set_time(problem.time)?;
-        let Ok(solution) = directly(&finer) else { return Ok(None) };
+        let Ok(solution) = solve_directly(&finer) else { return Ok(None) };
         let Some(its) = solution.bound else { return Ok(None) };
         let Solution { u, certified, .. } = &solution;
         let intervals = self.asked().by_finer((&finer, &solution));
@@ -199,25 +207,18 @@ impl Held<'_> {
             }
         }
         Ok(Some(Measured {
-            bound: Some(self.bound),
-            of_u_bound: self.bound.of_u,
+            bound: self.bound,
             combined: found.combined,
             of_u: found.of_u,
-            identity: None,
             total: its.total,
             uncertain,
             energy: found.energy,
-            best: None,
             intervals,
+            ..Measured::default()
         }))
     }
 }
 
 fn difference(one: &Apart, other: &Apart) -> [f64; 2] {
     [(one.combined - other.combined).abs(), (one.of_u - other.of_u).abs()]
-}
-
-fn directly(problem: &Problem) -> Result<Solution> {
-    let options = Options { solver: SolverKind::Direct, ..Options::default() };
-    solve(problem, &options)
 }

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, HashMap};
 use super::dice::Random;
 use signorini_scene::mesh::{Curve, Mesh, Surface};
 
-/// What cells a mesh has.
+/// The cells of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// Triangles alone.
@@ -24,7 +24,7 @@ pub enum Kind {
 /// Which part of the rectangle is meshed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outline {
-    /// All of it.
+    /// The whole rectangle.
     Whole,
     /// All but the upper right corner.
     Corner,
@@ -43,12 +43,12 @@ pub enum Regions {
     Scattered,
 }
 
-/// What is drawn.
+/// The properties of a mesh that is drawn.
 #[derive(Debug, Clone, Copy)]
 pub struct MeshPlan {
     /// About how many cells.
     pub cells: u32,
-    /// What cells.
+    /// The kind of cells.
     pub kind: Kind,
     /// Which part of the rectangle.
     pub outline: Outline,
@@ -60,7 +60,7 @@ pub struct MeshPlan {
     pub graded: bool,
     /// Whether sides consist of two curves.
     pub split: bool,
-    /// What places become: (axx x + axy y, ayx x + ayy y).
+    /// The image of a place: (axx x + axy y, ayx x + ayy y).
     pub map: [[f64; 2]; 2],
 }
 

@@ -31,19 +31,19 @@ use std::time::{Duration, Instant};
 
 use attempt::{Attempt, attempt};
 use case::RandomCase;
-use measure::{Measured, measure};
+use measure::measure;
 use record::Record;
 use row::Row;
 use verdict::{broken_by, ended};
 
 use super::grid::msh;
 use super::judge::{Ended, Outcome, judge};
-use super::watch::{Lost, watched};
+use super::watch::watched;
 use signorini_files::atomic::write_atomically;
 use signorini_problem::threads::on_two_threads;
 use signorini_scene::error::{Error, Result};
 
-/// What has no answer by then hangs.
+/// A case without an answer by then hangs.
 const LIMIT: Duration = Duration::from_secs(1800);
 
 /// Which scenes are drawn.
@@ -122,67 +122,43 @@ pub fn write(seed: u64, number: u32, folder: &Path) -> Result<()> {
     write_atomically(&folder.join("mesh.msh"), msh(&case.mesh).as_bytes())
 }
 
-/// What a case left: the answer, what was measured, and the seconds of the one.
-type Left = (Result<(Attempt, Result<Option<Measured>>)>, f64);
-
 /// Draws, solves, measures and judges one case.
 fn row(seed: u64, number: u32) -> Row {
     let start = Instant::now();
-    let left = watched(LIMIT, move || -> (RandomCase, Left) {
+    let left = watched(LIMIT, move || {
         let case = RandomCase::draw(seed, number);
         let start = Instant::now();
         let found = attempt(&case);
         let seconds = start.elapsed().as_secs_f64();
-        let found = found.map(|attempt| {
-            let measured = measured(&case, &attempt);
-            (attempt, measured)
-        });
-        (case, (found, seconds))
+        let row = match found {
+            Ok(attempt) => answered(&case, &attempt),
+            Err(error) => concluded(Row::of(&case), &case, &error.into()),
+        };
+        Row { seconds, ..row }
     });
-    let row = match left {
-        Ok((case, (found, seconds))) => Row { seconds, ..judged(&case, found) },
-        Err(lost) => {
-            let ended = match lost {
-                Lost::TimedOut => Ended::TimedOut,
-                Lost::Panicked => Ended::Panicked,
-            };
-            let (outcome, note) = judge(&ended, signorini_solve::ScalarKind::F64);
-            Row { outcome, note, ..Row::of(&RandomCase::draw(seed, number)) }
-        }
-    };
+    let row = left.unwrap_or_else(|lost| {
+        let case = RandomCase::draw(seed, number);
+        concluded(Row::of(&case), &case, &lost.into())
+    });
     Row { seconds_in_all: start.elapsed().as_secs_f64(), ..row }
 }
 
-/// Nothing is measured where a number is not finite.
-fn measured(case: &RandomCase, attempt: &Attempt) -> Result<Option<Measured>> {
-    if !attempt.is_finite() {
-        return Ok(None);
-    }
-    measure(case, attempt)
-}
-
-fn judged(case: &RandomCase, found: Result<(Attempt, Result<Option<Measured>>)>) -> Row {
-    let row = Row::of(case);
-    let (attempt, measured) = match found {
-        Ok((attempt, Ok(measured))) => (attempt, measured),
-        Ok((_, Err(error))) => {
-            return concluded(
-                row,
-                case,
-                &Ended::Failed(format!("not measured: {}", error.reason())),
-            );
-        }
-        Err(Error::Input(error)) if error.message().starts_with("not-finite") => {
-            return concluded(row, case, &Ended::RefusedLate(error.message().to_owned()));
-        }
-        Err(Error::Input(error)) => {
-            return concluded(row, case, &Ended::Refused(error.message().to_owned()));
-        }
-        Err(error) => return concluded(row, case, &Ended::Failed(error.to_string())),
+/// Measures an answer, if its numbers are finite, and judges it.
+fn answered(case: &RandomCase, attempt: &Attempt) -> Row {
+    let measured = match attempt.is_finite() {
+        true => measure(case, attempt),
+        false => Ok(None),
     };
-    let broken = broken_by(case, &attempt, measured.as_ref());
-    let ended = ended(&attempt, measured.as_ref());
-    let row = concluded(row.with(case, &attempt, measured.as_ref()), case, &ended);
+    let measured = match measured {
+        Ok(measured) => measured,
+        Err(error) => {
+            let ended = Ended::Failed(format!("not measured: {}", error.reason()));
+            return concluded(Row::of(case), case, &ended);
+        }
+    };
+    let broken = broken_by(case, attempt, measured.as_ref());
+    let ended = ended(attempt, measured.as_ref());
+    let row = concluded(Row::of(case).with(case, attempt, measured.as_ref()), case, &ended);
     let outcome = if broken.is_empty() { row.outcome } else { Outcome::Wrong };
     Row { broken, outcome, ..row }
 }

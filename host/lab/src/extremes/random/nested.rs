@@ -24,7 +24,7 @@ pub struct MeshSolution<'a> {
     pub u: &'a [f64],
 }
 
-/// What lies between them.
+/// The distance of two answers.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Apart {
     /// (‖A^½∇(s′ − s)‖² + ‖A^{−½}(τ′ − τ)‖² + ∫_R h(s′ − s)² + ∫_R ((τ′ − τ)·n)²/h)^½

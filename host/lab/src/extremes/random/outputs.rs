@@ -15,10 +15,10 @@ use signorini_solve::outputs::{Reading, declared};
 
 /// Outputs that one case is asked for.
 const EACH: usize = 3;
-/// What sums may round, and the quadrature of data miss, next to the largest number: intervals of controllers leave it out.
+/// The part of the largest number that sums may round and quadrature of data may miss: intervals of controllers leave it out.
 const ROUNDED: f64 = 1e-6;
 
-/// What the intervals of a case came to.
+/// The intervals of a case.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Intervals {
     /// How many there are.
@@ -38,13 +38,13 @@ pub struct Asked<'a> {
     pub problem: &'a Problem,
     /// s, τ and the bound.
     pub answer: Answered<'a>,
-    /// What its outputs are read off.
+    /// The fields that its outputs are read off.
     pub reading: Reading<'a>,
     /// Whether all equations but those on contact edges hold.
     pub is_balanced: bool,
 }
 
-/// What is known of an output: its value, and by how much that may be off.
+/// A known output by its name: its value, and by how much that may be off.
 type Known = BTreeMap<String, [f64; 2]>;
 
 impl Asked<'_> {
@@ -83,7 +83,7 @@ impl Asked<'_> {
         all
     }
 
-    /// What rounding and quadrature leave of an output: a part of the largest flux, or of the largest u.
+    /// The error of an output by rounding and quadrature: a part of the largest flux, or of the largest u.
     fn rounded(&self, problem: &Problem, name: &str) -> f64 {
         let of_u = |output: &Output| output.name.value == name && output.quantity == Quantity::Mean;
         let numbers = match problem.scene.outputs.iter().any(of_u) {

@@ -1,8 +1,8 @@
-//! A scene as it was drawn, before anybody says how to solve it.
+//! A scene as it was drawn, before its setting.
 
 use signorini_scene::mesh::Mesh;
 
-/// What holds its parts.
+/// The condition that holds its parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Hold {
     /// Given values somewhere.

@@ -1,4 +1,4 @@
-//! What a run of random scenes found, as `random.json` holds it: counts, the largest ratios, all that is broken.
+//! The findings of a run of random scenes, as `random.json` holds them: counts, the largest ratios, all that is broken.
 
 use std::collections::BTreeMap;
 
@@ -18,7 +18,7 @@ pub struct Record {
     pub seconds: f64,
     /// How many cases ended in which way.
     pub outcomes: BTreeMap<String, usize>,
-    /// The same by what was drawn.
+    /// These counts by what was drawn.
     pub classes: BTreeMap<String, BTreeMap<String, usize>>,
     /// The largest ratios and the cases that they belong to.
     pub worst: BTreeMap<String, Worst>,
@@ -40,9 +40,9 @@ pub struct Worst {
 pub struct Violation {
     /// The case.
     pub case: u32,
-    /// What was drawn.
+    /// The classes of the case.
     pub class: String,
-    /// What is broken.
+    /// The promise.
     pub what: String,
     /// With its numbers.
     pub words: String,
@@ -95,7 +95,7 @@ impl Record {
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
     }
 
-    /// What the terminal shows.
+    /// The text for the terminal.
     pub fn text(&self) -> String {
         let counts = Outcome::ALL.map(|outcome| {
             let name = outcome.name();

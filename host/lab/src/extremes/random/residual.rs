@@ -10,7 +10,7 @@ use signorini_kernel::Error as KernelError;
 
 use signorini_problem::{Assembled, Problem};
 
-/// What is left of the equations.
+/// The residual of the equations.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Residual {
     /// The largest violation over max(range of u, max |b_E|/K_EE).
@@ -72,7 +72,7 @@ pub(super) fn ends(problem: &Problem, contact: usize) -> [f64; 2] {
     [span.min(0.0), span.max(0.0)]
 }
 
-/// What the law leaves of the opening and a step of u, and the end that it is for.
+/// The residual of the law from the opening and a step of u, and the end that it is for.
 fn left(opening: f64, step: f64, [least, most]: [f64; 2]) -> [f64; 2] {
     let [above, below] = [least, most].map(|end| opening - step + end);
     match (above > 0.0, below < 0.0) {

@@ -1,4 +1,4 @@
-//! What became of one random scene.
+//! The findings of one random scene.
 
 use serde::Serialize;
 
@@ -8,8 +8,9 @@ use super::measure::Measured;
 use super::mesh::Kind;
 use super::posed::Hold;
 use super::verdict::Broken;
-use crate::extremes::judge::Outcome;
-use signorini_scene::error::{Error, Result};
+use crate::csv_file::csv_file;
+use crate::extremes::judge::{Outcome, ratio};
+use signorini_scene::error::Result;
 use signorini_solve::ScalarKind;
 
 /// A line of `random.csv`.
@@ -19,17 +20,17 @@ pub struct Row {
     pub case: u32,
     /// Where its truth comes from.
     pub truth: &'static str,
-    /// What holds it.
+    /// The condition that holds it.
     pub hold: &'static str,
     /// Its cells.
     pub cells: &'static str,
     /// Its scalar.
     pub scalar: &'static str,
-    /// Who solved it.
+    /// The solver.
     pub way: &'static str,
     /// A limit on the sweeps.
     pub limit: Option<u32>,
-    /// What the answer is worth.
+    /// The worth of the answer.
     pub outcome: Outcome,
     /// Edges not on D.
     pub unknowns: Option<usize>,
@@ -39,7 +40,7 @@ pub struct Row {
     pub sweeps: Option<u32>,
     /// The true distance of s and τ over the bounds; as far as it is known where it seems above them.
     pub error_over_bound: Option<f64>,
-    /// That of u_h over its bounds.
+    /// The true distance of u_h over its bounds.
     pub of_u_over_bound: Option<f64>,
     /// |gap/identity − 1|
     pub identity_off: Option<f64>,
@@ -53,13 +54,13 @@ pub struct Row {
     pub seconds_in_all: f64,
     /// Why it is not correct.
     pub note: String,
-    /// What it breaks.
+    /// The promises that it breaks.
     #[serde(skip)]
     pub broken: Vec<Broken>,
 }
 
 impl Row {
-    /// What was drawn.
+    /// The row of a case before it is solved.
     pub fn of(case: &RandomCase) -> Self {
         Self {
             case: case.number,
@@ -108,32 +109,20 @@ impl Row {
     /// With the numbers of its answer.
     #[must_use]
     pub fn with(self, case: &RandomCase, attempt: &Attempt, measured: Option<&Measured>) -> Self {
-        let over = |part: f64, whole: f64| match part == 0.0 {
-            true => Some(0.0),
-            false => Some(part / whole).filter(|ratio| ratio.is_finite()),
-        };
-        let total = |of: &Measured| of.bound.map_or(f64::NAN, |bound| bound.total);
-        let counts = case.effort.scalar == ScalarKind::F64;
-        let identity = |of: &Measured| {
-            let (bound, identity) = (of.bound?, of.identity?);
-            let [identity, rounding] = identity;
-            let off =
-                (bound.duality_gap - identity).abs() - rounding / (bound.duality_gap + identity);
-            let found = off.max(0.0) / identity;
-            (counts && bound.duality_gap > 100.0 * bound.rounding && found.is_finite())
-                .then_some(found)
-        };
+        let of_f64 = case.effort.scalar == ScalarKind::F64;
         Self {
             unknowns: Some(attempt.problem.topology.counts.unknowns()),
             status: Some(attempt.answer.status.name()),
             sweeps: Some(attempt.answer.sweeps),
-            error_over_bound: measured.and_then(|of| over(of.least()[0], total(of) + of.total)),
-            of_u_over_bound: measured.and_then(|of| over(of.least()[1], of.of_u_bound + of.total)),
-            identity_off: measured.and_then(identity),
+            error_over_bound: measured
+                .and_then(|of| ratio(of.least()[0], of.bound.total + of.total)),
+            of_u_over_bound: measured.and_then(|of| ratio(of.least()[1], of.bound.of_u + of.total)),
+            identity_off: (measured.filter(|_| of_f64).and_then(Measured::identity_off))
+                .filter(|off| off.is_finite()),
             output_over_interval: measured
                 .filter(|of| of.intervals.found > 0)
                 .map(|of| of.intervals.worst),
-            relative_bound: measured.and_then(|of| over(total(of), of.energy)),
+            relative_bound: measured.and_then(|of| ratio(of.bound.total, of.energy)),
             ..self
         }
     }
@@ -176,10 +165,5 @@ impl Row {
 /// # Errors
 /// Never for plain data.
 pub fn csv(rows: &[Row]) -> Result<Vec<u8>> {
-    let failed = |error: String| Error::Check(format!("random.csv: {error}"));
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        writer.serialize(row).map_err(|error| failed(error.to_string()))?;
-    }
-    writer.into_inner().map_err(|error| failed(error.to_string()))
+    csv_file("random.csv", rows)
 }

@@ -6,6 +6,7 @@ use std::path::Path;
 use super::nested::{MeshSolution, apart};
 use super::residual::residual;
 use super::*;
+use crate::extremes::measure::solve_directly;
 use signorini_certify::exact::distance;
 use signorini_problem::Problem;
 use signorini_problem::quadrature::gauss;
@@ -13,7 +14,7 @@ use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::refine::refined;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
-use signorini_solve::{Options, Solution, SolverKind, solve};
+use signorini_solve::Solution;
 
 /// A fixed seed: whatever is mended stays mended.
 #[test]
@@ -24,7 +25,7 @@ fn two_hundred_random_scenes_keep_their_promises() {
     assert!(record.violations.is_empty(), "{}", record.text());
 }
 
-/// What once seemed broken: a varying hi − lo (969, and 6284 beside a given flux), a kink inside a cell (1115), loads that a tick
+/// Cases that once seemed broken: a varying hi − lo (969, and 6284 beside a given flux), a kink inside a cell (1115), loads that a tick
 /// integrates input by input (1253).
 #[test]
 fn checks_of_limits_ask_for_what_the_bound_says() {
@@ -51,8 +52,7 @@ fn scene(ambient: &str) -> Scene {
 }
 
 fn solved(problem: &Problem) -> Solution {
-    let options = Options { solver: SolverKind::Direct, ..Options::default() };
-    solve(problem, &options).unwrap()
+    solve_directly(problem).unwrap()
 }
 
 /// Of a scene on a mesh and on one `levels` finer: the distance, and both bounds.
@@ -113,8 +113,7 @@ fn made_scenes_are_solved_by_what_they_were_made_for() {
     for case in made.take(12) {
         let scene = Scene::parse(&case.scene, Path::new("made.toml")).unwrap();
         let Ok(problem) = Problem::new(&scene, case.mesh.clone()) else { continue };
-        let options = Options { solver: SolverKind::Direct, ..Options::default() };
-        let Ok(own) = solve(&problem, &options) else { continue };
+        let Ok(own) = solve_directly(&problem) else { continue };
         let (Some(bound), Some(exact)) = (own.bound, &scene.exact) else { continue };
         let found = distance(exact, &problem, &own.certified.admissible()).unwrap();
         if bound.duality_gap >= 100.0 * bound.rounding {
