@@ -42,7 +42,7 @@ fn a_model_is_refused_whose_numbers_its_scalar_cannot_square() {
     let levee = levee.replace("\"levee.msh\"", &format!("{mesh:?}"));
     let far = folder.path().join("far.toml");
     let written = |value: &str| {
-        let text = levee.replace("value = \"-4.0\"", &format!("value = \"{value}\""));
+        let text = levee.replace("value = \"-4.5\"", &format!("value = \"{value}\""));
         assert_ne!(text, levee);
         std::fs::write(&far, text).expect("a scene");
     };
