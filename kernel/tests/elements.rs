@@ -1,5 +1,4 @@
 //! Elements and areas against numbers worked out by hand, on cells of no special size.
-#![allow(clippy::indexing_slicing)]
 
 use signorini_kernel::element::{crouzeix_raviart, rannacher_turek};
 use signorini_kernel::error::{Array, CellId};

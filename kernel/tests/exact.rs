@@ -1,5 +1,4 @@
 //! Small facts worked out by hand: limits that are just met, and figures that larger problems hide.
-#![allow(clippy::indexing_slicing)]
 
 use signorini_kernel::conjugate::{self, ConjugateBuffers};
 use signorini_kernel::csr::Csr;

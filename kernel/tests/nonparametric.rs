@@ -1,5 +1,4 @@
 //! The nonparametric quad against what defines it, and against the parametric one on parallelograms.
-#![allow(clippy::indexing_slicing)]
 
 use signorini_kernel::element::{QuadElement, crouzeix_raviart, nonparametric, rannacher_turek};
 use signorini_kernel::mesh::Mesh;

@@ -6,7 +6,7 @@
 mod bound;
 mod catalogue;
 mod condensed;
-#[path = "../../kernel/device/tests/factored/mod.rs"]
+#[path = "../../kernel/device/tests/factored.rs"]
 mod factored;
 mod forces;
 mod hostile;

@@ -1,24 +1,18 @@
 //! Condensed models after inputs of any size: what overflows is refused and leaves every bit where it was, what
 //! is answered is answered rightly, and so is the tick after it.
 
-#[path = "condensed/strip.rs"]
-#[allow(dead_code)]
-mod strip;
-
-use signorini_contact::dense::Iterate;
-use signorini_contact::dense::blocks::{Block, SIDE, count, padded};
+use crate::memory::{Dense, Draw, bare};
+use crate::strip::Strip;
+use signorini_contact::Condensed;
+use signorini_contact::dense::blocks::padded;
 use signorini_contact::dense::ranges::Given;
-use signorini_contact::dense::tableau::{InitialTableau, Tableau};
-use signorini_contact::method::{Method, Pivots, Sweeps};
+use signorini_contact::dense::tableau::InitialTableau;
+use signorini_contact::method::{Pivots, Sweeps};
 use signorini_contact::outputs::Measure;
-use signorini_contact::spans::SpanBuffer;
-use signorini_contact::spans::SpanColumns;
-use signorini_contact::{Condensed, Memory};
 use signorini_kernel::limits::Deadline;
 use signorini_kernel::report::{Ended, Report};
 use signorini_kernel::{Error, Real};
 use signorini_tolerances::kernel::{CONDENSED_NARROW, EXTREME_DEFECT};
-use strip::{Random, Strip};
 
 const EDGES: usize = 19;
 
@@ -66,7 +60,7 @@ struct Plate<R> {
 
 impl<R: Scalar> Plate<R> {
     fn new(output: f64) -> Self {
-        let (strip, mut random) = (Strip::<R>::new(EDGES), Random::new(5));
+        let (strip, mut random) = (Strip::<R>::new(EDGES), Draw(5));
         let [constant, other] = [0.1, -0.2].map(|shift| strip.load(shift, &mut random));
         let of_contact = (0..EDGES).map(|at| R::of(output * (1.0 + at as f64))).collect();
         let outputs = [vec![R::of(0.5), R::of(-0.25)], of_contact];
@@ -77,16 +71,12 @@ impl<R: Scalar> Plate<R> {
     fn with<T>(&self, work: impl FnOnce(&Condensed<R>) -> T) -> T {
         let [of_inputs, of_contact] = &self.outputs;
         work(&Condensed {
-            has_bound: false,
             contact: EDGES,
             matrix: self.strip.blocks(),
-            x: &[],
             start: InitialTableau { blocks: self.strip.blocks(), exchanged: &self.nothing },
             load: &self.load,
-            limits: &[],
-            spans: SpanColumns::UNLIMITED,
             outputs: &[Measure::Linear { of_inputs, of_contact }],
-            certificate: None,
+            ..bare()
         })
     }
 
@@ -106,49 +96,24 @@ impl<R: Scalar> Plate<R> {
 /// Memory of a controller, all of it.
 #[derive(Debug, Clone)]
 struct Store<R> {
-    x: Vec<R>,
-    scratch: [Vec<R>; 3],
-    open: Vec<bool>,
-    blocks: Vec<Block<R>>,
-    exchanged: Vec<bool>,
-    columns: [Vec<R>; 2],
+    dense: Dense<R>,
     is_built: bool,
 }
 
 impl<R: Scalar> Store<R> {
     fn new() -> Self {
-        let zeros = || vec![R::ZERO; padded(EDGES)];
-        Self {
-            x: zeros(),
-            scratch: [zeros(), zeros(), zeros()],
-            open: vec![false; padded(EDGES)],
-            blocks: vec![[[R::ZERO; SIDE]; SIDE]; count(EDGES)],
-            exchanged: vec![false; padded(EDGES)],
-            columns: [zeros(), zeros()],
-            is_built: false,
-        }
+        Self { dense: Dense::new(EDGES), is_built: false }
     }
 
     /// Ticks with the input `p`; the output is read off as a baked module does.
     fn tick(&mut self, model: &Condensed<R>, how: How, p: f64) -> Result<(R, Report<R>), Error> {
-        let Self { x, scratch: [residual, scratch, load], open, .. } = self;
-        let iterate = Iterate { x, residual, scratch, open };
-        let mut memory = Memory {
-            iterate,
-            load,
-            spans: SpanBuffer::new(&mut []),
-            combination: &mut [],
-            sum: &mut [],
-        };
+        let (mut tableau, mut memory) = self.dense.ticking()?;
         let inputs = [R::ONE, R::of(p)];
         let sweeps = |most| Sweeps { omega: R::of(1.4), tolerance: R::of(20.0) * R::EPSILON, most };
         let never = &mut Deadline::never();
         let report = match how {
             How::Sweeps(most) => model.tick(&inputs, &mut sweeps(most), never, &mut memory)?,
             How::Exchanges(most) => {
-                let [column, next] = &mut self.columns;
-                let (blocks, exchanged) = (&mut self.blocks, &mut self.exchanged);
-                let mut tableau = Tableau::new(EDGES, blocks, exchanged, [column, next])?;
                 if !self.is_built {
                     tableau.reset(&model.start)?;
                     self.is_built = true;
@@ -161,9 +126,9 @@ impl<R: Scalar> Store<R> {
     }
 
     fn bits(&self) -> (Vec<u64>, Vec<u64>, Vec<bool>) {
-        let entries = self.blocks.as_flattened().as_flattened();
+        let entries = self.dense.blocks.as_flattened().as_flattened();
         let bits = |numbers: &[R]| numbers.iter().map(|x| x.bits()).collect();
-        (bits(&self.x), bits(entries), self.exchanged.clone())
+        (bits(&self.dense.x), bits(entries), self.dense.exchanged.clone())
     }
 }
 
@@ -194,14 +159,14 @@ fn answers_rightly<R: Scalar>() -> [u32; 3] {
                     }
                     Ok((output, report)) => {
                         assert!(
-                            output.finite() && store.x.iter().all(|x| x.finite()),
+                            output.finite() && store.dense.x.iter().all(|x| x.finite()),
                             "{}",
                             said()
                         );
                         if report.ended == Ended::OutOfSweeps {
                             continue;
                         }
-                        let defect = plate.defect(p, &store.x);
+                        let defect = plate.defect(p, &store.dense.x);
                         let off = defect / R::EPSILON.wide() * f64::EPSILON;
                         EXTREME_DEFECT.check(format_args!("{}: {report:?}", said()), off);
                         *(if report.ended == Ended::Exact {
@@ -275,7 +240,7 @@ fn sweeps_come_back_from_what_a_heavy_tick_has_left() {
         let ended = (0..20).map(|_| tick(0.6).expect("an ordinary tick").1.ended);
         let ticks = ended.take_while(|ended| *ended != Ended::Settled).count();
         assert!(ticks < 12, "{heavy:e}: {ticks}");
-        CONDENSED_NARROW.check(format_args!("{heavy:e}"), plate.defect(0.6, &store.x));
+        CONDENSED_NARROW.check(format_args!("{heavy:e}"), plate.defect(0.6, &store.dense.x));
     }
 }
 
@@ -288,21 +253,13 @@ fn a_huge_x_is_none<R: Scalar>() -> Result<(), Error> {
         (0..size).map(entry).map(R::of).collect()
     };
     let mut sweeps = Sweeps { omega: R::ONE, tolerance: R::of(20.0) * R::EPSILON, most: 50 };
-    let [mut x, mut residual, mut scratch] = [(); 3].map(|()| vec![R::ZERO; size]);
-    let open = &mut vec![false; size];
+    let mut memory = Dense::<R>::new(24);
     // Next to the largest numbers a load's size is the sum of its entries: refused beyond 2e29 in f32.
     for decade in 0..29 {
         for pull in [10f64.powi(decade), 1.0, 1e-3] {
-            let iterate =
-                Iterate { x: &mut x, residual: &mut residual, scratch: &mut scratch, open };
-            let progress = sweeps.solve(
-                &matrix,
-                Given::above(&load(pull)),
-                iterate,
-                &mut Deadline::never(),
-            )?;
+            let progress = memory.solve(&mut sweeps, &matrix, Given::above(&load(pull)))?;
             assert_eq!(progress.ended, Ended::OutOfSweeps, "{pull:e} after 1e{decade}");
-            assert!(x.iter().all(|x| *x >= R::ZERO && x.finite()));
+            assert!(memory.x.iter().all(|x| *x >= R::ZERO && x.finite()));
         }
     }
     Ok(())

@@ -3,13 +3,12 @@
 //! ```text
 //!   (gap/U)² = (‖F z‖ + stability ‖δ‖)² + 2 Σ mean⁺ (τ − least) + mean⁻ (greatest − τ)
 //! ```
-#![allow(clippy::indexing_slicing)]
 
+use crate::memory::{Draw, bare};
 use signorini_contact::candidate::Candidate;
 use signorini_contact::certificate::{Corner, Form, Vertex};
 use signorini_contact::dense::Iterate;
 use signorini_contact::dense::ranges::Given;
-use signorini_contact::dense::tableau::InitialTableau;
 use signorini_contact::factor::Factor;
 use signorini_contact::method::Sweeps;
 use signorini_contact::outputs::Measure;
@@ -30,25 +29,6 @@ const COLUMNS: usize = INPUTS + EDGES + VERTICES;
 const UP: f64 = f64::INFINITY;
 const STABILITY: f64 = 1.25;
 const ENERGY: f64 = 0.75;
-
-/// Knuth's generator.
-struct Draw(u64);
-
-impl Draw {
-    fn part(&mut self) -> f64 {
-        let next = self.0.wrapping_mul(6_364_136_223_846_793_005);
-        self.0 = next.wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn signed(&mut self) -> f64 {
-        2.0 * self.part() - 1.0
-    }
-
-    fn of<const N: usize>(&mut self, all: [f64; N]) -> f64 {
-        all[(self.part() * N as f64) as usize]
-    }
-}
 
 /// A form, and an answer to judge by it.
 struct Drawn {
@@ -342,14 +322,10 @@ fn supplied(spans: &[f64], supply: f64, buffer: &mut [f64; 8]) -> Result<[f64; 3
     let model = Condensed {
         contact: 2,
         matrix: &[block],
-        x: &[],
-        start: InitialTableau { blocks: &[], exchanged: &[] },
         load: &load,
-        limits: &[],
         spans: SpanColumns::new(spans),
         outputs: &[Measure::Flux { of_inputs: &[], of_contact: &[], of_reaction: &weights }],
-        certificate: None,
-        has_bound: false,
+        ..bare()
     };
     let [mut x, mut residual, mut scratch, mut load] = [[0.0; 8]; 4];
     let iterate = Iterate {

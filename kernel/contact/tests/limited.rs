@@ -1,21 +1,17 @@
 //! Contact whose flux has two ends: what the law allows, and exchanges with three sides by complementarity itself.
 
-#[path = "condensed/strip.rs"]
-#[allow(dead_code)] // Other tests need more of it.
-mod strip;
-
-use signorini_contact::dense::Iterate;
-use signorini_contact::dense::blocks::{SIDE, count, padded};
+use crate::memory::{Dense, Draw};
+use crate::strip::Strip;
+use signorini_contact::dense::blocks::padded;
 use signorini_contact::dense::pivoting::{Found, find};
 use signorini_contact::dense::ranges::Given;
 use signorini_contact::dense::rule::Largest;
-use signorini_contact::dense::tableau::{InitialTableau, Tableau};
+use signorini_contact::dense::tableau::InitialTableau;
 use signorini_kernel::Error;
 use signorini_kernel::error::Array;
 use signorini_kernel::flux_range::{FluxRange, Span, Spans};
 use signorini_kernel::law::{EdgeLaw, Move};
 use signorini_tolerances::kernel::THREE_SIDES;
-use strip::{Random, Strip};
 
 const ENDLESS: f64 = f64::INFINITY;
 
@@ -182,7 +178,7 @@ fn defect(strip: &Strip<f64>, load: &[f64], x: &[f64], most: impl Fn(usize) -> f
 /// Loads that follow each other, with spans that are scaled edge by edge.
 #[test]
 fn exchanges_find_all_three_sides() -> Result<(), Error> {
-    let mut random = Random::new(17);
+    let mut random = Draw(17);
     let mut seen = [0; 3];
     for order in [1, 5, 8, 13, 24] {
         let strip = Strip::<f64>::new(order);
@@ -196,30 +192,20 @@ fn exchanges_find_all_three_sides() -> Result<(), Error> {
             .enumerate()
             .for_each(|(at, scale)| *scale = 0.5 + 0.1 * at as f64);
         let most = |at: usize| spans[at] * scale[at];
-        let mut blocks = vec![[[0.0; SIDE]; SIDE]; count(order)];
-        let [mut x, mut residual, mut scratch, mut column, mut next] =
-            [(); 5].map(|()| vec![0.0; length]);
-        let (mut open, mut exchanged) = (vec![false; length], vec![false; length]);
         let start = InitialTableau::untouched(&matrix);
-        let mut tableau =
-            Tableau::new(order, &mut blocks, &mut exchanged, [&mut column, &mut next])?;
-        tableau.reset(&start)?;
+        let mut memory = Dense::of(&matrix, order)?;
         let mut load = vec![0.0; length];
         for _ in 0..40 {
             for b in load.iter_mut().take(order) {
-                *b = 0.5 * *b + random.next();
+                *b = 0.5 * *b + random.signed();
             }
             let given = Given::between(&load, Spans::new(&spans)?, &scale);
-            let iterate = Iterate {
-                x: &mut x,
-                residual: &mut residual,
-                scratch: &mut scratch,
-                open: &mut open,
-            };
+            let (mut tableau, iterate) = memory.parts()?;
             let (found, pivots) =
                 find(&matrix, given, &mut tableau, &start, &mut Largest, |_| true, iterate)?;
+            let Dense { x, residual, open, .. } = &memory;
             assert!(found == Found::Exact && pivots as usize <= 4 * order, "{order}: {pivots}");
-            THREE_SIDES.check(format_args!("{order}"), defect(&strip, &load, &x, most));
+            THREE_SIDES.check(format_args!("{order}"), defect(&strip, &load, x, most));
             for (at, &x) in x.iter().enumerate() {
                 assert_eq!(open[at], x != 0.0);
                 if at < order {

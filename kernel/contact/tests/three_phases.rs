@@ -1,29 +1,16 @@
 //! Exchanges in three phases where fluxes have limits: an end from every state, for matrices without a positive entry off the
 //! diagonal; and sweeps to the same answer.
-#![allow(clippy::indexing_slicing)]
 
-use signorini_contact::dense::Iterate;
+use crate::memory::{Dense, Draw};
 use signorini_contact::dense::blocks::{Block, Blocks, SIDE, count, padded};
 use signorini_contact::dense::ranges::Given;
 use signorini_contact::dense::rule::{Phases, Rule as _};
-use signorini_contact::dense::tableau::{InitialTableau, Tableau};
 use signorini_contact::method::{Method, Sweeps, TwoPhases};
 use signorini_kernel::Error;
 use signorini_kernel::flux_range::Spans;
 use signorini_kernel::limits::Deadline;
 use signorini_kernel::report::Ended;
 use signorini_tolerances::kernel::{CONDENSED, THREE_PHASES_SWEPT};
-
-/// Knuth's generator, in [0, 1).
-struct Draw(u64);
-
-impl Draw {
-    fn part(&mut self) -> f64 {
-        let next = self.0.wrapping_mul(6_364_136_223_846_793_005);
-        self.0 = next.wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
 
 /// A matrix, a load and spans.
 struct Plant {
@@ -79,28 +66,22 @@ impl Plant {
 
     /// x by `solve`, what it took, and how it ended; it begins with these sides, above, on and below the gap.
     fn solved(&self, sides: &[i8], sweeps: Option<u32>) -> Result<(Vec<f64>, u32, Ended), Error> {
-        let (n, length) = (self.order, padded(self.order));
-        let [mut x, mut residual, mut scratch, mut column, mut next] =
-            [(); 5].map(|()| vec![0.0; length]);
-        let (mut flags, mut exchanged) = (vec![false; length], vec![false; length]);
-        let (nothing, mut own) = (exchanged.clone(), self.blocks.clone());
-        let mut tableau = Tableau::new(n, &mut own, &mut exchanged, [&mut column, &mut next])?;
-        tableau.reset(&InitialTableau { blocks: &self.blocks, exchanged: &nothing })?;
-        for at in (0..n).filter(|&at| sides[at] != 0) {
-            assert!(tableau.exchange(at, &mut scratch)?);
-            x[at] = f64::from(sides[at]);
-        }
-        let iterate =
-            Iterate { x: &mut x, residual: &mut residual, scratch: &mut scratch, open: &mut flags };
+        let matrix = Blocks::new(&self.blocks, self.order)?;
+        let mut memory = Dense::of(&matrix, self.order)?;
         let given = Given::between(&self.load, Spans::new(&self.spans)?, &[]);
-        let (matrix, never) = (Blocks::new(&self.blocks, n)?, &mut Deadline::never());
+        let (mut tableau, iterate) = memory.parts()?;
+        for at in (0..self.order).filter(|&at| sides[at] != 0) {
+            assert!(tableau.exchange(at, iterate.scratch)?);
+            iterate.x[at] = f64::from(sides[at]);
+        }
+        let never = &mut Deadline::never();
         let found = match sweeps {
             None => TwoPhases { tableau }.solve(&matrix, given, iterate, never)?,
             Some(most) => Sweeps { omega: 1.2, tolerance: 1e-15, most }
                 .solve(&matrix, given, iterate, never)?,
         };
-        x.truncate(n);
-        Ok((x, found.pivots, found.ended))
+        memory.x.truncate(self.order);
+        Ok((memory.x, found.pivots, found.ended))
     }
 
     /// Sides that the ranges allow, from the digits of a number.

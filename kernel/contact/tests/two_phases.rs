@@ -1,27 +1,14 @@
 //! Exchanges in two phases on matrices without a positive entry off the diagonal: an end from every state.
-#![allow(clippy::indexing_slicing)]
 
-use signorini_contact::dense::Iterate;
+use crate::memory::{Dense, Draw};
 use signorini_contact::dense::blocks::{Block, Blocks, SIDE, count, padded};
 use signorini_contact::dense::ranges::Given;
 use signorini_contact::dense::rule::{Largest, Phases, Rule as _};
-use signorini_contact::dense::tableau::{InitialTableau, Tableau};
 use signorini_contact::method::{Method as _, TwoPhases};
 use signorini_kernel::Error;
 use signorini_kernel::limits::Deadline;
 use signorini_kernel::report::Ended;
 use signorini_tolerances::kernel::CONDENSED;
-
-/// Knuth's generator, in [0, 1).
-struct Draw(u64);
-
-impl Draw {
-    fn part(&mut self) -> f64 {
-        let next = self.0.wrapping_mul(6_364_136_223_846_793_005);
-        self.0 = next.wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
 
 /// Rows of a symmetric matrix with a diagonal of 1 and row sums above 0: neighbours pull most.
 fn matrix(n: usize, draw: &mut Draw) -> Vec<Block<f64>> {
@@ -45,29 +32,18 @@ fn matrix(n: usize, draw: &mut Draw) -> Vec<Block<f64>> {
 
 /// The exchanges of a solve from the edges `open`, after its answer was checked.
 fn exchanges(n: usize, blocks: &[Block<f64>], load: &[f64], open: &[bool]) -> Result<u32, Error> {
-    let length = padded(n);
-    let [mut x, mut residual, mut scratch, mut column, mut next] =
-        [(); 5].map(|()| vec![0.0; length]);
-    let (mut flags, mut exchanged) = (vec![false; length], vec![false; length]);
-    let (nothing, mut own) = (exchanged.clone(), blocks.to_vec());
-    let mut tableau = Tableau::new(n, &mut own, &mut exchanged, [&mut column, &mut next])?;
-    let start = InitialTableau { blocks, exchanged: &nothing };
-    tableau.reset(&start)?;
+    let matrix = Blocks::new(blocks, n)?;
+    let mut memory = Dense::of(&matrix, n)?;
+    let (mut tableau, iterate) = memory.parts()?;
     for at in (0..n).filter(|&at| open[at]) {
-        assert!(tableau.exchange(at, &mut scratch)?);
+        assert!(tableau.exchange(at, iterate.scratch)?);
     }
-    let iterate =
-        Iterate { x: &mut x, residual: &mut residual, scratch: &mut scratch, open: &mut flags };
-    let mut method = TwoPhases { tableau };
-    let found = method.solve(
-        &Blocks::new(blocks, n)?,
-        Given::above(load),
-        iterate,
-        &mut Deadline::never(),
-    )?;
+    let given = Given::above(load);
+    let found = TwoPhases { tableau }.solve(&matrix, given, iterate, &mut Deadline::never())?;
+    let Dense { x, residual, .. } = &memory;
     assert_eq!((found.ended, found.sweeps), (Ended::Exact, 0));
     let size = x.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
-    for (x, r) in x.iter().zip(&residual) {
+    for (x, r) in x.iter().zip(residual) {
         CONDENSED.check("complementarity", x.min(*r) / size);
     }
     Ok(found.pivots)
@@ -139,17 +115,10 @@ fn the_bound_is_that_of_the_order() {
 fn a_deadline_ends_a_tick_between_exchanges() -> Result<(), Error> {
     let blocks = matrix(6, &mut Draw(3));
     let load = [0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.0, 0.0];
-    let [mut x, mut residual, mut scratch, mut column, mut next] = [[0.0; SIDE]; 5];
-    let [mut flags, mut exchanged, nothing] = [[false; SIDE]; 3];
-    let mut own = blocks.clone();
-    let mut tableau = Tableau::new(6, &mut own, &mut exchanged, [&mut column, &mut next])?;
-    let start = InitialTableau { blocks: &blocks, exchanged: &nothing };
-    tableau.reset(&start)?;
-    let mut method = TwoPhases { tableau };
+    let matrix = Blocks::new(&blocks, 6)?;
+    let mut memory = Dense::of(&matrix, 6)?;
     let mut ended = Vec::new();
     for _ in 0..8 {
-        let iterate =
-            Iterate { x: &mut x, residual: &mut residual, scratch: &mut scratch, open: &mut flags };
         // One exchange a tick: the second asks a clock that has run out.
         let mut left = 1;
         let remaining = || {
@@ -158,9 +127,10 @@ fn a_deadline_ends_a_tick_between_exchanges() -> Result<(), Error> {
             now
         };
         let mut deadline = Deadline { remaining, sweep: 1, certificate: 0 };
-        let found =
-            method.solve(&Blocks::new(&blocks, 6)?, Given::above(&load), iterate, &mut deadline)?;
-        assert!(found.pivots <= 1 && x.iter().all(|x| *x >= 0.0), "{found:?}");
+        let (tableau, iterate) = memory.parts()?;
+        let given = Given::above(&load);
+        let found = TwoPhases { tableau }.solve(&matrix, given, iterate, &mut deadline)?;
+        assert!(found.pivots <= 1 && memory.x.iter().all(|x| *x >= 0.0), "{found:?}");
         ended.push(found.ended);
     }
     assert_eq!((ended[0], ended[7]), (Ended::OutOfTime, Ended::Exact));
@@ -174,21 +144,14 @@ fn a_matrix_that_is_none_ends_with_zeros() -> Result<(), Error> {
     block[0][..2].copy_from_slice(&[1.0, -2.0]);
     block[1][..2].copy_from_slice(&[-2.0, 1.0]);
     let load = [1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-    let [mut x, mut residual, mut scratch, mut column, mut next] = [[0.0; SIDE]; 5];
-    let [mut flags, mut exchanged] = [[false; SIDE]; 2];
-    let (mut own, blocks) = ([block], [block]);
-    let mut tableau = Tableau::new(2, &mut own, &mut exchanged, [&mut column, &mut next])?;
+    let blocks = [block];
     let matrix = Blocks::new(&blocks, 2)?;
-    tableau.reset(&InitialTableau::untouched(&matrix))?;
-    let iterate =
-        Iterate { x: &mut x, residual: &mut residual, scratch: &mut scratch, open: &mut flags };
-    let found = TwoPhases { tableau }.solve(
-        &matrix,
-        Given::above(&load),
-        iterate,
-        &mut Deadline::never(),
-    )?;
-    assert_eq!((found.ended, x, flags), (Ended::OutOfSweeps, [0.0; SIDE], [false; SIDE]));
-    assert_eq!(residual, load.map(|load: f64| -load));
+    let mut memory = Dense::of(&matrix, 2)?;
+    let (tableau, iterate) = memory.parts()?;
+    let given = Given::above(&load);
+    let found = TwoPhases { tableau }.solve(&matrix, given, iterate, &mut Deadline::never())?;
+    assert_eq!((found.ended, &memory.x[..]), (Ended::OutOfSweeps, &[0.0; SIDE][..]));
+    assert_eq!(memory.open, [false; SIDE]);
+    assert_eq!(memory.residual, load.map(|load: f64| -load));
     Ok(())
 }

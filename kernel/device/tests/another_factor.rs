@@ -1,8 +1,7 @@
 //! The exact solver on two springs, by the factor of this matrix or of another: what is a solution, and what only looks
 //! like one.
 
-mod factored;
-
+use crate::factored;
 use signorini_device::sparse::{SolveSummary, Solved};
 use signorini_kernel::Error;
 use signorini_kernel::csr::Csr;

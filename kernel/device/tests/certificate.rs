@@ -1,10 +1,7 @@
 //! The bound against its definition, integrated from coordinates; and what it says of poor input.
-#![allow(clippy::indexing_slicing, clippy::expect_used)]
 
-mod plate;
-
-use plate::Side;
-use plate::foundation::{A, Foundation, GAP, LAW};
+use crate::plate::Side;
+use crate::plate::foundation::{A, Foundation, GAP, LAW};
 use signorini_bound::certificate::{Buffers, Curved, Discretization, LoadCase, Verdict, certify};
 use signorini_bound::equilibrium::Iterate;
 use signorini_kernel::element::{crouzeix_raviart, rannacher_turek};

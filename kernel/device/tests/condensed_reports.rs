@@ -1,21 +1,17 @@
 //! Reports of condensed ticks: their ends, reasons for no bound, and the effect of a reset.
 
-#[path = "../../contact/tests/condensed/strip.rs"]
-#[allow(dead_code)] // Other tests need more of it.
-mod strip;
-
+use crate::memory::{Draw, bare};
+use crate::strip::Strip;
 use signorini_bound::certificate::Verdict;
 use signorini_contact::Condensed;
 use signorini_contact::dense::blocks::{count, padded};
 use signorini_contact::dense::tableau::InitialTableau;
 use signorini_contact::method::Sweeps;
-use signorini_contact::spans::SpanColumns;
 use signorini_contact::storage::{ArrayStorage, ArrayTableauStorage};
 use signorini_kernel::Error;
 use signorini_kernel::limits::Deadline;
 use signorini_kernel::report::{Ended, Report};
 use signorini_tolerances::kernel::CONDENSED;
-use strip::{Random, Strip};
 
 const EDGES: usize = 32;
 /// Blocks of a tableau of so many, [`count`].
@@ -60,19 +56,15 @@ fn with_model<T>(
     then: impl FnOnce(&Condensed<f64>) -> Result<T, Error>,
 ) -> Result<T, Error> {
     let strip = Strip::<f64>::new(EDGES);
-    let load = strip.load(0.1, &mut Random::new(5));
+    let load = strip.load(0.1, &mut Draw(5));
     assert_eq!(load.len(), padded(EDGES));
     then(&Condensed {
         contact: EDGES,
         matrix: strip.blocks(),
-        x: &[],
         start: InitialTableau { blocks: strip.blocks(), exchanged: &[false; EDGES] },
         load: &load,
-        limits: &[],
-        spans: SpanColumns::UNLIMITED,
-        outputs: &[],
-        certificate: None,
         has_bound,
+        ..bare()
     })
 }
 

@@ -1,5 +1,4 @@
 //! Conditions on edges that are not of length 1, and what is said of too many or none.
-#![allow(clippy::expect_used)]
 
 use signorini_device::condition::{BoundaryEdge, Condition};
 use signorini_device::{Workspace, workspace};

@@ -1,9 +1,6 @@
 //! The continuous function of the error bound: exact where u is linear, and admissible everywhere.
-#![allow(clippy::indexing_slicing, clippy::expect_used)]
 
-mod plate;
-
-use plate::{Plate, Side};
+use crate::plate::{NONE, Plate, Side};
 use signorini_bound::averages;
 use signorini_bound::cells::{CellBuffers, Quad, Triangle, pack};
 use signorini_bound::conforming::{VertexData, impose};
@@ -46,7 +43,7 @@ fn conforming(
 /// The weighted means at the vertices.
 fn averages(plate: &Plate, alpha: &[f64], means: &[f64]) -> Result<Vec<f64>, Error> {
     let (mesh, edges) = (plate.mesh()?, plate.edges()?);
-    let mut ways = [(); 3].map(|()| vec![plate::NONE; edges.cells()]);
+    let mut ways = [(); 3].map(|()| vec![NONE; edges.cells()]);
     let [order, parent, place] = &mut ways;
     let mut distance = vec![0.0; edges.cells()];
     let buffers = ForestBuffers { order, parent, place, distance: &mut distance };

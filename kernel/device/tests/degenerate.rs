@@ -153,47 +153,28 @@ fn a_workspace_that_is_too_small_says_by_how_much() {
 
 #[test]
 fn arrays_that_do_not_fit_are_refused() {
-    let csr = |row_ptr: &[u32], col_idx: &[u16], values: &[f64]| {
-        Csr::new(row_ptr, col_idx, values, 2).map(|matrix| matrix.rows())
-    };
-    assert_eq!(csr(&[0, 1, 2], &[0, 1], &[1.0, 1.0]), Ok(2));
-    assert_eq!(
-        csr(&[0, 2, 1], &[0, 1], &[1.0, 1.0]).err(),
-        Some(Error::OutOfRange { of: Array::RowPointers, at: 1 })
-    );
-    assert_eq!(
-        csr(&[0, 1, 9], &[0, 1], &[1.0, 1.0]).err(),
-        Some(Error::OutOfRange { of: Array::RowPointers, at: 2 })
-    );
-    assert_eq!(
-        csr(&[0, 1, 2], &[0, 7], &[1.0, 1.0]).err(),
-        Some(Error::OutOfRange { of: Array::ColumnIndices, at: 1 })
-    );
-    assert_eq!(
-        csr(&[0, 1, 2], &[1, 0], &[1.0, 1.0]).err(),
-        Some(Error::OutOfRange { of: Array::RowPointers, at: 0 })
-    );
-    assert_eq!(
-        csr(&[0, 1, 2], &[0, 1], &[1.0, -1.0]).err(),
-        Some(Error::OutOfRange { of: Array::RowPointers, at: 1 })
-    );
-    assert_eq!(
-        csr(&[0, 1, 2], &[0, 1], &[1.0, f64::NAN]).err(),
-        Some(Error::NotFinite { of: Array::MatrixValues, at: 1 })
-    );
-    assert_eq!(
-        csr(&[], &[], &[]).err(),
-        Some(Error::Length { of: Array::RowPointers, found: 0, expected: 1 })
-    );
+    let outside = |of, at| Some(Error::OutOfRange { of, at });
+    let length = |of, found, expected| Some(Error::Length { of, found, expected });
+    let not_finite = Some(Error::NotFinite { of: Array::MatrixValues, at: 1 });
+    let (pointers, columns) = (Array::RowPointers, Array::ColumnIndices);
+    for (row_ptr, col_idx, values, refused) in [
+        (&[0, 1, 2][..], &[0, 1][..], &[1.0, 1.0][..], None),
+        (&[0, 2, 1], &[0, 1], &[1.0, 1.0], outside(pointers, 1)),
+        (&[0, 1, 9], &[0, 1], &[1.0, 1.0], outside(pointers, 2)),
+        (&[0, 1, 2], &[0, 7], &[1.0, 1.0], outside(columns, 1)),
+        (&[0, 1, 2], &[1, 0], &[1.0, 1.0], outside(pointers, 0)),
+        (&[0, 1, 2], &[0, 1], &[1.0, -1.0], outside(pointers, 1)),
+        (&[0, 1, 2], &[0, 1], &[1.0, f64::NAN], not_finite),
+        (&[], &[], &[], length(pointers, 0, 1)),
+    ] {
+        let found = Csr::<f64, u16>::new(row_ptr, col_idx, values, 2).map(|matrix| matrix.rows());
+        assert_eq!(found, refused.map_or(Ok(2), Err), "{row_ptr:?} {col_idx:?} {values:?}");
+    }
     let one = EdgeCounts { free: 1, contact: 0, dirichlet: 0 };
-    assert_eq!(
-        Edges::<u16>::new(&[[0, 0, 0]], &[], &[[0, 1]], one).err(),
-        Some(Error::Length { of: Array::HalfEdges, found: 2, expected: 3 })
-    );
-    assert_eq!(
-        Edges::<u16>::new(&[[7, 0, 0]], &[], &[[9, 1]], one).err(),
-        Some(Error::OutOfRange { of: Array::HalfEdges, at: 0 })
-    );
+    let edges =
+        |triangle: [u16; 3], half: u16| Edges::new(&[triangle], &[], &[[half, 1]], one).err();
+    assert_eq!(edges([0, 0, 0], 0), length(Array::HalfEdges, 2, 3));
+    assert_eq!(edges([7, 0, 0], 9), outside(Array::HalfEdges, 0));
     for omega in [0.0, 2.0, -1.0, f64::NAN] {
         let settings = Settings { relaxation: Relaxation::Fixed(omega), ..Settings::default() };
         assert_eq!(Solver::new(settings).err(), Some(Error::Relaxation));

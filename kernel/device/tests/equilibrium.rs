@@ -1,9 +1,6 @@
 //! An admissible flux from any iterate, converged or not, and who is told that there is none.
-#![allow(clippy::indexing_slicing, clippy::expect_used)]
 
-mod plate;
-
-use plate::{NONE, Plate, Side};
+use crate::plate::{NONE, Plate, Side};
 use signorini_bound::averages;
 use signorini_bound::cells::{CellBuffers, Either, Quad, Triangle, pack};
 use signorini_bound::equilibrium::{Iterate, impose, pulled, walk};

@@ -1,11 +1,8 @@
 //! Ticks on a factor: what sweeps find in the end, without sweeps; and sweeps where the factor is of no use.
-#![allow(clippy::indexing_slicing, clippy::expect_used)]
 
-mod plate;
-
-use plate::Side;
-use plate::factor::{Baked, Store};
-use plate::foundation::{Foundation, GAP};
+use crate::plate::Side;
+use crate::plate::factor::{Baked, Store};
+use crate::plate::foundation::{Foundation, GAP};
 use signorini_bound::certificate::LoadCase;
 use signorini_bound::conforming::VertexData;
 use signorini_device::full::{self, Base, DataMemory, Full, Functional};

@@ -1,17 +1,9 @@
 //! Forces of contact keep their sign wherever the solver was stopped, and are those of the law of contact.
-#![allow(clippy::indexing_slicing, clippy::expect_used)]
 
-#[path = "../../contact/tests/condensed/strip.rs"]
-#[allow(dead_code)]
-mod strip;
-
-use signorini_contact::dense::Iterate;
-use signorini_contact::dense::blocks::padded;
-use signorini_contact::dense::tableau::InitialTableau;
+use crate::memory::{Dense, Draw, bare};
+use crate::strip::Strip;
 use signorini_contact::method::Sweeps;
 use signorini_contact::outputs::Measure;
-use signorini_contact::spans::SpanBuffer;
-use signorini_contact::spans::SpanColumns;
 use signorini_contact::{Condensed, Memory};
 use signorini_device::condition::{BoundaryEdge, Condition};
 use signorini_device::workspace;
@@ -24,7 +16,6 @@ use signorini_kernel::solver::Settings;
 use signorini_kernel::stiffness::Coefficient;
 use signorini_kernel::{Error, Mesh, Real, Tensor};
 use signorini_tolerances::kernel::{FORCE_AT_THE_END, FORCE_BY_LAW};
-use strip::{Random, Strip};
 
 #[test]
 fn the_law_of_an_edge() {
@@ -116,41 +107,27 @@ fn a_solve_that_is_cut_off_does_not_pull() -> Result<(), Error> {
 /// is for the solution, was negative.
 fn condensed_stops<R: Real + Into<f64>>() -> Result<usize, Error> {
     let strip = Strip::<R>::new(21);
-    let (n, size) = (strip.order, padded(strip.order));
+    let n = strip.order;
     let weights: Vec<R> = (0..n).map(|at| R::from_count(1 + at as u32 % 3)).collect();
     let nothing = vec![R::ZERO; n];
     let outputs = [
         Measure::Flux { of_inputs: &[], of_contact: &[], of_reaction: &weights },
         Measure::Flux { of_inputs: &[R::HALF], of_contact: &nothing, of_reaction: &weights },
     ];
-    let mut random = Random::new(11);
+    let mut random = Draw(11);
     let (mut pulled, mut ended) = (0, 0);
     for tick in 0..40 {
         let load = strip.load(0.05 * f64::from(tick % 9) - 0.2, &mut random);
         let model = Condensed {
-            has_bound: false,
             contact: n,
             matrix: strip.blocks(),
-            x: &[],
-            start: InitialTableau { blocks: &[], exchanged: &[] },
             load: &load,
-            limits: &[],
-            spans: SpanColumns::UNLIMITED,
             outputs: &outputs,
-            certificate: None,
+            ..bare()
         };
         for most in (0..12).chain([1000]) {
-            let mut numbers = [(); 4].map(|()| vec![R::ZERO; size]);
-            let [x, residual, scratch, load] = &mut numbers;
-            let open = &mut vec![false; size];
-            let iterate = Iterate { x, residual, scratch, open };
-            let mut memory = Memory {
-                iterate,
-                load,
-                spans: SpanBuffer::new(&mut []),
-                combination: &mut [],
-                sum: &mut [],
-            };
+            let mut dense = Dense::new(n);
+            let (_, mut memory) = dense.ticking()?;
             let tolerance = R::from_count(16) * R::EPSILON;
             let mut sweeps = Sweeps { omega: R::ONE, tolerance, most };
             let report = model.tick(&[R::ONE], &mut sweeps, &mut Deadline::never(), &mut memory)?;

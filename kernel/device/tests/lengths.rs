@@ -1,5 +1,4 @@
 //! Lengths and bytes of owned memory, beside what the compiler says of the types.
-#![allow(clippy::expect_used)]
 
 use signorini_contact::dense::blocks::{SIDE, count, padded};
 use signorini_device::full::{ArrayStorage, Lengths, Numbers};

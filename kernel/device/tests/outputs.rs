@@ -1,9 +1,7 @@
 //! Outputs of a full model at the end of the range: finite, or said not to be.
 
-mod plate;
-
-use plate::Side;
-use plate::foundation::Foundation;
+use crate::plate::Side;
+use crate::plate::foundation::Foundation;
 use signorini_bound::certificate::Verdict;
 use signorini_device::full::{
     Base, Contribution, DataMemory, Full, Functional, Memory as FullMemory,

@@ -2,32 +2,17 @@
 //!
 //! The kernel adds, multiplies and takes roots in one fixed order, so its bits are a fact: the same on every
 //! machine, and changed only where somebody changes the arithmetic. That the recorded answers are right is what
-//! the other tests are for. `BLESS=1 cargo test -p signorini-kernel --test replay` writes the record anew.
-#![allow(clippy::indexing_slicing, clippy::expect_used, clippy::unwrap_used)]
+//! the other tests are for. `BLESS=1 cargo test -p signorini-device --test main replay::` writes the record anew.
 
-#[path = "replay/arrays.rs"]
 mod arrays;
-#[path = "replay/bound.rs"]
 mod bound;
-#[path = "replay/condensed.rs"]
 mod condensed;
-#[path = "replay/factor.rs"]
 mod factor;
-mod factored;
-#[path = "replay/full.rs"]
 mod full;
-#[path = "replay/journal.rs"]
 mod journal;
-#[path = "replay/matrix.rs"]
 mod matrix;
-#[path = "replay/scene.rs"]
 mod scene;
-#[path = "replay/solve.rs"]
 mod solve;
-#[path = "../../contact/tests/condensed/strip.rs"]
-#[allow(dead_code)]
-mod strip;
-#[path = "replay/ticks.rs"]
 mod ticks;
 
 use arrays::Arrays;

@@ -1,13 +1,10 @@
 //! Ticks: warm starts, what ends them, and input that is refused.
-#![allow(clippy::indexing_slicing, clippy::expect_used)]
-
-mod plate;
 
 use signorini_kernel::law::Law;
 use std::cell::Cell;
 
-use plate::Side;
-use plate::foundation::{Foundation, GAP};
+use crate::plate::Side;
+use crate::plate::foundation::{Foundation, GAP};
 use signorini_bound::certificate::{Certificate, Discretization, LoadCase, Verdict};
 use signorini_bound::conforming::VertexData;
 use signorini_device::tick::{

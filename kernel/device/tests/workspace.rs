@@ -1,5 +1,4 @@
 //! The short way through the layers: answers with a bound at a deadline, and what has none.
-#![allow(clippy::expect_used)]
 
 use signorini_bound::certificate::Verdict;
 use signorini_device::condition::{BoundaryEdge, Condition};

@@ -1,5 +1,4 @@
 //! Workspaces whose data change: what stays, what is another mesh, what is too large, and what rounding of data costs.
-#![allow(clippy::expect_used)]
 
 use signorini_device::condition::{BoundaryEdge, Condition};
 use signorini_device::tick::{Deadline, Limits};

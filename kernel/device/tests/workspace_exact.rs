@@ -1,5 +1,4 @@
 //! Workspaces by numbers that are exact: thresholds from both sides, means, ways out, and the errors of long edges.
-#![allow(clippy::expect_used, clippy::indexing_slicing)]
 
 use signorini_bound::certificate::{Certificate, Verdict};
 use signorini_device::condition::{BoundaryEdge, Condition};

@@ -1,5 +1,4 @@
 //! Workspaces where the scalar or the caller fails them: no bound that is none, no answer to another question.
-#![allow(clippy::expect_used, clippy::indexing_slicing)]
 
 use signorini_bound::certificate::Verdict;
 use signorini_device::condition::{BoundaryEdge, Condition};

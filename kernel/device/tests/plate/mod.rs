@@ -1,5 +1,4 @@
 //! A small plate that several tests share.
-#![allow(dead_code)]
 
 pub mod factor;
 pub mod foundation;

@@ -14,7 +14,7 @@ use signorini_kernel::system::Shifts;
 use signorini_kernel::system::System;
 use signorini_kernel::{Error, Tensor};
 
-use crate::scene::{Draw, Scalar, Scene, Side};
+use super::scene::{Draw, Scalar, Scene, Side};
 
 const NONE: u16 = u16::MAX;
 

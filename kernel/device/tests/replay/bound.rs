@@ -15,9 +15,9 @@ use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::edges::Block;
 use signorini_kernel::{Error, Tensor};
 
-use crate::arrays::Arrays;
-use crate::journal::Journal;
-use crate::scene::{Draw, Scalar};
+use super::arrays::Arrays;
+use super::journal::Journal;
+use super::scene::{Draw, Scalar};
 
 const NONE: u16 = u16::MAX;
 

@@ -2,9 +2,9 @@
 
 use signorini_contact::certificate::{Corner, Form, Vertex};
 use signorini_contact::dense::Iterate;
-use signorini_contact::dense::blocks::{Block, SIDE, count, padded};
+use signorini_contact::dense::blocks::padded;
 use signorini_contact::dense::ranges::Given;
-use signorini_contact::dense::tableau::{InitialTableau, Tableau};
+use signorini_contact::dense::tableau::InitialTableau;
 use signorini_contact::factor::Factor;
 use signorini_contact::method::{Method, Pivots, Sweeps};
 use signorini_contact::outputs::Measure;
@@ -15,8 +15,9 @@ use signorini_contact::{Condensed, Memory};
 use signorini_kernel::Error;
 use signorini_kernel::limits::Deadline;
 
-use crate::journal::Journal;
-use crate::scene::{Draw, Scalar};
+use super::journal::Journal;
+use super::scene::{Draw, Scalar};
+use crate::memory::Dense;
 use crate::strip::Strip;
 
 /// The constant among them.
@@ -130,12 +131,9 @@ pub fn run<R: Scalar>(journal: &mut Journal) -> Result<(), Error> {
     for (order, floats) in [(1, false), (4, true), (9, false), (17, true), (30, false)] {
         journal.line("edges", (order, floats));
         Model::<R>::new(order, floats).with(R::of(3.0), |model| {
-            let mut blocks: Vec<Block<R>> = vec![[[R::ZERO; SIDE]; SIDE]; count(order)];
-            let mut exchanged = vec![false; padded(order)];
-            let mut columns = [(); 2].map(|()| vec![R::ZERO; padded(order)]);
+            let mut dense = Dense::new(order);
             for most in [1000, 4] {
-                let [column, next] = &mut columns;
-                let mut tableau = Tableau::new(order, &mut blocks, &mut exchanged, [column, next])?;
+                let (mut tableau, _) = dense.parts()?;
                 tableau.reset(&model.start)?;
                 let sweeps = Sweeps { omega: R::of(1.25), tolerance: R::of(1e-3), most: 5 };
                 let mut pivots = Pivots { tableau, start: model.start, most, sweeps };
@@ -162,10 +160,7 @@ pub fn run<R: Scalar>(journal: &mut Journal) -> Result<(), Error> {
 /// A tableau that is off by ever more, and loads that nothing bears.
 fn worn<R: Scalar>(strip: &Strip<R>, journal: &mut Journal) -> Result<(), Error> {
     let (order, size) = (strip.order, padded(strip.order));
-    let mut blocks: Vec<Block<R>> = vec![[[R::ZERO; SIDE]; SIDE]; count(order)];
-    let (mut exchanged, nothing) = (vec![false; size], vec![false; size]);
-    let mut columns = [(); 2].map(|()| vec![R::ZERO; size]);
-    let mut numbers = [(); 3].map(|()| vec![R::ZERO; size]);
+    let (mut dense, nothing) = (Dense::new(order), vec![false; size]);
     let start = InitialTableau { blocks: strip.blocks(), exchanged: &nothing };
     let mut draw = Draw(29);
     for at in 0..30 {
@@ -173,24 +168,20 @@ fn worn<R: Scalar>(strip: &Strip<R>, journal: &mut Journal) -> Result<(), Error>
         let load: Vec<_> = (0..size)
             .map(|i| R::of(if i < order { pull + 0.5 * draw.signed() } else { 0.0 }))
             .collect();
-        let [column, next] = &mut columns;
-        let mut tableau = Tableau::new(order, &mut blocks, &mut exchanged, [column, next])?;
+        let (mut tableau, iterate) = dense.parts()?;
         if at == 0 {
             tableau.reset(&start)?;
         }
         let sweeps = Sweeps { omega: R::ONE, tolerance: R::ZERO, most: 3 };
         let mut pivots = Pivots { tableau, start, most: 1000, sweeps };
-        let [x, residual, scratch] = &mut numbers;
-        let open = &mut vec![false; size];
-        let iterate = Iterate { x, residual, scratch, open };
         journal.line(
             "worn",
             pivots.solve(&strip.matrix()?, Given::above(&load), iterate, &mut Deadline::never())?,
         );
-        journal.digest("x and residual", &numbers[..2]);
+        journal.digest("x and residual", [&dense.x, &dense.residual]);
         // By 4 ε at first, then by more.
         let off = R::ONE + R::EPSILON * R::of(4.0_f64.powi(1 + at as i32 / 2));
-        let entries = blocks.as_flattened_mut().as_flattened_mut();
+        let entries = dense.blocks.as_flattened_mut().as_flattened_mut();
         entries.iter_mut().for_each(|entry| *entry *= off);
     }
     Ok(())

@@ -3,10 +3,10 @@
 use signorini_kernel::Error;
 use signorini_kernel::solver::Settings;
 
-use crate::arrays::Arrays;
+use super::arrays::Arrays;
+use super::journal::Journal;
+use super::scene::Scalar;
 use crate::factored;
-use crate::journal::Journal;
-use crate::scene::Scalar;
 
 pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), Error> {
     let (system, diagonal) = (arrays.system(false)?, arrays.diagonal()?);

@@ -15,10 +15,10 @@ use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::rows::{QUADS, Row, Rows};
 use signorini_kernel::{Error, Libm};
 
-use crate::arrays::Arrays;
-use crate::bound::EquilibrationForest;
-use crate::journal::Journal;
-use crate::scene::{Draw, Scalar};
+use super::arrays::Arrays;
+use super::bound::EquilibrationForest;
+use super::journal::Journal;
+use super::scene::{Draw, Scalar};
 
 /// Every third place, with a random weight.
 fn shares<R: Scalar>(count: usize, draw: &mut Draw) -> Vec<Contribution<R, u16>> {

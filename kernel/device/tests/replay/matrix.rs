@@ -8,9 +8,9 @@ use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::stiffness::{self, Coefficient};
 use signorini_kernel::{Error, Libm, assembly, contact, flux, psor};
 
-use crate::arrays::Arrays;
-use crate::journal::Journal;
-use crate::scene::Scalar;
+use super::arrays::Arrays;
+use super::journal::Journal;
+use super::scene::Scalar;
 
 pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), Error> {
     let (mesh, edges, boundary) = (arrays.mesh()?, arrays.edges()?, arrays.boundary()?);

@@ -8,9 +8,9 @@ use signorini_kernel::rows::{QUADS, Row, Rows};
 use signorini_kernel::solver::{Settings, Solver};
 use signorini_kernel::{Error, Libm, psor};
 
-use crate::arrays::Arrays;
-use crate::journal::Journal;
-use crate::scene::Scalar;
+use super::arrays::Arrays;
+use super::journal::Journal;
+use super::scene::Scalar;
 
 pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), Error> {
     for shifts in [false, true] {

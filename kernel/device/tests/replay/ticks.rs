@@ -11,10 +11,10 @@ use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::rows::{QUADS, Row, Rows};
 use signorini_kernel::{Error, Libm};
 
-use crate::arrays::Arrays;
-use crate::bound::EquilibrationForest;
-use crate::journal::Journal;
-use crate::scene::{Draw, Scalar};
+use super::arrays::Arrays;
+use super::bound::EquilibrationForest;
+use super::journal::Journal;
+use super::scene::{Draw, Scalar};
 
 pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), Error> {
     let ways = EquilibrationForest::new(arrays, 4)?;

@@ -3,6 +3,8 @@
 use signorini_contact::dense::blocks::{Block, Blocks, SIDE, padded};
 use signorini_kernel::{Error, Real};
 
+use crate::memory::Draw;
+
 /// Five-point Laplacian on n × n points above the contact points, zero along the top.
 pub struct Strip<R> {
     pub order: usize,
@@ -70,9 +72,9 @@ impl<R: Real> Strip<R> {
     }
 
     /// Lifts one side and presses the other, with noise; `shift` moves the border between them.
-    pub fn load(&self, shift: f64, random: &mut Random) -> Vec<R> {
+    pub fn load(&self, shift: f64, random: &mut Draw) -> Vec<R> {
         let at = |i: usize| (i as f64 + 0.5) / self.order as f64;
-        let load = |i: usize| (6.0 * at(i)).sin() * 0.5 + shift + 0.2 * random.next();
+        let load = |i: usize| (6.0 * at(i)).sin() * 0.5 + shift + 0.2 * random.signed();
         let mut all: Vec<R> =
             (0..self.order).map(load).map(|x| R::from_f64(x).unwrap_or(R::ZERO)).collect();
         all.resize(padded(self.order), R::ZERO);
@@ -118,20 +120,4 @@ fn condensed(n: usize) -> Vec<Vec<f64>> {
         }
     }
     (0..n).map(|i| matrix[size - n + i][size - n..].to_vec()).collect()
-}
-
-/// Uniform on [−1, 1], from xorshift.
-pub struct Random(u32);
-
-impl Random {
-    pub fn new(seed: u32) -> Self {
-        Self(seed | 1)
-    }
-
-    pub fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 17;
-        self.0 ^= self.0 << 5;
-        f64::from(self.0) / f64::from(u32::MAX) * 2.0 - 1.0
-    }
 }
