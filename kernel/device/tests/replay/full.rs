@@ -222,7 +222,7 @@ fn play<R: Scalar>(
             assert!(kept.bubbles.is_empty() || kept.bubbles == bubbles);
         }
         journal.line("tick", (report.ended, report.sweeps, report.active));
-        journal.digest("report", report);
+        journal.report(report);
         journal.line("outputs", outputs);
         journal.digest("data", (&own.numbers, &own.ends, &own.curved, &own.transfer));
         journal.digest("laws", (&neumann, &robin));

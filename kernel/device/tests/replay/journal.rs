@@ -6,6 +6,9 @@ use std::fmt::{Debug, Write as _};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use signorini_device::tick::{Figures, Report};
+use signorini_kernel::report::Ended;
+
 pub struct Journal {
     path: PathBuf,
     text: String,
@@ -37,6 +40,26 @@ impl Journal {
                 (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
             });
         writeln!(self.text, "{name} {hash:016x}").unwrap();
+    }
+
+    /// A digest of what a tick on a mesh reports, in the order of the record.
+    pub fn report<R: Copy + Debug>(&mut self, of: Report<R>) {
+        #[derive(Debug)]
+        #[expect(dead_code, reason = "read by Debug alone")]
+        struct Recorded<R, V> {
+            ended: Ended,
+            sweeps: u32,
+            residual: R,
+            active: u32,
+            changes: u32,
+            force: R,
+            verdict: V,
+            omega: R,
+        }
+        let Figures { residual, changes, force, omega } = of.figures;
+        let (ended, sweeps, active, verdict) = (of.ended, of.sweeps, of.active, of.verdict);
+        let recorded = Recorded { ended, sweeps, residual, active, changes, force, verdict, omega };
+        self.digest("report", recorded);
     }
 
     /// Compares what there is with the record.

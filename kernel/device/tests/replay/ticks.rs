@@ -90,7 +90,7 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
 
 fn tell<R: Scalar>(tick: &Tick<R, u16, QUADS>, report: Report<R>, journal: &mut Journal) {
     journal.line("tick", (report.ended, report.sweeps, report.active));
-    journal.digest("report", report);
+    journal.report(report);
     journal.digest("u and tau", (tick.u(), tick.tau()));
 }
 
