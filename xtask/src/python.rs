@@ -5,9 +5,12 @@ use std::process::Command;
 use crate::program;
 use crate::steps::Steps;
 use crate::venv;
-use signorini_image::cargo::{cargo, root, run as run_command, target_dir};
+use signorini_image::cargo::{root, run as run_command, target_dir};
 use signorini_image::toolchain::output;
 use signorini_image::tools::install_packages;
+
+/// The package of the module: what it is linked to, pip knows.
+pub const PACKAGE: &str = "signorini-python";
 
 /// What the library of Gmsh asks of a system.
 const OF_GMSH: [&str; 6] =
@@ -18,20 +21,10 @@ const ENVIRONMENT: &str = "module-environment";
 
 /// The steps.
 pub fn run(steps: &mut Steps) {
-    steps.lint("formatting, host/python", || {
-        run_command(cargo(&["fmt", "--manifest-path", "host/python/Cargo.toml", "--check"]))
-    });
-    steps.lint("clippy, host/python", || {
-        let mut clippy =
-            cargo(&["clippy", "--manifest-path", "host/python/Cargo.toml", "--locked"]);
-        clippy.arg("--target-dir").arg(target_dir("python").join("module"));
-        clippy.args(["--", "-D", "warnings"]);
-        run_command(clippy)
-    });
+    // Pip builds into the folder of the program, whose crates serve the module.
     steps.check("pip builds the module signorini, and its tests pass", || {
         let _ = std::fs::remove_dir_all(target_dir("python").join(ENVIRONMENT));
-        let target = ("CARGO_TARGET_DIR", target_dir("python").join("module"));
-        let python = venv::with(ENVIRONMENT, &["./host/python[test]"], &[target])?;
+        let python = venv::with(ENVIRONMENT, &["./host/python[test]"], &[])?;
         if output(Command::new(&python).args(["-c", "import gmsh"])).is_err() {
             install_packages(&OF_GMSH)?;
         }

@@ -10,7 +10,6 @@
 pub mod budget;
 pub mod c;
 pub mod choice;
-#[cfg(any(test, feature = "fixtures"))]
 pub mod compiled;
 pub mod condensed;
 mod controller;

@@ -15,7 +15,6 @@ mod corners;
 mod diagonal;
 mod element_matrices;
 pub mod field;
-#[cfg(any(test, feature = "fixtures"))]
 pub mod fixtures;
 pub mod functional;
 pub mod inputs;

@@ -77,4 +77,4 @@ def test_the_example_runs(tmp_path):
     assert said.returncode == 0, said.stderr
     assert "guaranteed" in said.stdout
     assert (tmp_path / "heated_plate.png").stat().st_size > 10_000
-    assert "pub fn tick" in (tmp_path / "heated_plate.rs").read_text()
+    assert "pub type Controller" in (tmp_path / "heated_plate.rs").read_text()

@@ -14,7 +14,6 @@ mod direct;
 mod ending;
 pub mod energy_norm;
 mod factored;
-#[cfg(any(test, feature = "fixtures"))]
 pub mod fixtures;
 mod ldlt;
 mod level;
