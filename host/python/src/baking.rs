@@ -4,10 +4,10 @@ use pyo3::prelude::*;
 use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::emit::{Emitted, emit};
 use signorini_bake::setting;
-use signorini_scene::error::Error;
-use signorini_scene::setting::ModelKind;
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
+use signorini_scene::error::Error;
+use signorini_scene::setting::ModelKind;
 use signorini_solve::ScalarKind;
 
 use crate::error::raised;

@@ -9,12 +9,12 @@ use std::thread;
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use signorini_session::{Module, Session, with_module};
 use signorini_bake::setting;
+use signorini_problem::Problem;
+use signorini_problem::functional::wanted;
 use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::{Input, Scene};
-use signorini_problem::functional::wanted;
-use signorini_problem::Problem;
+use signorini_session::{Module, Session, with_module};
 use signorini_solve::ScalarKind;
 
 use crate::error::raised;

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
+use signorini_problem::Problem;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::arrays::Arrays;
 use signorini_scene::scene::Scene;
 use signorini_solve::adaptive::{MeshOfScene, mesh_for_scene, mesh_of_scene};
-use signorini_problem::Problem;
 
 /// A scene: a file, or the text of one; another mesh file, or a mesh in arrays; inputs by name.
 #[derive(FromPyObject)]

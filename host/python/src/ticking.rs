@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use signorini_session::tick::{Budget, ScheduledTick, TickRecord, log, play, replay, schedule};
 use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::Scene;
+use signorini_session::tick::{Budget, ScheduledTick, TickRecord, log, play, replay, schedule};
 
 use crate::arrays::Filled;
 use crate::error::raised;

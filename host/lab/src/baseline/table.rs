@@ -22,6 +22,9 @@ pub fn table(sizes: &Sizes) -> String {
     )
 }
 
+/// What a start says in a column.
+type Figure = fn(&Baseline) -> String;
+
 fn columns<'s>() -> Vec<Column<'s, Line<'s>>> {
     let mut columns = vec![
         Column::words("unknowns", |line: &Line| {
@@ -31,7 +34,7 @@ fn columns<'s>() -> Vec<Column<'s, Line<'s>>> {
         Column::words("solver", |line: &Line| line.solver.to_owned()),
     ];
     for (start, cycles) in ["cold kcyc", "warm kcyc"].into_iter().enumerate() {
-        let figures: [(&str, fn(&Baseline) -> String); 4] = [
+        let figures: [(&str, Figure); 4] = [
             (cycles, |b| format!("{:.1}", 1e-3 * b.cycles)),
             ("±", |b| format!("{:.0} %", 100.0 * b.cycles_spread)),
             ("iter", |b| b.iterations.to_string()),
