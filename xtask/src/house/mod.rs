@@ -2,6 +2,7 @@
 //!
 //! Source files are read as syntax; tests within them may do as they like.
 
+mod answers;
 mod first_lines;
 mod rules;
 mod sources;

@@ -2,7 +2,8 @@
 
 use syn::visit_mut::{self, VisitMut};
 
-use super::sources::Source;
+use super::answers;
+use super::sources::{Source, found_in};
 
 /// A rule.
 pub struct Rule {
@@ -13,7 +14,9 @@ pub struct Rule {
 }
 
 /// The rules that hold.
-pub const RULES: [Rule; 4] = [
+pub const RULES: [Rule; 6] = [
+    Rule { name: "one struct owns u, flux, status and bound", broken_by: answers::structs },
+    Rule { name: "a model has one session", broken_by: answers::sessions },
     Rule { name: "no text in bake holds Rust of a tick", broken_by: ticks_as_text },
     Rule { name: "solve does not know bake", broken_by: solve_with_bake },
     Rule { name: "one function decides what a parallelogram is", broken_by: parallelograms },
@@ -23,20 +26,6 @@ pub const RULES: [Rule; 4] = [
 /// Those found, where there are more than one.
 fn beyond_one(found: Vec<String>) -> Vec<String> {
     if found.len() > 1 { found } else { Vec::new() }
-}
-
-/// Looks through all files; `found` takes what a visitor has found in each, by the file's path.
-fn found_in<V: VisitMut + Default>(
-    sources: &[Source],
-    found: impl Fn(V) -> Vec<String>,
-) -> Vec<String> {
-    let of = |source: &Source| {
-        let mut visitor = V::default();
-        visitor.visit_file_mut(&mut source.syntax.clone());
-        let names = found(visitor).into_iter();
-        names.map(|name| format!("{}: {name}", source.path)).collect::<Vec<_>>()
-    };
-    sources.iter().flat_map(of).collect()
 }
 
 /// Functions of a controller that are written once, in the kernel.

@@ -36,6 +36,20 @@ impl Source {
     }
 }
 
+/// Looks through all files; `found` takes what a visitor has found in each, by the file's path.
+pub fn found_in<V: VisitMut + Default>(
+    sources: &[Source],
+    found: impl Fn(V) -> Vec<String>,
+) -> Vec<String> {
+    let of = |source: &Source| {
+        let mut visitor = V::default();
+        visitor.visit_file_mut(&mut source.syntax.clone());
+        let names = found(visitor).into_iter();
+        names.map(|name| format!("{}: {name}", source.path)).collect::<Vec<_>>()
+    };
+    sources.iter().flat_map(of).collect()
+}
+
 /// Reads what lies below a folder.
 fn read(folder: &Path, sources: &mut Vec<Source>) -> Result<(), String> {
     let failed = |error: std::io::Error| format!("{}: {error}", folder.display());

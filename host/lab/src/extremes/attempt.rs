@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use super::case::ExtremeCase;
 use super::grid::msh;
-use signorini_certify::{CertifiedFields, ErrorBound};
 use signorini_problem::Problem;
 use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh::Mesh;
@@ -14,27 +13,17 @@ use signorini_scene::scene::Scene;
 use signorini_scene::setting::Precision;
 use signorini_session::tick::{Budget, ScheduledTick, TickRecord, play};
 use signorini_solve::adaptive::mesh_of_scene;
-use signorini_solve::{Ending, Options, ScalarKind, solve};
+use signorini_solve::{Ending, Options, ScalarKind, Solution, solve};
 
 /// An answer of the solver.
 #[derive(Debug, Clone)]
 pub struct Attempt {
     /// The mesh as read.
     pub mesh: Arc<Mesh>,
-    /// How it ended.
-    pub status: Ending,
-    /// Sweeps in all.
-    pub sweeps: u32,
     /// Edges not on D.
     pub unknowns: usize,
-    /// Mean of u_h over each edge, and ∫σ·n over it; empty where only ticks were asked for.
-    pub u: Vec<f64>,
-    /// See `u`.
-    pub flux: Vec<f64>,
-    /// Its bound.
-    pub bound: Option<ErrorBound>,
-    /// The fields that the bound is about.
-    pub certified: CertifiedFields,
+    /// The answer; of ticks how they ended and their sweeps alone.
+    pub answer: Solution,
     /// The ticks, where ticks were asked for.
     pub ticks: Vec<TickRecord>,
 }
@@ -55,18 +44,13 @@ pub fn attempt(case: &ExtremeCase, folder: &Path) -> Result<Attempt> {
     }
     let options =
         Options { scalar: case.scalar, max_sweeps: case.most_sweeps(), ..Options::default() };
-    let solution = match case.effort.omega {
+    let answer = match case.effort.omega {
         None => solve(&problem, &options)?,
         Some(_) => signorini_session::solve(&problem)?,
     };
     Ok(Attempt {
-        status: solution.status,
-        sweeps: solution.sweeps,
         unknowns: problem.topology.counts.unknowns(),
-        u: solution.u,
-        flux: solution.flux,
-        bound: solution.bound,
-        certified: solution.certified,
+        answer,
         ticks: Vec::new(),
         mesh: problem.mesh,
     })
@@ -94,15 +78,10 @@ fn ticks(case: &ExtremeCase, problem: Problem) -> Result<Attempt> {
         Budget { scalar: case.scalar, sweeps: case.most_sweeps(), error: 0.0, intervals: false };
     let ticks = play(&problem, None, &moments, &budget, |_, _| Ok(()))?;
     let worst = ticks.iter().find(|tick| tick.failed()).or(ticks.last());
-    Ok(Attempt {
+    let answer = Solution {
         status: worst.map_or_else(Ending::default, |tick| tick.status),
         sweeps: ticks.iter().map(|tick| tick.sweeps).max().unwrap_or(0),
-        unknowns: problem.topology.counts.unknowns(),
-        u: Vec::new(),
-        flux: Vec::new(),
-        bound: None,
-        certified: CertifiedFields::default(),
-        ticks,
-        mesh: problem.mesh,
-    })
+        ..Solution::default()
+    };
+    Ok(Attempt { unknowns: problem.topology.counts.unknowns(), answer, ticks, mesh: problem.mesh })
 }

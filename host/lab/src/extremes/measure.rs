@@ -71,19 +71,20 @@ pub fn measure(case: &ExtremeCase, attempt: &Attempt) -> Result<Measured> {
     let scaled = |numbers: &[f64], factor: f64| -> Vec<f64> {
         numbers.iter().map(|x| x / load / factor).collect()
     };
-    let (u, flux) = (scaled(&attempt.u, 1.0), scaled(&attempt.flux, scales.stiffness));
-    let reference = reference(&posed, &problem, attempt.bound.is_none()).ok();
+    let (u, flux) =
+        (scaled(&attempt.answer.u, 1.0), scaled(&attempt.answer.flux, scales.stiffness));
+    let reference = reference(&posed, &problem, attempt.answer.bound.is_none()).ok();
     let finite = u.iter().chain(&flux).all(|x| x.is_finite())
-        && attempt.bound.is_none_or(|bound| bound.total.is_finite());
+        && attempt.answer.bound.is_none_or(|bound| bound.total.is_finite());
     let Some(exact) = problem.scene.exact.as_ref().filter(|_| finite) else {
         return Ok(Measured { reference, ..Measured::default() });
     };
-    let bound = attempt.bound.map(|bound| bound.total / unit);
+    let bound = attempt.answer.bound.map(|bound| bound.total / unit);
     let mut uncertain = 0.0;
-    let error = match attempt.bound {
+    let error = match attempt.answer.bound {
         None => errors(exact, &problem, &u, &flux)?.energy,
         Some(_) => {
-            let certified = &attempt.certified;
+            let certified = &attempt.answer.certified;
             let vertices = scaled(&certified.vertices, 1.0);
             let bubbles = scaled(&certified.bubbles, 1.0);
             let tau = scaled(&certified.tau, scales.stiffness);

@@ -106,7 +106,8 @@ fn row(case: &ExtremeCase) -> Result<Row> {
     });
     let (answer, seconds, ended) = match left {
         Ok((Ok((attempt, measured)), seconds)) => {
-            let (success, status) = (attempt.status.is_success(), attempt.status.name());
+            let (success, status) =
+                (attempt.answer.status.is_success(), attempt.answer.status.name());
             let ended = Ended::Answered { success, status, measured };
             (Some((attempt, measured)), seconds, ended)
         }
@@ -146,9 +147,9 @@ fn described(case: &ExtremeCase, answer: Option<&(Attempt, Measured)>) -> Row {
         },
         outcome: judge::Outcome::Wrong,
         error_over_bound: error.zip(bound).and_then(|(error, bound)| ratio(error, bound)),
-        sweeps: attempt.map(|attempt| attempt.sweeps),
+        sweeps: attempt.map(|attempt| attempt.answer.sweeps),
         unknowns: attempt.map(|attempt| attempt.unknowns),
-        status: attempt.map(|attempt| attempt.status.name().to_owned()),
+        status: attempt.map(|attempt| attempt.answer.status.name().to_owned()),
         error,
         bound,
         reference_bound: reference.and_then(|reference| reference.bound).and_then(finite),
