@@ -137,6 +137,7 @@ pub(crate) fn relax_to_gap<R: Real, I: Index>(
 ///
 /// # Errors
 /// Arrays of the wrong length.
+#[inline(always)]
 pub fn bubbles<R: Real, I: Index>(
     mesh: &Mesh<R, I>,
     edges: &Edges<I>,

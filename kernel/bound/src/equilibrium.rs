@@ -28,6 +28,7 @@ pub struct Iterate<'a, R> {
 }
 
 /// Sets τ on the boundary, but for D, as the conditions there ask; it is 0 on N and R so far.
+#[inline(always)]
 pub fn impose<R: Real, I: Index>(
     edges: &Edges<I>,
     boundary: &Boundary<R, I>,
@@ -70,6 +71,7 @@ pub fn walk<R: Real, I: Index>(cells: &Cells<R, I>, loads: CellLoads<R>, tau: &m
 }
 
 /// Contact edges may have taken a surplus; they must not be pulled at. The edge where τ < q, if any.
+#[inline(always)]
 pub fn pulled<R: Real, I: Index>(
     edges: &Edges<I>,
     boundary: &Boundary<R, I>,

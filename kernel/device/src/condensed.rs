@@ -162,6 +162,7 @@ where
         self.solver.reset();
     }
 
+    #[inline(always)]
     fn tick<O: Outputs<R>, F: FnMut() -> u32>(
         &mut self,
         system: &Self::Model<'_>,
@@ -201,6 +202,7 @@ where
         self.solver.reset();
     }
 
+    #[inline(always)]
     fn tick<O: Outputs<R>, F: FnMut() -> u32>(
         &mut self,
         modal: &Self::Model<'_>,

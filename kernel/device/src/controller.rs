@@ -163,6 +163,7 @@ impl<S: Scene> Controller<S> {
     ///
     /// # Errors
     /// As for [`Controller::tick`].
+    #[inline(always)]
     pub fn tick_within<F: FnMut() -> u32>(
         &mut self,
         inputs: S::Inputs,

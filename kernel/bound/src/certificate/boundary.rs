@@ -13,6 +13,7 @@ use signorini_kernel::law::Law;
 use signorini_kernel::mesh::edges::Side;
 
 /// Adds it all to the sums and to the indicators of the cells.
+#[inline(always)]
 pub(super) fn add<R: Real, I: Index>(
     discretization: &Discretization<R, I>,
     given: &LoadCase<R, I>,

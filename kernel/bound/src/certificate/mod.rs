@@ -139,6 +139,8 @@ pub struct Buffers<'a, R> {
 ///
 /// # Errors
 /// Arrays of the wrong length.
+// Inlined, and what it alone calls: behind so many checks the compiler takes it for code that hardly runs, and keeps it apart.
+#[inline(always)]
 pub fn certify<R: Real, I: Index>(
     discretization: &Discretization<R, I>,
     given: &LoadCase<R, I>,

@@ -52,6 +52,7 @@ impl<R: Real> Parts<R> {
     }
 
     /// `cells`: how many there are.
+    #[inline(always)]
     pub fn conclude(&self, cells: usize, stability: Stability<R>, oscillation: R) -> Verdict<R> {
         let root = |square: R| square.or_larger(R::ZERO).rounded_sqrt();
         let gap = root(self.gap.value());

@@ -9,6 +9,7 @@ use signorini_kernel::features;
 use signorini_kernel::index::{Index, read, write};
 
 /// The walk over the cells from the leaves: balances each and takes its share.
+#[inline(always)]
 pub(super) fn over_cells<R: Real, I: Index>(
     discretization: &Discretization<R, I>,
     given: &LoadCase<R, I>,

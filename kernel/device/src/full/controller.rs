@@ -60,6 +60,7 @@ pub trait Solver<R: Real, I: Index> {
 }
 
 impl<R: Real, I: Index, M: Math<R> + Copy> Solver<R, I> for CertifiedSweeps<M> {
+    #[inline(always)]
     fn tick<F: FnMut() -> u32, const WIDTH: usize>(
         &mut self,
         full: &Full<R, I>,
@@ -73,6 +74,7 @@ impl<R: Real, I: Index, M: Math<R> + Copy> Solver<R, I> for CertifiedSweeps<M> {
 }
 
 impl<R: Real, I: Index, M: Math<R> + Copy> Solver<R, I> for UncertifiedSweeps<M> {
+    #[inline(always)]
     fn tick<F: FnMut() -> u32, const WIDTH: usize>(
         &mut self,
         full: &Full<R, I>,
@@ -104,6 +106,7 @@ where
     Flags: AsMut<[bool]>,
     S: Sweeping<R, I> + Copy,
 {
+    #[inline(always)]
     fn tick<F: FnMut() -> u32, const WIDTH: usize>(
         &mut self,
         full: &Full<R, I>,
@@ -161,6 +164,7 @@ where
         self.own.reset();
     }
 
+    #[inline(always)]
     fn tick<O: Outputs<R>, F: FnMut() -> u32>(
         &mut self,
         full: &Self::Model<'_>,

@@ -87,6 +87,9 @@ impl<R: Real, I: Index> Full<'_, R, I> {
     /// Inputs that are not finite, or so large that data or answers may overflow ([`Tick::begin`]), or that leave a contact
     /// edge no flux; arrays of the wrong length, a factor of another mesh. The last answer stays then, bit for bit, and
     /// `outputs` are as they were.
+    // Inlined, as all on the way to it from a module's tick: whatever the compiler decides by itself depends on how many checks come
+    // before, and what stays apart loses its knowledge of the statics.
+    #[inline(always)]
     pub fn tick<const WIDTH: usize, F: FnMut() -> u32>(
         &self,
         inputs: &[R],

@@ -16,6 +16,8 @@ use signorini_kernel::index::Index;
 pub struct CertifiedSweeps<M>(pub M);
 
 impl<R: Real, I: Index, M: Math<R>> Method<R, I> for CertifiedSweeps<M> {
+    // Inlined: see `Running::advance`.
+    #[inline(always)]
     fn advance<F: FnMut() -> u32, const WIDTH: usize>(
         &mut self,
         running: &mut Running<'_, '_, R, I, WIDTH>,

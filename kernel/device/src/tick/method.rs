@@ -54,6 +54,8 @@ impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, R, I, WIDTH> {
     ///
     /// # Errors
     /// Never, but for a factor of another mesh.
+    // Inlined: apart it lost the compiler's knowledge of the statics.
+    #[inline(always)]
     pub fn advance<F: FnMut() -> u32>(
         &mut self,
         mut method: impl Method<R, I>,

@@ -138,6 +138,7 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
     }
 
     /// Begins with data that have been admitted.
+    #[inline(always)]
     pub(crate) fn enter<'t>(
         &'t mut self,
         data: Data<'t, R, I>,
@@ -180,6 +181,7 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
 }
 
 impl<R: Real, I: Index, const WIDTH: usize> Memory<'_, R, I, WIDTH> {
+    #[inline(always)]
     fn carry_over(&mut self, counts: EdgeCounts, data: &Data<R, I>, size: R) {
         self.forget_another_size(counts.unknowns(), size);
         let given = self.u.iter_mut().skip(counts.unknowns());

@@ -33,6 +33,8 @@ impl<R: Real, I: Index, S: Sweeping<R, I>> Method<R, I> for Substitutions<'_, '_
         self.exact.restart()
     }
 
+    // Inlined: see `Running::advance`.
+    #[inline(always)]
     fn advance<F: FnMut() -> u32, const WIDTH: usize>(
         &mut self,
         running: &mut Running<'_, '_, R, I, WIDTH>,
