@@ -22,7 +22,8 @@ pub struct DiagonalTerms<'a, R, I> {
 impl<'a, R: Real, I: Index> DiagonalTerms<'a, R, I> {
     /// Terms of the conditions on the boundary.
     pub fn new(boundary: &Boundary<'a, R, I>) -> Self {
-        Self { robin: boundary.robin() }
+        // A build without transfer laws shall not even look for them.
+        Self { robin: if features::ROBIN { boundary.robin() } else { &[] } }
     }
 
     /// (i, c_i) in the order of the edges, each edge once at most; one that is left out has c_i = 0.
