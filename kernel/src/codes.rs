@@ -17,8 +17,6 @@ pub struct Code {
     pub number: i32,
     /// Its word, such as `INPUT_OUT_OF_RANGE`.
     pub word: &'static CStr,
-    /// Its meaning, a sentence.
-    pub meaning: &'static str,
 }
 
 /// The word of the code with this number.
@@ -50,8 +48,11 @@ macro_rules! codes {
         impl $(<$scalar>)? $name $(<$scalar>)? {
             /// Every code, in the order of the numbers.
             pub const CODES: &'static [$crate::codes::Code] = &[
-                $($crate::codes::Code { number: $number, word: $word, meaning: $meaning },)+
+                $($crate::codes::Code { number: $number, word: $word },)+
             ];
+
+            /// What each of them means, a sentence: apart from the words, so that firmware holds none of it.
+            pub const MEANINGS: &'static [&'static str] = &[$($meaning,)+];
 
             /// The number of this value.
             pub const fn code(&self) -> i32 {

@@ -46,7 +46,7 @@ fn infinite(inputs: &Inputs) -> Option<usize> {
 pub unsafe fn told(
     state: &mut State,
     seal: Seal,
-    answer: Result<Answer, Error>,
+    answer: &Result<Answer, Error>,
     outputs: *mut Outputs,
     report: *mut Report,
 ) -> i32 {
@@ -58,13 +58,13 @@ pub unsafe fn told(
                     *outputs = answer.outputs;
                 }
                 if let Some(report) = report.as_mut() {
-                    *report = Report::new(&answer);
+                    *report = Report::new(answer);
                 }
             }
             Refusal::Ok.code()
         }
         Err(error) => {
-            let (why, culprit) = refusal(&error);
+            let (why, culprit) = refusal(error);
             state.blame(culprit);
             if matches!(why, Refusal::InputOutOfRange | Refusal::InputNotFinite) {
                 state.close(seal);

@@ -25,7 +25,7 @@ pub unsafe extern "C" fn tick(
     let (controller, seal) = state.open();
     let answer = answered(controller, inputs);
     // SAFETY: the caller's.
-    unsafe { told(state, seal, answer, outputs, report) }
+    unsafe { told(state, seal, &answer, outputs, report) }
 }
 
 /// A call of its own: then the compiler makes of the controller what it makes of it in Rust.

@@ -57,5 +57,5 @@ pub unsafe extern "C" fn tick_within(
     let (controller, seal) = state.open();
     let answer = controller.tick_within(inputs, limits, &mut deadline);
     // SAFETY: the caller's.
-    unsafe { told(state, seal, answer, outputs, report) }
+    unsafe { told(state, seal, &answer, outputs, report) }
 }

@@ -130,13 +130,10 @@ impl Header<'_> {
 
     fn codes(&self) -> String {
         let refused = "Why a call has no answer. The last answer stays what it was.";
-        enumeration("name_error", refused, Refusal::CODES)
-            + &enumeration("name_status", "What ended a tick.", Ended::CODES)
-            + &enumeration(
-                "name_bounded",
-                "Whether there is an error bound.",
-                Verdict::<f32>::CODES,
-            )
+        let bounded = "Whether there is an error bound.";
+        enumeration("name_error", refused, Refusal::CODES, Refusal::MEANINGS)
+            + &enumeration("name_status", "What ended a tick.", Ended::CODES, Ended::MEANINGS)
+            + &enumeration("name_bounded", bounded, Verdict::<f32>::CODES, Verdict::<f32>::MEANINGS)
     }
 
     fn report(&self) -> String {
@@ -181,12 +178,12 @@ fn structure(name: &str, doc: &str, items: &[Item], more: impl Iterator<Item = S
 }
 
 /// An enumeration in 32 bits, whatever -fshort-enums says.
-fn enumeration(name: &str, doc: &str, codes: &[Code]) -> String {
-    let value = |Code { number, word, meaning }: &Code| {
+fn enumeration(name: &str, doc: &str, codes: &[Code], meanings: &[&str]) -> String {
+    let value = |(Code { number, word }, meaning): (&Code, &&str)| {
         let word = word.to_string_lossy();
         format!("{}\n    NAME_{word} = {number}", comment(meaning.trim(), "    "))
     };
-    let values: Vec<_> = codes.iter().map(value).collect();
+    let values: Vec<_> = codes.iter().zip(meanings).map(value).collect();
     format!("\n/* {doc} */\ntypedef int32_t {name};\nenum {{\n{}\n}};\n", values.join(",\n"))
 }
 
