@@ -6,7 +6,7 @@ use super::costs::{CONSTANTS, CYCLES, FEWEST_CYCLES, Footprint};
 use super::full::Sizes;
 use signorini_scene::scene::Scene;
 
-/// What a model takes of a device, code and stack included.
+/// A model's needs of a device, code and stack included.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Needs {
     /// Bytes of RAM.
@@ -17,7 +17,7 @@ pub struct Needs {
     pub ticks: [Option<f64>; 2],
 }
 
-/// What a device has; what the scene does not declare is no limit.
+/// The device's memory and time; what the scene does not declare is no limit.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Budget {
     /// Bytes.
@@ -29,16 +29,16 @@ pub struct Budget {
     pub cycles: Option<f64>,
 }
 
-/// What is missing of one kind.
+/// A shortfall of one kind.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shortfall {
     /// The key of the scene file.
     pub key: &'static str,
-    /// What it is counted in.
+    /// Its unit.
     pub unit: &'static str,
-    /// What the model takes.
+    /// The model's need.
     pub needed: f64,
-    /// What there is.
+    /// The device's supply.
     pub declared: f64,
     /// Where `needed` comes from, if it needs saying.
     pub why: String,
@@ -56,7 +56,7 @@ impl Needs {
         self.ticks[0]
     }
 
-    /// Those of the longest.
+    /// The needs of the longest tick.
     pub fn most_instructions(&self) -> Option<f64> {
         self.ticks[1]
     }
@@ -74,7 +74,7 @@ impl fmt::Display for Shortfall {
 }
 
 impl Budget {
-    /// That of the scene.
+    /// The budget of the scene.
     pub fn of(scene: &Scene) -> Self {
         let Some(target) = scene.target else { return Self::default() };
         let cycles = target.tick.zip(target.clock).map(|(tick, clock)| tick * clock);

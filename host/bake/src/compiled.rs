@@ -38,7 +38,7 @@ fn main() {
 }
 ";
 
-/// What a module with a `main` prints when it runs.
+/// The text that a module with a `main` prints when it runs.
 pub fn printed(text: &str) -> String {
     ran(text).unwrap_or_else(|said| panic!("{said}"))
 }

@@ -1,6 +1,6 @@
 //! The text that makes a module's `Controller` of the kernel's: the scene's types and constants, its memory, an alias.
 
-/// What is the model's own.
+/// The parts that are the model's own.
 #[derive(Debug, Clone)]
 pub(super) struct Parts<'a> {
     /// How the first tick starts.
@@ -46,7 +46,7 @@ use signorini_device::{{Error, Report}};
 /// When a tick ends: {ends}.
 pub const LIMITS: Limits<Scalar> = {limits};
 
-/// What a tick came to.
+/// The answer of a tick.
 pub type Answer = controller::Answer<Outputs, Scalar>;
 
 /// All memory of the scene; can initialise a `static`. The first tick {first}, each answers {from}. Refused are inputs outside

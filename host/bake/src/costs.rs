@@ -34,7 +34,7 @@ pub(super) fn around(n: f64) -> [f64; 3] {
 pub struct Costs(Counts);
 
 impl Costs {
-    /// Those of the record.
+    /// The costs of the record.
     pub fn measured() -> Self {
         // A test reads it: what is compiled in can be read.
         Self(Counts::read(RECORD).unwrap_or_default())

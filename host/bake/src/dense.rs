@@ -31,7 +31,7 @@ const ALONE: f64 = 1.5;
 /// differ by up to 5 % from those of images), and what is fitted by up to 7 %.
 const MARGIN: f64 = 1.12;
 
-/// What a tick did.
+/// The work of a tick.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Done {
     /// Exchanges.

@@ -19,7 +19,7 @@ use signorini_problem::scalar::Scalar;
 pub struct Emitted {
     /// Its Rust source.
     pub source: String,
-    /// What it is.
+    /// Its kind.
     pub chosen: Chosen,
 }
 

@@ -8,7 +8,7 @@ pub(super) fn said(unit: &Option<String>) -> String {
     unit.as_ref().map_or_else(String::new, |unit| format!(" In {}.", code(unit)))
 }
 
-/// What an input does, in a sentence.
+/// The effect of an input, in a sentence.
 pub(super) fn effect(input: &Input) -> String {
     let (field, unit) = match input.field.value {
         Field::Flux => ("flux", "that of a flux (A∇u)·n, n outward"),
@@ -26,7 +26,7 @@ pub(super) fn effect(input: &Input) -> String {
     )
 }
 
-/// What an output means, in a few words.
+/// The meaning of an output, in a few words.
 pub(super) fn meaning(output: &Output) -> String {
     let place = output.of.as_ref().map_or("all contact".to_owned(), |of| code(&of.value));
     match output.quantity {

@@ -24,7 +24,7 @@ pub struct ModuleApi {
     outputs: Vec<Item>,
 }
 
-/// What the numbers of every module mean.
+/// The meaning of every module's numbers.
 pub(crate) const UNITS: &str = "Units are the scene's: lengths those of its mesh, fluxes A∇u those of its conductivity times u by length; \
                      a bound has that of (∫A∇u·∇u)^½. A flux is (A∇u)·n with the normal outward: positive where u rises \
                      towards the outside. Heat, which flows from high u to low, then flows in; water flows out where u is −head.";
@@ -34,7 +34,7 @@ pub(crate) const UNITS: &str = "Units are the scene's: lengths those of its mesh
 pub struct About<'a> {
     /// `full` or `condensed`.
     pub model: &'a str,
-    /// What it is, one paragraph of Markdown.
+    /// Its description, one paragraph of Markdown.
     pub text: &'a str,
     /// The features of the kernel that it needs.
     pub features: &'a [&'a str],

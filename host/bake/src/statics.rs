@@ -5,7 +5,7 @@ use std::fmt::{Debug, Write as _};
 use crate::imports::imports;
 use crate::text::array;
 
-/// What has been written so far.
+/// The text so far.
 #[derive(Debug, Default)]
 pub(crate) struct Statics {
     pub text: String,

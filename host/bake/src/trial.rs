@@ -29,7 +29,7 @@ pub struct Trial {
     pub settled: bool,
 }
 
-/// What one tick did.
+/// The work of one tick.
 #[derive(Debug, Clone, Copy)]
 struct TickWork {
     pivots: u32,

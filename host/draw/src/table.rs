@@ -63,11 +63,11 @@ pub struct Table {
 pub struct TableRow {
     /// A text for each column.
     pub cells: Vec<String>,
-    /// What is said of the row.
+    /// The note on the row.
     pub mark: Mark,
 }
 
-/// What is said of a row as a whole.
+/// The note on a row as a whole.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Mark {
     /// Nothing.

@@ -38,7 +38,7 @@ impl Binutils {
         self.run(&mut copy).map(|_| plain)
     }
 
-    /// What `names` reach in `whole`, as one object.
+    /// The symbols that `names` reach in `whole`, as one object.
     fn linked(&self, whole: &Path, names: &[String], object: &Path) -> Result<(), String> {
         let mut link = self.command("ld");
         link.args(["-r", "--gc-sections"]);

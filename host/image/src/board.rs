@@ -15,14 +15,14 @@ pub const TRIPLES: [&str; 2] = ["thumbv7em-none-eabi", "thumbv7em-none-eabihf"];
 /// A board.
 #[derive(Debug, Clone, Copy)]
 pub struct Board {
-    /// What tables call it.
+    /// Its name in tables.
     pub name: &'static str,
-    /// What `cargo xtask firmware --board` calls it.
+    /// Its name for `cargo xtask firmware --board`.
     pub word: &'static str,
     triple: &'static str,
     /// Where code for this very core is asked for.
     cpu_flag: Option<&'static str>,
-    /// What QEMU calls it.
+    /// Its name for QEMU.
     pub machine: &'static str,
     /// Its core.
     pub cpu: &'static str,

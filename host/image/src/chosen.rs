@@ -19,9 +19,9 @@ pub struct Chosen {
     pub instructions: Option<f64>,
     /// The sides of its contact edges; none of a full model, or where inputs have no range.
     pub ranges: Option<Ranges>,
-    /// What no tick exceeds.
+    /// The worst case, which no tick exceeds.
     pub worst_case: WorstCase,
-    /// What each output is the value of.
+    /// The meaning of each output.
     #[serde(default)]
     pub outputs: Vec<String>,
     /// Why an output has no interval; none where it has one.
@@ -43,13 +43,13 @@ pub struct WorstCase {
 /// Contact edges by what they do for all inputs within their ranges, and how large the error bound is, as far as is proved.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Ranges {
-    /// All of the scene.
+    /// The contact edges of the scene.
     pub contact: usize,
-    /// Those that are open for all inputs.
+    /// Contact edges that are open for all inputs.
     pub always_open: usize,
-    /// Those that touch for all inputs.
+    /// Contact edges that touch for all inputs.
     pub always_touching: usize,
-    /// Those whose flux is at its limit for all inputs.
+    /// Contact edges whose flux is at its limit for all inputs.
     #[serde(default)]
     pub always_saturated: usize,
     /// The others.

@@ -39,7 +39,7 @@ pub struct OutputBound {
     pub center: f64,
     /// How far the exact value is from it at most.
     pub plus_minus: f64,
-    /// What it is the value of.
+    /// Its meaning.
     pub of: String,
     /// A controller has no second mesh.
     pub estimate: Option<f64>,
@@ -54,9 +54,9 @@ pub struct Firmware {
     pub scalar: String,
     /// `full` or `condensed`.
     pub model: String,
-    /// Those of the first tick on the board.
+    /// Outputs of the first tick on the board.
     pub outputs: Values,
-    /// Those of the first tick on this machine.
+    /// Outputs of the first tick on this machine.
     pub host_outputs: Values,
     /// Where each output of the first tick lies for the exact solution, as the board says it; null where nothing is guaranteed.
     pub output_bounds: BTreeMap<String, Option<OutputBound>>,
@@ -72,15 +72,15 @@ pub struct Firmware {
     pub stack_bytes: u64,
     /// How many ticks there were.
     pub ticks: usize,
-    /// What the kernel was built with.
+    /// Features that the kernel was built with.
     pub kernel_features: Vec<String>,
     /// The sides of the contact edges, as the bake says.
     pub ranges: Option<Ranges>,
-    /// What no tick exceeds, as the bake says.
+    /// The worst case as the bake says, which no tick exceeds.
     pub worst_case: WorstCase,
     /// The tick that took most instructions.
     pub worst_tick: Option<WorstTick>,
-    /// What was found from starts of every kind, where it was looked for.
+    /// The worst tick found from starts of every kind, where it was looked for.
     pub worst_start: Option<WorstStart>,
     /// Inputs without a range: they stay within a tenth of their defaults (±0.1 where that is 0).
     pub inputs_without_range: Vec<String>,
@@ -154,7 +154,7 @@ impl Firmware {
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
     }
 
-    /// The same of `scene` for a person.
+    /// The figures of `scene` for a person.
     pub fn table(&self, scene: &str) -> String {
         let Self { board, scalar, model, ram_bytes, flash_bytes, stack_bytes, .. } = self;
         let Instructions { median, max, .. } = self.instructions_per_tick;
@@ -231,7 +231,7 @@ impl Firmware {
         text
     }
 
-    /// What no tick exceeds, in a line.
+    /// The worst case in a line.
     fn proved(&self) -> String {
         let WorstCase { exchanges, instructions, proven } = self.worst_case;
         let instructions = instructions.map(|count| format!("{count} instructions"));

@@ -37,7 +37,7 @@ impl Statics {
 /// Bytes of an image that runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Footprint {
-    /// What stands in it.
+    /// Its contents.
     pub statics: Statics,
     /// The stack of the deepest of all ticks.
     pub stack: u64,

@@ -19,18 +19,18 @@ use crate::tools;
 
 const PACKAGE: &str = "signorini-c";
 
-/// What a library is built for.
+/// The machine that a library is built for.
 #[derive(Debug, Clone, Copy)]
 pub struct Machine {
-    /// What `signorini bake --board` calls it.
+    /// Its name for `signorini bake --board`.
     pub word: &'static str,
     /// None: the machine that bakes.
     pub board: Option<Board>,
-    /// What GCC and Clang are told for it.
+    /// Flags of GCC and Clang for it.
     pub flags: &'static [&'static str],
 }
 
-/// All of them.
+/// All machines.
 pub const MACHINES: [Machine; 4] = [
     Machine {
         word: "m4",

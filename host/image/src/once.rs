@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-/// What was made under each name.
+/// Values made, by name.
 #[derive(Debug)]
 pub struct Once<T>(Mutex<BTreeMap<String, T>>);
 

@@ -11,7 +11,7 @@ use crate::values::Values;
 pub struct WorstTick {
     /// Its number, from 1.
     pub tick: usize,
-    /// What it took on the board.
+    /// Its cost on the board.
     pub instructions: u64,
     /// The value of every input.
     pub inputs: Values,
@@ -43,7 +43,7 @@ pub struct WorstStart {
 }
 
 impl WorstStart {
-    /// What an image printed that looked for it.
+    /// The text of an image that looked for it.
     ///
     /// # Errors
     /// A line that is missing.

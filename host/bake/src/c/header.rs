@@ -17,7 +17,7 @@ use crate::module_api::{ModuleApi, UNITS};
 use signorini_image::chosen::Chosen;
 use signorini_image::library::{Library, Machine};
 
-/// What the header is of.
+/// The subject of the header.
 pub(super) struct Header<'a> {
     pub name: &'a str,
     pub api: &'a ModuleApi,
@@ -27,7 +27,7 @@ pub(super) struct Header<'a> {
 }
 
 impl Header<'_> {
-    /// All of it.
+    /// The whole header.
     pub fn text(&self) -> String {
         let parts = [
             self.opening(),

@@ -54,13 +54,13 @@ pub struct Candidate<R: Scalar> {
     pub name: String,
     /// The model.
     pub model: Model<R>,
-    /// What it takes.
+    /// Its needs.
     pub needs: Needs,
-    /// What its warm ticks do.
+    /// Its warm ticks.
     pub trial: Trial,
     /// Instructions of the median warm tick in which the transfer coefficient that an input changes stays what it was.
     pub staying: Option<f64>,
-    /// What of the device it goes beyond.
+    /// Its shortfalls on the device.
     pub shortfalls: Vec<Shortfall>,
     /// Instructions of the worst tick that is proved of the exact method, where `[target]` has no time for it.
     pub too_long: Option<f64>,
@@ -97,15 +97,15 @@ pub struct Choice<R: Scalar> {
     pub candidates: Vec<Candidate<R>>,
     /// Position of the one chosen.
     pub chosen: usize,
-    /// What the device has.
+    /// The device's memory and time.
     pub budget: Budget,
     /// Why a model was not considered.
     pub excluded: Vec<String>,
-    /// What condensed candidates were made of.
+    /// The origin of condensed candidates.
     origin: Option<Origin>,
 }
 
-/// What is asked for.
+/// The model, scalar and method that are asked for.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Wanted {
     /// Only this model.

@@ -31,7 +31,7 @@ pub struct Work {
     pub sweeps: u32,
 }
 
-/// What a tick solves with.
+/// The arrays that a tick solves with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Solver {
     /// Nothing: no edge is in contact.
@@ -53,7 +53,7 @@ pub struct Baked<R: Scalar> {
     pub inputs: usize,
     /// The modes of the transfer coefficient that an input changes.
     pub modes: Option<Modes<R>>,
-    /// What the solver may do.
+    /// The limits of the solver.
     pub work: Work,
     /// The factor of the sweeps and when they end.
     pub sweeps: Sweeps<R>,

@@ -41,7 +41,7 @@ impl<'b, R: Scalar> Controller<'b, R> {
         Ok((outputs, report))
     }
 
-    /// What the last tick looked at.
+    /// The edges that the last tick looked at.
     pub fn visited(&self) -> Visited {
         let shared = self.own.storage().shared();
         let visited = Visited::new::<R>(shared.open(), shared.combination());

@@ -74,7 +74,7 @@ pub struct Scaled<'m> {
     compliance: Vec<f64>,
     /// β by modes.
     of_inputs: Vec<Vec<f64>>,
-    /// What g_k is at most.
+    /// The largest g_k.
     gains: Vec<f64>,
 }
 

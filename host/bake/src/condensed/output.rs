@@ -38,7 +38,7 @@ impl<R: Scalar> Output<R> {
         }
     }
 
-    /// What it holds in flash.
+    /// Its arrays in flash.
     pub fn arrays(&self) -> [&[R]; 3] {
         match self {
             Self::Linear { of_inputs, of_contact } => [of_inputs, of_contact, &[]],

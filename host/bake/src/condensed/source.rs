@@ -35,7 +35,7 @@ pub fn source<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
     text + &own + &data(face.outputs(), baked)
 }
 
-/// What the module may name, with its place in the kernel.
+/// Names that the module may use, with their place in the kernel.
 const NAMES: &[(&str, &str)] = &[
     ("ControllerStorage", "condensed::ControllerStorage"),
     ("Exchanges", "condensed::Exchanges"),
@@ -55,7 +55,7 @@ fn constants<R: Scalar>(baked: &Baked<R>) -> String {
         "
 /// Contact edges; the unknowns follow them along the boundary.
 pub const CONTACT: usize = {contact};
-/// The same, filled up to whole blocks.
+/// Contact edges, filled up to whole blocks.
 const PADDED: usize = {padded};
 /// Columns of the error bound's factor.
 const COLUMNS: usize = {columns};

@@ -13,7 +13,7 @@ use super::arrays::{Baked, Solver};
 use crate::statics::{Statics, lines, named};
 use signorini_problem::scalar::Scalar;
 
-/// What they may name, with its place in the kernel.
+/// Names that they may use, with their place in the kernel.
 const NAMES: &[(&str, &str)] = &[
     ("Condensed", "contact::Condensed"),
     ("Corner", "contact::certificate::Corner"),
@@ -122,7 +122,7 @@ fn modal<R: Scalar>(of: &Modal<R>, model: &str, to: &mut Statics) -> String {
     )
 }
 
-/// What an output is read off.
+/// The array that an output is read off.
 fn measure<R: Scalar>(of: &Measure<R>, output: &str, to: &mut Statics) -> String {
     let mut factors =
         |what: &str, doc: &str, all: &[R]| to.array::<R>(&named(output, what), doc, "Scalar", all);

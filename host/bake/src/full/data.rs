@@ -152,7 +152,7 @@ impl<R: Scalar> Data<R> {
         self.patterns.iter().any(is_such)
     }
 
-    /// What the kernel checks of its own arrays only where they are used.
+    /// Checks of the kernel that it makes only where its arrays are used.
     pub fn check(&self) -> std::result::Result<(), KernelError> {
         let weights = self.patterns.iter().flat_map(Pattern::weights);
         let numbers = self.oscillation.iter().copied().chain(weights);

@@ -7,7 +7,7 @@ use crate::controller::{self, Parts};
 use crate::imports::imports;
 use signorini_problem::scalar::Scalar;
 
-/// What the controller may name, with its place in the kernel.
+/// Names that the controller may use, with their place in the kernel.
 const NAMES: &[(&str, &str)] = &[
     ("Libm", "kernel::Libm"),
     ("Micromath", "kernel::Micromath"),
@@ -95,7 +95,7 @@ fn memory<R: Scalar>(baked: &Baked<R>) -> (String, String) {
     )
 }
 
-/// What ends a tick.
+/// The limits of a tick.
 fn ends<R: Scalar>(baked: &Baked<R>) -> &'static str {
     let how = &baked.how;
     match (how.limits.share > R::ZERO, how.certified) {

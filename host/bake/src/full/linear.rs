@@ -9,7 +9,7 @@ use crate::module_api::ModuleApi;
 use crate::statics::{Statics, lines, named};
 use signorini_problem::scalar::Scalar;
 
-/// What each input adds for each unit of its value.
+/// The share that each input adds for each unit of its value.
 pub(super) fn patterns<R: Scalar, I: Index>(
     all: &[Pattern<R, u32>],
     face: &ModuleApi,
@@ -91,7 +91,7 @@ fn traces<R: Scalar, I: Index>(input: &str, all: &[EdgeTrace<R, u32>], to: &mut 
     to.array::<EdgeTrace<R, I>>(&name, &doc, "EdgeTrace<Scalar, Index>", all)
 }
 
-/// What each output is.
+/// The value of each output.
 pub(super) fn outputs<R: Scalar, I: Index>(
     all: &[Functional<R, u32>],
     face: &ModuleApi,

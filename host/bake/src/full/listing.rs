@@ -12,7 +12,7 @@ use crate::module_api::ModuleApi;
 use crate::statics::Statics;
 use signorini_problem::scalar::Scalar;
 
-/// What they may name, with its place in the kernel.
+/// Names that they may use, with their place in the kernel.
 const NAMES: &[(&str, &str)] = &[
     ("CellLoads", "kernel::assembly::CellLoads"),
     ("InitialTableau", "contact::dense::tableau::InitialTableau"),

@@ -8,7 +8,7 @@ use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 
-/// What 1 stands for.
+/// Units in which the numbers of a problem are near 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Scale<R> {
     pub units: Units,

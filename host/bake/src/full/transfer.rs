@@ -40,7 +40,7 @@ impl<R: Scalar> Transfer<R> {
         all.map(|(input, integrals)| AmbientShare { input: *input, integrals }).collect()
     }
 
-    /// All of it, with its own `ambient` shares.
+    /// The whole law, with its own `ambient` shares.
     pub fn view<'a>(
         &'a self,
         ambient: &'a [AmbientShare<'a, R, u32>],

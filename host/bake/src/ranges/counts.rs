@@ -36,7 +36,7 @@ pub fn declared(scene: &Scene) -> bool {
     scene.inputs.is_empty() || scene.inputs.iter().any(|of| of.range.is_some())
 }
 
-/// The same as constants of the module.
+/// The counts as constants of the module.
 pub fn constants(ranges: Ranges) -> String {
     let Ranges {
         always_open,

@@ -10,7 +10,7 @@ use signorini_problem::scalar::Scalar;
 /// Inputs drawn.
 const DRAWN: usize = 1000;
 
-/// What was seen.
+/// The values seen.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Reach {
     /// How many inputs there were.

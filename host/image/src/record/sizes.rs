@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::fields;
 use crate::footprint::{Footprint, Statics};
 
-/// What a row is of.
+/// The subject of a row.
 const HEAD: &str = "scene (f32)";
 
 /// The table of these rows.

@@ -22,7 +22,7 @@ pub fn table(sizes: &Sizes) -> String {
     )
 }
 
-/// What a start says in a column.
+/// A start's figure for a column.
 type Figure = fn(&Baseline) -> String;
 
 fn columns<'s>() -> Vec<Column<'s, Line<'s>>> {

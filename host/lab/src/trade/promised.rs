@@ -34,24 +34,24 @@ pub const STANDARD: [&str; 6] = [
 ];
 /// See [`STANDARD`].
 pub const RECORD: &str = "host/benches/trade/promised.txt";
-/// What a table is called in the folder of its scene.
+/// The name of a table in the folder of its scene.
 pub const FILE: &str = "promised.txt";
 
-/// What a promised error takes on a mesh of one kind.
+/// The firmware of a promised error on a mesh of one kind.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Taken {
-    /// What the bound is at most.
+    /// The bound that must hold.
     pub goal: Goal,
     /// Which cells were refined.
     pub refining: Refining,
-    /// What it takes, or why there is no such firmware.
+    /// Its needs, or why there is no such firmware.
     pub found: std::result::Result<Firmware, String>,
 }
 
 /// A controller for the mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Firmware {
-    /// What holds on the mesh.
+    /// The figures of the mesh.
     pub promise: Promise,
     /// Edges of its contact boundary.
     pub contact: usize,
