@@ -82,20 +82,17 @@ mod tests {
 
     #[test]
     fn words_and_meanings_differ() {
-        for (at, one) in Refusal::CODES.iter().enumerate() {
-            for other in Refusal::CODES.iter().take(at) {
-                assert!(one.word != other.word);
-            }
-            assert!(
-                Refusal::MEANINGS.iter().skip(at + 1).all(|other| *other != Refusal::MEANINGS[at])
-            );
+        let all = || Refusal::CODES.iter().map(|code| code.word).zip(Refusal::MEANINGS);
+        for (at, (word, meaning)) in all().enumerate() {
+            assert!(all().take(at).all(|(other, meant)| other != word && meant != meaning));
         }
+        assert_eq!(all().count(), Refusal::CODES.len());
         let known = |codes: &'static [Code], code| word(codes, code);
         assert_eq!(known(Ended::CODES, Ended::OutOfTime.code()), Some(c"OUT_OF_TIME"));
         let below = Verdict::<f32>::BelowGap.code();
         assert_eq!(known(Verdict::<f32>::CODES, below), Some(c"BELOW_GAP"));
-        assert_eq!(Refusal::MEANINGS.len(), Refusal::CODES.len());
-        assert_eq!(Refusal::MEANINGS[0].trim(), "There is an answer.");
+        let first = Refusal::MEANINGS.first().map(|meaning| meaning.trim());
+        assert_eq!(first, Some("There is an answer."));
     }
 
     #[test]

@@ -31,7 +31,7 @@ impl VisitMut for Structs {
             .filter_map(|field| Some(field.ident.as_ref()?.to_string()))
             .collect();
         let has = |kind: &&[&str]| names.iter().any(|name| kind.contains(&name.as_str()));
-        if OF_AN_ANSWER.iter().all(|kind| has(kind)) {
+        if OF_AN_ANSWER.iter().all(has) {
             self.0.push(item.ident.to_string());
         }
     }
