@@ -1,6 +1,6 @@
 //! Verdict on how wrong an answer is, whatever model of a scene gave it.
 //!
-//! `signorini_bound::certificate` finds it on a mesh, [`signorini_contact`] in a problem of contact edges alone.
+//! `signorini_bound::certificate` finds it on a mesh, `signorini_contact` in a problem of contact edges alone.
 
 use crate::real::Real;
 

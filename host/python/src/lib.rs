@@ -7,7 +7,7 @@
 //!                                          ├─ bake ───────► source
 //!                                          └─ Controller ─► a thread of its own
 //! ```
-//! All work runs without the interpreter's lock, on a thread that Ctrl-C does not wait for ([`work`]).
+//! All work runs without the interpreter's lock, on a thread that Ctrl-C does not wait for (`work`).
 
 mod arrays;
 mod baking;

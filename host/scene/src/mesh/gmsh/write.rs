@@ -1,4 +1,4 @@
-//! A mesh as MSH 4.1 in ASCII, with all names, as Gmsh and [`super::parse`] read it.
+//! A mesh as MSH 4.1 in ASCII, with all names, as Gmsh and `super::parse` read it.
 //!
 //! ```text
 //!   groups of a cell ─► class ─► entity of dimension 2     cells of one class that follow each other: a block
