@@ -14,11 +14,11 @@ use crate::absence::{ALLOCATOR, Absence, DOUBLE, FORMATTING, PANIC};
 use crate::audit_baked;
 use crate::audit_c;
 use crate::export::scenes;
-use crate::modules;
+use crate::modules::{self, ROWS};
 use crate::setup;
 use crate::steps::Steps;
 use crate::symbols::sized;
-use signorini_image::board::{Build, M4F};
+use signorini_image::board::{Build, M4F, M4F_192K};
 use signorini_image::toolchain::output;
 
 /// The functions that only quads need; none is inlined.
@@ -71,7 +71,11 @@ pub fn run(steps: &mut Steps) {
         });
     }
     modules::bake_for_c(steps);
-    audit_baked::run(steps);
+    for (row, audit) in ROWS.iter().filter_map(|row| row.audit.map(|audit| (row, audit))) {
+        steps.check(&format!("{}, baked: what its scene lacks", row.name()), || {
+            audit_baked::check(&audit, &row.module()?.image(&M4F_192K)?)
+        });
+    }
     audit_c::run(steps);
 }
 

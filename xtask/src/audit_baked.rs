@@ -6,10 +6,7 @@
 use std::path::Path;
 
 use crate::absence::{ALLOCATOR, Absence, DOUBLE, FORMATTING, PANIC};
-use crate::modules::ROWS;
-use crate::steps::Steps;
 use crate::symbols::{inlined, sized};
-use signorini_image::board::M4F_192K;
 
 const ALWAYS: [Absence; 4] = [FORMATTING, ALLOCATOR, PANIC, DOUBLE];
 
@@ -129,13 +126,9 @@ impl Audit {
         Self { lacks: &[ROBIN], holds: &[SOLVER, FULL, TRIANGLES_CODE, QUADS_CODE] };
 }
 
-/// A step for each image.
-pub fn run(steps: &mut Steps) {
-    for (row, audit) in ROWS.iter().filter_map(|row| row.audit.map(|audit| (row, audit))) {
-        steps.check(&format!("{}, baked: what its scene lacks", row.name()), || {
-            judge(&audit, &functions(&row.module()?.image(&M4F_192K)?)?)
-        });
-    }
+/// `Ok` where the image is free of what it must not have, and has what it must.
+pub fn check(audit: &Audit, image: &Path) -> Result<(), String> {
+    judge(audit, &functions(image)?)
 }
 
 fn judge(image: &Audit, names: &[String]) -> Result<(), String> {

@@ -2,7 +2,7 @@
 
 use syn::visit_mut::{self, VisitMut};
 
-use super::sources::{Source, found_in};
+use super::sources::{Source, beyond_one, found_in};
 
 /// What an answer has, by the names that a field of it may have.
 const OF_AN_ANSWER: [&[&str]; 4] = [
@@ -16,8 +16,7 @@ const SESSIONS: [&str; 4] = ["Condensed", "Full", "KernelTick", "Solves"];
 
 /// Structs that own u, flux, status and bound, where there are more than one.
 pub fn structs(sources: &[Source]) -> Vec<String> {
-    let found = found_in(sources, |structs: Structs| structs.0);
-    if found.len() > 1 { found } else { Vec::new() }
+    beyond_one(found_in(sources, |structs: Structs| structs.0))
 }
 
 #[derive(Default)]

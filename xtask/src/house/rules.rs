@@ -3,7 +3,7 @@
 use syn::visit_mut::{self, VisitMut};
 
 use super::answers;
-use super::sources::{Source, found_in};
+use super::sources::{Source, beyond_one, found_in};
 
 /// A rule.
 pub struct Rule {
@@ -22,11 +22,6 @@ pub const RULES: [Rule; 6] = [
     Rule { name: "one function decides what a parallelogram is", broken_by: parallelograms },
     Rule { name: "one function decides what an empty range of fluxes is", broken_by: empty_ranges },
 ];
-
-/// Those found, where there are more than one.
-fn beyond_one(found: Vec<String>) -> Vec<String> {
-    if found.len() > 1 { found } else { Vec::new() }
-}
 
 /// Functions of a controller that are written once, in the kernel.
 const OF_A_TICK: [&str; 5] = ["tick", "tick_within", "reset", "advance", "solve"];

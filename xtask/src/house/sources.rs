@@ -36,6 +36,11 @@ impl Source {
     }
 }
 
+/// Those found, where there are more than one.
+pub fn beyond_one(found: Vec<String>) -> Vec<String> {
+    if found.len() > 1 { found } else { Vec::new() }
+}
+
 /// Looks through all files; `found` takes what a visitor has found in each, by the file's path.
 pub fn found_in<V: VisitMut + Default>(
     sources: &[Source],

@@ -10,13 +10,14 @@ use super::active_set::ActiveSet;
 use super::cascade::Cascade;
 use super::clarabel::Clarabel;
 use super::condensed::condensed;
-use super::contest::{Contest, Entrant, Outcome};
+use super::contest::{Entrant, Outcome};
 use super::full::{Full, quadratic};
 use super::load_case::LoadCase;
 use super::osqp::{Manner, Osqp};
 use super::pivots::Pivots;
 use super::psor::Psor;
 use super::quadratic::Quadratic;
+use super::series::Task;
 use crate::baseline::record::Baseline;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Parts, Problem};
@@ -53,27 +54,27 @@ impl Benchmark<'_> {
             Ok(baselines) => found.extend(baselines),
             Err(error) => notes.push(format!("{name}: {error}")),
         };
-        let contest = Contest { problem: "full", quadratic: &full, target: self.target };
-        self.sweeps::<f64>(&contest, &parts, moments, &mut take);
-        self.sweeps::<f32>(&contest, &parts, moments, &mut take);
-        self.cascade(&contest, moments)?.into_iter().for_each(&mut take);
-        take(contest.alone(Entrant::new("faer active set", Ok(ActiveSet::new(&full)))));
+        let task = Task { problem: "full", quadratic: &full, target: self.target };
+        self.sweeps::<f64>(&task, &parts, moments, &mut take);
+        self.sweeps::<f32>(&task, &parts, moments, &mut take);
+        self.cascade(&task, moments)?.into_iter().for_each(&mut take);
+        take(task.alone(Entrant::new("faer active set", Ok(ActiveSet::new(&full)))));
         let kept = ActiveSet::with_factor(&full);
-        take(contest.alone(Entrant::new("faer active set, factor kept", kept)));
-        self.general(&full).map(|entrant| contest.alone(entrant)).for_each(&mut take);
+        take(task.alone(Entrant::new("faer active set, factor kept", kept)));
+        self.general(&full).map(|entrant| task.alone(entrant)).for_each(&mut take);
 
         let begin = Instant::now();
         match condensed(self.problem, &full, &factor) {
             Ok((quadratic, model)) => {
                 let seconds = begin.elapsed().as_secs_f64();
-                let contest = Contest { problem: "condensed", quadratic: &quadratic, ..contest };
+                let task = Task { problem: "condensed", quadratic: &quadratic, ..task };
                 let ticks = &quadratic.ticks;
                 let mut entrants = vec![
                     Entrant::new("kernel pivoting f64", Pivots::<f64>::new(&model, ticks)),
                     Entrant::new("kernel pivoting f32", Pivots::<f32>::new(&model, ticks)),
                 ];
                 entrants.extend(self.general(&quadratic));
-                contest.in_turns(entrants).into_iter().for_each(take);
+                task.in_turns(entrants).into_iter().for_each(take);
                 let n = quadratic.matrix.order();
                 notes.push(format!(
                     "condensing to {n} unknowns takes {seconds:.3} s, once, outside of all counts"
@@ -98,7 +99,7 @@ impl Benchmark<'_> {
     /// Sweeps with the ω that they find themselves, and with the best fixed one.
     fn sweeps<R: Scalar>(
         &self,
-        contest: &Contest,
+        task: &Task,
         parts: &Parts,
         moments: &[LoadCase],
         take: &mut impl FnMut(Outcome),
@@ -106,15 +107,15 @@ impl Benchmark<'_> {
         let name = format!("kernel PSOR {}", R::NAME);
         match Full::<R>::new(self.problem, parts, moments) {
             Ok(full) if self.problem.mesh.quads.is_empty() => {
-                sweep::<R, TRIANGLES>(contest, &full, &name, take);
+                sweep::<R, TRIANGLES>(task, &full, &name, take);
             }
-            Ok(full) => sweep::<R, QUADS>(contest, &full, &name, take),
+            Ok(full) => sweep::<R, QUADS>(task, &full, &name, take),
             Err(error) => take((name, Err(error))),
         }
     }
 
     /// Sweeps from coarse to fine, where there are coarser grids.
-    fn cascade(&self, contest: &Contest, moments: &[LoadCase]) -> Result<Option<Outcome>> {
+    fn cascade(&self, task: &Task, moments: &[LoadCase]) -> Result<Option<Outcome>> {
         if self.coarser.is_empty() {
             return Ok(None);
         }
@@ -123,20 +124,20 @@ impl Benchmark<'_> {
         let grids: Vec<Full<f64>> = problems.clone().map(full).collect::<Result<_>>()?;
         let grids: Vec<_> = problems.zip(&grids).collect();
         let name = "kernel PSOR f64, coarse to fine";
-        Ok(Some(contest.alone(Entrant::new(name, Cascade::new(&grids)))))
+        Ok(Some(task.alone(Entrant::new(name, Cascade::new(&grids)))))
     }
 }
 
 fn sweep<R: Scalar, const WIDTH: usize>(
-    contest: &Contest,
+    task: &Task,
     full: &Full<R>,
     name: &str,
     take: &mut impl FnMut(Outcome),
 ) {
     let adaptive = full.system().map(|system| Psor::<R, WIDTH>::adaptive(system, &full.ticks));
-    take(contest.alone(Entrant::new(name, adaptive)));
+    take(task.alone(Entrant::new(name, adaptive)));
     let tuned = full.system().and_then(|system| Psor::<R, WIDTH>::tuned(system, &full.ticks));
-    take(contest.alone(Entrant::new(&format!("{name}, tuned ω"), tuned)));
+    take(task.alone(Entrant::new(&format!("{name}, tuned ω"), tuned)));
 }
 
 /// Fills in the ratios: to the kernel in f64 on the same problem, and to its condensed model.

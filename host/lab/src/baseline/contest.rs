@@ -15,8 +15,7 @@
 use crate::baseline::record::Baseline;
 use signorini_scene::error::Result;
 
-use super::quadratic::Quadratic;
-use super::series::Series;
+use super::series::{Series, Task};
 use super::timed_solver::{InitialGuess, TimedSolver};
 
 /// Repeats of a solver alone, and of several in turns.
@@ -25,15 +24,6 @@ const REPEATS: [usize; 2] = [5, 9];
 const ROWS: usize = 3;
 /// The mean spread of repeats that are calm.
 const CALM: f64 = 0.05;
-
-/// A problem that solvers are measured on.
-pub(super) struct Contest<'q> {
-    /// `full`, `condensed`.
-    pub problem: &'static str,
-    pub quadratic: &'q Quadratic,
-    /// The energy distance that is small enough.
-    pub target: f64,
-}
 
 /// A solver on its way through its starts.
 pub(super) struct Entrant<'e> {
@@ -79,7 +69,7 @@ impl<'e> Entrant<'e> {
     }
 }
 
-impl Contest<'_> {
+impl Task<'_> {
     /// Measures one solver by itself.
     pub fn alone(&self, entrant: Entrant) -> Outcome {
         let mut one = [entrant];

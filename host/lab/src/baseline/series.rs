@@ -5,7 +5,7 @@ use std::time::Instant;
 use crate::baseline::record::Baseline;
 use signorini_scene::error::Result;
 
-use super::contest::Contest;
+use super::quadratic::Quadratic;
 use super::timed_solver::{InitialGuess, TimedSolver};
 
 /// Seconds of a repeat, at least.
@@ -35,7 +35,16 @@ pub(super) struct Series {
     spent: f64,
 }
 
-impl Contest<'_> {
+/// A problem that solvers are measured on.
+pub(super) struct Task<'q> {
+    /// `full`, `condensed`.
+    pub problem: &'static str,
+    pub quadratic: &'q Quadratic,
+    /// The energy distance that is small enough.
+    pub target: f64,
+}
+
+impl Task<'_> {
     /// Begins a series: finds its tolerance.
     pub(super) fn trial(
         &self,

@@ -36,6 +36,23 @@ pub(super) struct Run<'s> {
     truth: Option<ReferenceSolution>,
 }
 
+impl Study {
+    /// Measures what no journal knows, and puts it together. Where cases are shared `by_scene`, all of this one are
+    /// this process's. `done` hears of every case: how many there are, and what it was.
+    ///
+    /// # Errors
+    /// Wrong input, files that cannot be written.
+    pub fn run(
+        &self,
+        shard: Shard,
+        by_scene: bool,
+        wish: &Wish,
+        done: &mut dyn FnMut(usize, &str),
+    ) -> Result<StudyState> {
+        Run::open(self, shard, by_scene)?.finish(wish, done)
+    }
+}
+
 impl<'s> Run<'s> {
     /// Opens the journal of a study.
     pub fn open(study: &'s Study, shard: Shard, by_scene: bool) -> Result<Self> {

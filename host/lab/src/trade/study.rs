@@ -3,12 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use super::board;
-use super::front::Wish;
 use super::journal::Journal;
 use super::measured_setting::{digest, program};
 use super::meshes::Meshes;
 use super::record::Trade;
-use super::run::Run;
 use super::shard::Shard;
 use super::target::Target;
 use crate::checkout::root;
@@ -76,21 +74,6 @@ impl Study {
         let warnings = problem.map(|problem| problem.warnings).unwrap_or_default();
         let named = |warning| format!("{}: {warning}", self.name);
         warnings.into_iter().chain(self.at_rest.clone()).map(named).collect()
-    }
-
-    /// Measures what no journal knows, and puts it together. Where cases are shared `by_scene`, all of this one are
-    /// this process's. `done` hears of every case: how many there are, and what it was.
-    ///
-    /// # Errors
-    /// Wrong input, files that cannot be written.
-    pub fn run(
-        &self,
-        shard: Shard,
-        by_scene: bool,
-        wish: &Wish,
-        done: &mut dyn FnMut(usize, &str),
-    ) -> Result<StudyState> {
-        Run::open(self, shard, by_scene)?.finish(wish, done)
     }
 
     /// Deletes what only an interrupted study needs.
