@@ -35,15 +35,15 @@ use signorini_kernel::error::{Array, Error, same_length};
 use signorini_kernel::index::read;
 use signorini_kernel::verdict::{Certificate, Verdict};
 
-/// A contact vertex that no Dirichlet edge ends at.
-#[derive(Debug, Clone, Copy)]
-pub struct Vertex<R> {
+/// A contact vertex that no Dirichlet edge ends at, where e = s − ψ is a sum of two openings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Vertex<R, I = u16> {
     /// The contact edges whose openings tell e there.
-    pub edges: [u16; 2],
+    pub edges: [I; 2],
     /// How much each counts.
     pub weights: [R; 2],
     /// Its own contact edges; an end of the contact has one, named twice.
-    pub beside: [u16; 2],
+    pub beside: [I; 2],
 }
 
 impl<R: Real> Vertex<R> {

@@ -9,43 +9,83 @@ use signorini_kernel::error::{Array, Error, same_length, same_length_or_empty};
 use signorini_kernel::verdict::Certificate;
 use signorini_kernel::{Real, features};
 
-/// One output as a function of the inputs p, whose first is the constant 1, of the openings x, and of r = Sx − b.
-#[derive(Debug, Clone, Copy)]
-pub enum Measure<'a, R> {
+/// One output as a function of the inputs p, whose first is the constant 1, of the openings x, and of r = Sx − b: its factors
+/// in columns `C`, owned on the host that makes them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Output<C, R> {
     /// Σ Y_p p + Σ Y_x x: a value at a point, a flux where there is no contact.
     Linear {
         /// Y_p, one entry an input.
-        of_inputs: &'a [R],
+        of_inputs: C,
         /// Y_x, one entry a contact edge.
-        of_contact: &'a [R],
+        of_contact: C,
     },
     /// Σ Y_p p + Σ Y_x x + Σ Y_r r, the last over the edges with x = 0 and r > 0, or with limits r as above: a force, and a
     /// flux through contact edges.
     Flux {
         /// Y_p, what q and other boundaries bring; empty for none.
-        of_inputs: &'a [R],
+        of_inputs: C,
         /// Y_x, what other boundaries bring; empty for none.
-        of_contact: &'a [R],
+        of_contact: C,
         /// Y_r, the flux of a unit of r through an edge that counts, or 0; below 0 for forces that are counted down from a
         /// limit.
-        of_reaction: &'a [R],
+        of_reaction: C,
     },
     /// The length of the edges that touch, x = 0.
     Length {
         /// Sum over edges that touch whatever the inputs are, and have no x.
         always: R,
         /// |E|, or 0 of an edge that does not count.
-        of_contact: &'a [R],
+        of_contact: C,
     },
     /// The length of the edges at their upper end, x < 0.
     Saturated {
         /// Sum over edges that are there whatever the inputs are, and have no x.
         always: R,
         /// |E|, or 0 of an edge that does not count.
-        of_contact: &'a [R],
+        of_contact: C,
     },
     /// How wrong the answer can be: the certificate's total, ∞ where there is none.
     Bound,
+}
+
+/// An output whose columns are borrowed, as on the target.
+pub type Measure<'a, R> = Output<&'a [R], R>;
+
+impl<C, R: Copy> Output<C, R> {
+    /// The same output of other columns and numbers.
+    pub fn map<'o, D, S>(
+        &'o self,
+        column: impl Fn(&'o C) -> D,
+        number: impl Fn(R) -> S,
+    ) -> Output<D, S> {
+        match self {
+            Self::Linear { of_inputs, of_contact } => {
+                let [of_inputs, of_contact] = [of_inputs, of_contact].map(column);
+                Output::Linear { of_inputs, of_contact }
+            }
+            Self::Flux { of_inputs, of_contact, of_reaction } => {
+                let all = [of_inputs, of_contact, of_reaction].map(column);
+                let [of_inputs, of_contact, of_reaction] = all;
+                Output::Flux { of_inputs, of_contact, of_reaction }
+            }
+            Self::Length { always, of_contact } => {
+                Output::Length { always: number(*always), of_contact: column(of_contact) }
+            }
+            Self::Saturated { always, of_contact } => {
+                Output::Saturated { always: number(*always), of_contact: column(of_contact) }
+            }
+            Self::Bound => Output::Bound,
+        }
+    }
+
+    /// With its columns borrowed.
+    pub fn view(&self) -> Measure<'_, R>
+    where
+        C: AsRef<[R]>,
+    {
+        self.map(|column| column.as_ref(), |number| number)
+    }
 }
 
 impl<R: Real> Measure<'_, R> {

@@ -8,6 +8,5 @@ mod condensed_limits;
 mod condensed_modes;
 mod limited;
 mod memory;
+mod phases;
 mod strip;
-mod three_phases;
-mod two_phases;

@@ -46,16 +46,7 @@ impl<R: Real> Strip<R> {
         let narrow = |x: f64| R::from_f64(x).unwrap_or(R::ZERO);
         let entries: Vec<Vec<R>> =
             (0..order).map(|i| (0..order).map(|j| narrow(scaled(i, j))).collect()).collect();
-        let entry = |row: usize, column: usize| {
-            entries.get(row).and_then(|row| row.get(column)).copied().unwrap_or(R::ZERO)
-        };
-        let block = |row: usize, column: usize| {
-            let at = |r| std::array::from_fn(|c| entry(SIDE * row + r, SIDE * column + c));
-            std::array::from_fn(at)
-        };
-        let rows = 0..order.div_ceil(SIDE);
-        let blocks = rows.flat_map(|row| (0..=row).map(move |column| (row, column)));
-        let blocks = blocks.map(|(row, column)| block(row, column)).collect();
+        let blocks = in_blocks(order, |i, j| entries[i][j]);
         Self { order, entries, blocks }
     }
 
@@ -80,6 +71,17 @@ impl<R: Real> Strip<R> {
         all.resize(padded(self.order), R::ZERO);
         all
     }
+}
+
+/// A symmetric matrix in blocks, with 0 in the padding.
+pub fn in_blocks<R: Real>(order: usize, entry: impl Fn(usize, usize) -> R) -> Vec<Block<R>> {
+    let entry = |i: usize, j: usize| if i.max(j) < order { entry(i, j) } else { R::ZERO };
+    let block = |(row, column): (usize, usize)| {
+        let line = |r: usize| std::array::from_fn(|c| entry(SIDE * row + r, SIDE * column + c));
+        std::array::from_fn(line)
+    };
+    let rows = 0..order.div_ceil(SIDE);
+    rows.flat_map(|row| (0..=row).map(move |column| (row, column))).map(block).collect()
 }
 
 fn condensed(n: usize) -> Vec<Vec<f64>> {
