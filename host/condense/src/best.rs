@@ -41,37 +41,35 @@ fn add(row: &mut [f64], factor: f64, other: &[f64]) {
 }
 
 impl Block {
+    /// The rows of `s` and of `fluxes` that `row` is a sum of, each with its factor, and its own entries of p.
+    fn terms<'t>(
+        &'t self,
+        row: &'t [f64],
+        s: &'t Table,
+        fluxes: &'t Table,
+    ) -> (impl Iterator<Item = (&'t [f64], f64)>, &'t [f64]) {
+        let (of_functions, rest) = row.split_at(self.functions.len());
+        let (of_fluxes, of_inputs) = rest.split_at(self.edges.len());
+        let of_s = self.functions.iter().map(|&at| s.row(at as usize)).zip(of_functions);
+        let of_tau = self.edges.iter().map(|&at| fluxes.row(at as usize)).zip(of_fluxes);
+        (of_s.chain(of_tau).map(|(columns, &factor)| (columns, factor)), of_inputs)
+    }
+
     /// Row `row` of Gs − Tτ in every column: `s` and `fluxes` hold the columns of both, and column j
     /// is that of p_j as far as there are patterns.
     pub fn residual(&self, row: &[f64], s: &Table, fluxes: &Table, sum: &mut [f64]) {
         sum.fill(0.0);
-        let (of_functions, rest) = row.split_at(self.functions.len());
-        let (of_fluxes, of_inputs) = rest.split_at(self.edges.len());
-        for (&function, &factor) in self.functions.iter().zip(of_functions) {
-            add(sum, factor, s.row(function as usize));
-        }
-        for (&edge, &factor) in self.edges.iter().zip(of_fluxes) {
-            add(sum, factor, fluxes.row(edge as usize));
-        }
-        add(sum, 1.0, of_inputs);
+        let (terms, of_inputs) = self.terms(row, s, fluxes);
+        terms.chain([(of_inputs, 1.0)]).for_each(|(columns, factor)| add(sum, factor, columns));
     }
 
     /// Σ |terms| of that.
     pub fn sizes(&self, row: &[f64], s: &Table, fluxes: &Table, sum: &mut [f64]) {
         sum.fill(0.0);
-        let (of_functions, rest) = row.split_at(self.functions.len());
-        let (of_fluxes, of_inputs) = rest.split_at(self.edges.len());
-        let functions = self
-            .functions
-            .iter()
-            .zip(of_functions)
-            .map(|(&at, factor)| (s.row(at as usize), factor));
-        let fluxes =
-            self.edges.iter().zip(of_fluxes).map(|(&at, factor)| (fluxes.row(at as usize), factor));
-        for (columns, factor) in functions.chain(fluxes) {
+        let (terms, of_inputs) = self.terms(row, s, fluxes);
+        for (columns, factor) in terms.chain([(of_inputs, 1.0)]) {
             sum.iter_mut().zip(columns).for_each(|(sum, entry)| *sum += (factor * entry).abs());
         }
-        sum.iter_mut().zip(of_inputs).for_each(|(sum, entry)| *sum += entry.abs());
     }
 
     /// The part of the fluxes alone.
@@ -107,7 +105,7 @@ pub(super) fn complete(
             }
         }
     }
-    let best = normal_matrix(blocks, &numbers, free).solve(&right.by_columns())?;
+    let best = solve(blocks, &numbers, free, &right.by_columns())?;
     for (function, number) in numbers.iter().enumerate() {
         let Some(number) = *number else { continue };
         let values = best.iter().skip(number).step_by(free);
@@ -122,21 +120,13 @@ fn numbers(fixed: &[bool]) -> Vec<Option<usize>> {
     fixed.iter().map(|&fixed| if fixed { None } else { next.next() }).collect()
 }
 
-/// Compressed rows, owned.
-struct Normal {
-    row_ptr: Vec<u32>,
-    col_idx: Vec<u32>,
-    values: Vec<f64>,
-}
-
-impl Normal {
-    fn solve(&self, right: &[f64]) -> Result<Vec<f64>, ReferenceError> {
-        let Self { row_ptr, col_idx, values } = self;
-        Linear { row_ptr, col_idx, values }.solve(right)
-    }
-}
-
-fn normal_matrix(blocks: &[Block], numbers: &[Option<usize>], free: usize) -> Normal {
+/// (GᵀG)⁻¹ applied to the columns of `right`.
+fn solve(
+    blocks: &[Block],
+    numbers: &[Option<usize>],
+    free: usize,
+    right: &[f64],
+) -> Result<Vec<f64>, ReferenceError> {
     let mut rows = vec![BTreeMap::<u32, f64>::new(); free];
     for block in blocks {
         let number = |function: u32| numbers[function as usize];
@@ -150,11 +140,11 @@ fn normal_matrix(blocks: &[Block], numbers: &[Option<usize>], free: usize) -> No
             }
         }
     }
-    let mut normal = Normal { row_ptr: vec![0], col_idx: Vec::new(), values: Vec::new() };
+    let (mut row_ptr, mut col_idx, mut values) = (vec![0], Vec::new(), Vec::new());
     for row in rows {
-        normal.col_idx.extend(row.keys());
-        normal.values.extend(row.values());
-        normal.row_ptr.push(normal.values.len() as u32);
+        col_idx.extend(row.keys());
+        values.extend(row.values());
+        row_ptr.push(values.len() as u32);
     }
-    normal
+    Linear { row_ptr: &row_ptr, col_idx: &col_idx, values: &values }.solve(right)
 }

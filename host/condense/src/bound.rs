@@ -7,7 +7,10 @@
 //! with the means of the positive and the negative part of s − ψ over edge i.
 
 use super::ends::nearest;
+use super::evaluate::dot;
+use super::factor::{column, norm};
 use super::{CondensedModel, Corner, Form};
+use signorini_kernel::excess::Excess;
 
 /// An excess this far on a side that there is not, against the size of its terms, is rounding of its sum.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -139,7 +142,7 @@ impl Form {
             let entries = rows.iter_mut().zip(column(factor, j));
             entries.for_each(|(row, entry)| *row += entry * z);
         }
-        rows.iter().map(|row| row * row).sum::<f64>().sqrt()
+        norm(&rows)
     }
 
     /// Mends the residual r̂ and returns |δ|; `None` where what is left over has no way out.
@@ -197,7 +200,8 @@ impl Form {
         };
         let of_edge = |at: usize| {
             let scale = allowed.scale[at];
-            let [above, below] = sides(self.ends[at].map(|place| excess(place, scale)));
+            let ends = self.ends[at].map(|place| excess(place, scale));
+            let [above, below] = Excess { ends, bubble: 0.0 }.sides();
             2.0 * self.price(above, below, tau[at], allowed.ends[at])
         };
         (0..self.ends.len()).map(of_edge).sum()
@@ -213,26 +217,4 @@ impl Form {
         };
         side(above, rooms[0], rooms[1]) + side(below, rooms[1], rooms[0])
     }
-}
-
-/// Column j of a form.
-fn column(factor: &[f64], j: usize) -> &[f64] {
-    &factor[j * (j + 1) / 2..(j + 1) * (j + 2) / 2]
-}
-
-/// The means of the positive and of the negative part of what is linear between these values.
-fn sides([a, b]: [f64; 2]) -> [f64; 2] {
-    let (size, mean) = (a.abs() + b.abs(), 0.5 * (a + b));
-    match (a.min(b) < 0.0, a.max(b) > 0.0) {
-        (true, true) => [a, b].into_iter().fold([0.0; 2], |[above, below], e| {
-            let part = 0.5 * e * (e / size);
-            if e > 0.0 { [above + part, below] } else { [above, below + part] }
-        }),
-        (true, false) => [0.0, -mean],
-        _ => [mean, 0.0],
-    }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

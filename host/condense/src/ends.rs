@@ -61,12 +61,6 @@ impl CondensedModel {
         self.span_of(p).into_iter().map(ends).collect()
     }
 
-    /// τ of any x within its sides, from the base on: as near to r̂ as the law allows.
-    pub(super) fn within_law(&self, p: &[f64], x: &[f64]) -> Vec<f64> {
-        let edges = self.residual(p, x).into_iter().zip(x).zip(self.ends_of(p));
-        edges.map(|((r, &x), ends)| nearest(r, x, ends)).collect()
-    }
-
     /// Refuses inputs that put an upper end below the lower one, or whose loads no fluxes within their ranges can balance
     /// where contact alone holds a part.
     pub(super) fn check_ends(&self, p: &[f64]) -> Result<(), ReferenceError> {

@@ -2,7 +2,11 @@
 
 use faer::{MatRef, Side};
 
+use super::ends::nearest;
 use super::{CondensedModel, Measure};
+use signorini_contact::candidate::Candidate;
+use signorini_contact::dense::ranges::Given;
+use signorini_kernel::flux_range::Spans;
 use signorini_reference::ReferenceError;
 
 impl CondensedModel {
@@ -50,8 +54,10 @@ impl CondensedModel {
 
     /// ∫_C (τ·n − lo) of any x within its sides, τ within the law of contact; ∫(hi − τ·n) where lo is infinite.
     pub fn force(&self, p: &[f64], x: &[f64]) -> f64 {
-        let edges = self.within_law(p, x).into_iter().zip(self.ends_of(p)).zip(&self.multiplier);
-        edges.fold(0.0, |sum, ((tau, [least, greatest]), multiplier)| {
+        let edges =
+            self.residual(p, x).into_iter().zip(x).zip(self.ends_of(p)).zip(&self.multiplier);
+        edges.fold(0.0, |sum, (((r, &x), [least, greatest]), multiplier)| {
+            let tau = nearest(r, x, [least, greatest]);
             let pressed = if least.is_finite() { tau - least } else { greatest - tau };
             sum + multiplier * pressed
         })
@@ -66,29 +72,18 @@ impl CondensedModel {
 
     /// The declared outputs of any x within its sides; `None` where there is no bound.
     pub fn outputs(&self, p: &[f64], x: &[f64]) -> Vec<Option<f64>> {
-        let tau = self.within_law(p, x);
+        let (residual, spans) = (self.residual(p, x), self.span_of(p));
+        let ranges = Given::between(&[], Spans::baked(&spans, 0.0), &[]).ranges;
+        let answer = Candidate { inputs: p, x, residual: &residual, ranges };
         let value = |measure: &Measure| match measure {
-            Measure::Linear { of_inputs, of_contact } => {
-                Some(dot(of_inputs, p) + dot(of_contact, x))
-            }
-            Measure::Flux { of_inputs, of_contact, of_reaction } => {
-                let elsewhere = dot(of_inputs, p) + dot(of_contact, x);
-                Some(elsewhere + dot(of_reaction, &tau))
-            }
-            Measure::Length { always, of_contact } => {
-                let touching = of_contact.iter().zip(x).filter(|&(_, &x)| x == 0.0);
-                Some(touching.fold(*always, |sum, (length, _)| sum + length))
-            }
-            Measure::Saturated { always, of_contact } => {
-                let beyond = of_contact.iter().zip(x).filter(|&(_, &x)| x < 0.0);
-                Some(beyond.fold(*always, |sum, (length, _)| sum + length))
-            }
             Measure::Bound => self.bound(p, x),
+            of_answer => of_answer.view().value(&answer, None).ok(),
         };
         self.outputs.iter().map(value).collect()
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+/// Σ a_i b_i
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

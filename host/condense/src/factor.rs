@@ -72,3 +72,18 @@ fn in_chunks(
         take(&chunk);
     }
 }
+
+/// The upper triangle by columns, column j with its j + 1 entries.
+pub(super) fn packed(factor: &Mat<f64>) -> Vec<f64> {
+    (0..factor.ncols()).flat_map(|j| (0..=j).map(move |i| factor[(i, j)])).collect()
+}
+
+/// Column j of such a triangle.
+pub(super) fn column(factor: &[f64], j: usize) -> &[f64] {
+    &factor[j * (j + 1) / 2..(j + 1) * (j + 2) / 2]
+}
+
+/// |x|
+pub(super) fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
+}

@@ -4,42 +4,28 @@ use std::collections::BTreeSet;
 
 use faer::Mat;
 
-use super::Form;
 use super::best::{Table, complete};
-use super::block::Block;
+use super::block::{Block, Functions};
 use super::chain::Chain;
 use super::elimination::{Field, failed};
-use super::factor::{energies, triangular};
-use super::functions::Functions;
+use super::factor::{energies, packed, triangular};
 use super::laws::Laws;
 use super::residual::{blocks, jumps};
 use super::spans::{excess, varies};
 use super::stability::{Source, stability};
-use signorini_certify::TermData;
+use super::{Columns, Form, Pieces};
 use signorini_certify::ends::of_moved;
-use signorini_problem::{Assembled, Parts, Problem};
+use signorini_problem::Assembled;
 use signorini_scene::error::Result;
 use signorini_solve::unfit;
 
 /// Data that the certificate is made from.
 pub(super) struct FormData<'g> {
-    pub problem: &'g Problem,
-    pub parts: &'g Parts,
-    /// The contact edge of each unknown.
-    pub edges: &'g [usize],
-    pub patterns: &'g [TermData],
-    /// Columns of p, then those of x.
-    pub fields: &'g [Field],
-    /// d_i
-    pub openings: &'g [f64],
+    pub columns: Columns<'g>,
     /// Ŝ
     pub matrix: &'g Mat<f64>,
-    /// The field of a source that adds up to 1 on the one part that contact alone holds, and its condensed load.
-    pub source: Option<(&'g Field, Vec<f64>)>,
-    /// The unknowns of that part.
-    pub floating: Vec<usize>,
-    /// Transfer laws whose coefficient changes.
-    pub laws: Option<&'g Laws>,
+    /// The field of a source that adds up to 1 on the one part that contact alone holds.
+    pub source: Option<&'g Field>,
     /// Contact vertices at which s is free.
     pub released: &'g BTreeSet<u32>,
 }
@@ -65,23 +51,25 @@ impl FormData<'_> {
     /// # Errors
     /// Data that are not finite, a normal matrix that is singular to working precision.
     pub fn form(&self) -> Result<Found> {
-        let (problem, patterns) = (self.problem, self.patterns);
+        let Columns { pieces, fields, openings } = self.columns;
+        let Pieces { problem, patterns, edges, laws, .. } = pieces;
+        let (laws, released) = (laws.as_ref(), self.released);
         if let Some(reason) = self.obstacle()? {
             return Ok(Err(reason));
         }
-        let chain = match Chain::new(problem, patterns, self.edges, self.openings, self.released) {
+        let chain = match Chain::new(problem, patterns, edges, openings, released) {
             Ok(chain) => chain,
             Err(reason) => return Ok(Err(reason)),
         };
         let functions = Functions::of(problem);
-        let blocks = blocks(problem, patterns, &functions, self.laws, self.released)?;
-        let fluxes = self.fluxes(self.fields);
+        let blocks = blocks(problem, patterns, &functions, laws, released)?;
+        let fluxes = self.fluxes(fields);
         let mut s = self.boundary_values(&chain, &functions);
         let at_boundary = chain.fixed();
         let mut fixed = vec![false; functions.count()];
         at_boundary.iter().for_each(|&vertex| fixed[vertex as usize] = true);
         fix_unused(&blocks, &mut fixed);
-        let judged = match self.laws {
+        let judged = match laws {
             Some(laws) => [&blocks[..], &self.weighed(laws, &functions)?].concat(),
             None => Vec::new(),
         };
@@ -95,8 +83,8 @@ impl FormData<'_> {
             let share = 1.0 + assembled.hidden();
             factor.into_iter().map(|entry| share * entry).collect::<Vec<_>>()
         };
-        let jump = jumps(problem, patterns, &functions, self.released)?.map(|blocks| {
-            let means = table(problem.ends.len(), self.fields, |field| &field.u);
+        let jump = jumps(problem, patterns, &functions, released)?.map(|blocks| {
+            let means = table(problem.ends.len(), fields, |field| &field.u);
             widened(packed(&triangular(&blocks, &s, &means)))
         });
         // As in `certify::Data`: for s, and for u_h beside it.
@@ -112,9 +100,9 @@ impl FormData<'_> {
             stability,
             corners: chain.corners,
             oscillation,
-            floating: self.floating.clone(),
+            floating: self.floating().to_vec(),
             ends: if is_limited { chain.ends } else { Vec::new() },
-            span_excess: excess(problem, self.edges, self.openings),
+            span_excess: excess(problem, edges, openings),
         };
         let (contact, released) = (chain.contact.iter().map(|of| of.0).collect(), chain.released);
         Ok(Ok((form, Admissibles { s, fluxes, functions, contact, released })))
@@ -122,9 +110,10 @@ impl FormData<'_> {
 
     /// Fluxes of columns; and means of u behind them, where laws are read off these.
     fn fluxes(&self, fields: &[Field]) -> Table {
-        let edges = self.problem.ends.len();
+        let Pieces { problem, laws, .. } = self.columns.pieces;
+        let edges = problem.ends.len();
         let mut fluxes = table(edges, fields, |field| &field.flux);
-        if self.laws.is_some() {
+        if laws.is_some() {
             fluxes.values.extend(table(edges, fields, |field| &field.u).values);
         }
         fluxes
@@ -132,7 +121,8 @@ impl FormData<'_> {
 
     /// The rows of changing laws, for the change that s is made for.
     fn weighed(&self, laws: &Laws, functions: &Functions) -> Result<Vec<Block>> {
-        let mut blocks = laws.blocks(self.problem, self.patterns, functions)?;
+        let Pieces { problem, patterns, .. } = self.columns.pieces;
+        let mut blocks = laws.blocks(problem, patterns, functions)?;
         let rows = blocks.iter_mut().flat_map(|block| &mut block.rows);
         rows.flatten().for_each(|entry| *entry *= laws.change.sqrt());
         Ok(blocks)
@@ -140,21 +130,22 @@ impl FormData<'_> {
 
     /// Why these data allow for no bound.
     fn obstacle(&self) -> Result<Option<String>> {
-        let counts = self.parts.counts;
-        if counts.contact > 1 {
+        let Pieces { problem, parts, patterns, .. } = self.columns.pieces;
+        if parts.counts.contact > 1 {
             let reason = "contact alone holds more than one part of the mesh: what is mended in each would have to leave through an edge of its own";
             return Ok(Some(reason.to_owned()));
         }
-        if let Some(reason) = varies(self.problem, self.patterns) {
+        if let Some(reason) = varies(problem, patterns) {
             return Ok(Some(reason));
         }
-        let reason = self.patterns.iter().find_map(|pattern| pattern.no_bound.as_ref());
+        let reason = patterns.iter().find_map(|pattern| pattern.no_bound.as_ref());
         Ok(reason.map(ToString::to_string))
     }
 
     /// s where it is fixed, in all columns: p, x, d.
     fn boundary_values(&self, chain: &Chain, functions: &Functions) -> Table {
-        let (inputs, contact) = (self.patterns.len(), self.openings.len());
+        let Columns { pieces, openings, .. } = self.columns;
+        let (inputs, contact) = (pieces.patterns.len(), openings.len());
         let columns = inputs + contact + chain.contact.len();
         let mut s = Table::new(functions.count(), columns);
         for (&vertex, values) in &chain.dirichlet {
@@ -171,23 +162,24 @@ impl FormData<'_> {
         s
     }
 
+    /// The unknowns of the one part that contact alone holds.
+    pub(super) fn floating(&self) -> &[usize] {
+        let held = self.source.and(self.columns.pieces.held_by_contact.first());
+        held.map_or(&[], Vec::as_slice)
+    }
+
     fn stability(&self, blocks: &[Block]) -> Option<f64> {
-        let of_contact = &self.fields[self.patterns.len()..];
-        let (mut columns, mut source) = (of_contact.to_vec(), None);
-        if let Some((field, load)) = &self.source {
-            columns.push((*field).clone());
-            let mut inverse = vec![0.0; self.openings.len()];
-            self.floating.iter().for_each(|&at| inverse[at] = 1.0 / self.openings[at]);
-            source = Some(Source { inverse, load: load.clone() });
-        }
+        let Columns { pieces, fields, openings } = self.columns;
+        let mut columns = fields[pieces.patterns.len()..].to_vec();
+        let source = self.source.map(|field| {
+            columns.push(field.clone());
+            let mut inverse = vec![0.0; openings.len()];
+            self.floating().iter().for_each(|&at| inverse[at] = 1.0 / openings[at]);
+            Source { inverse, load: pieces.load(field, &vec![0.0; openings.len()], openings) }
+        });
         let fluxes = self.fluxes(&columns);
         stability(self.matrix, &energies(blocks, &fluxes), source.as_ref())
     }
-}
-
-/// The upper triangle by columns.
-pub(super) fn packed(factor: &Mat<f64>) -> Vec<f64> {
-    (0..factor.ncols()).flat_map(|j| (0..=j).map(move |i| factor[(i, j)])).collect()
 }
 
 /// Table of the values that `of` gives of fields, edge by edge.

@@ -35,7 +35,6 @@ mod ends;
 mod evaluate;
 mod factor;
 mod form;
-mod functions;
 mod held;
 mod laws;
 mod measures;
@@ -60,10 +59,9 @@ use faer::Mat;
 
 use columns::columns;
 use elimination::{Field, FieldLoads, fields};
-use form::{FormData, Found};
+use form::FormData;
 use held::{held_alone, held_by_contact, held_by_one};
 use laws::Laws;
-use measures::measures;
 pub use model::{CondensedModel, Corner, Form, Measure, Vertex};
 pub use modes::{LawsForm, LeftOut, ModalModel, modal};
 pub use order::along_boundary;
@@ -100,6 +98,7 @@ struct Pieces<'p> {
     patterns: Vec<TermData>,
     /// From base to other end, pattern by pattern and contact edge by contact edge.
     spans: Vec<Vec<f64>>,
+    /// The contact edge of each unknown.
     edges: Vec<usize>,
     held_by_contact: Vec<Vec<usize>>,
     /// The cells of the one part that contact alone holds.
@@ -140,24 +139,26 @@ impl<'p> Pieces<'p> {
         let Self { problem, patterns, edges, .. } = self;
         let (m, n) = (patterns.len(), edges.len());
         let Fields { inputs: mut fields, mut openings, source, .. } = fields;
-        let opening = scaled(problem, edges, &mut openings)?;
+        let opening = self.scaled(&mut openings)?;
         fields.append(&mut openings);
-        let matrix = matrix(problem, edges, &fields[m..], &opening);
-        let load = |field: &Field, q: &[f64]| condensed_load(problem, edges, field, q, &opening);
+        let matrix = self.matrix(&fields[m..], &opening);
         let of_inputs = fields.iter().zip(patterns);
+        let load =
+            |(field, p): (&Field, &TermData)| self.load(field, &p.loads().contact_flux, &opening);
         let inputs = || problem.scene.inputs.iter();
+        let columns = Columns { pieces: self, fields: &fields, openings: &opening };
         let mut model = CondensedModel {
             contact: n,
             edges: edges.clone(),
             inputs: m,
             matrix: (0..n * n).map(|at| matrix[(at / n, at % n)]).collect(),
             multiplier: opening.iter().map(|d| 1.0 / d).collect(),
-            load: of_inputs.map(|(field, p)| load(field, &p.loads().contact_flux)).collect(),
+            load: of_inputs.map(load).collect(),
             spans: in_unknowns(&self.spans, edges, &opening, m),
             limits: Vec::new(),
             defaults: std::iter::once(1.0).chain(inputs().map(|i| i.default)).collect(),
             ranges: std::iter::once([1.0, 1.0]).chain(inputs().map(Input::interval)).collect(),
-            outputs: measures(problem, edges, &opening, patterns, &fields, self.spans.first())?,
+            outputs: columns.measures()?,
             certificate: Err(String::new()),
             energy_unit: 1.0,
             held_by_contact: self.held_by_contact.clone(),
@@ -166,42 +167,48 @@ impl<'p> Pieces<'p> {
         // Amplitudes of modes are no inputs of the scene.
         model.defaults.resize(m, 0.0);
         model.ranges.resize(m, [f64::NEG_INFINITY, f64::INFINITY]);
-        let (form, admissibles) =
-            match self.form(&fields, &opening, &matrix, source.as_ref(), &BTreeSet::new())? {
-                Ok((form, admissibles)) => (Ok(form), Some(admissibles)),
-                Err(reason) => (Err(reason), None),
-            };
+        let released = &BTreeSet::new();
+        let data = FormData { columns, matrix: &matrix, source: source.as_ref(), released };
+        let (form, admissibles) = match data.form()? {
+            Ok((form, admissibles)) => (Ok(form), Some(admissibles)),
+            Err(reason) => (Err(reason), None),
+        };
         model.certificate = form;
         model.choose_unit();
         Ok((model, Recovery { fields, admissibles }))
     }
 
-    fn form(
-        &self,
-        fields: &[Field],
-        openings: &[f64],
-        matrix: &Mat<f64>,
-        source: Option<&Field>,
-        released: &BTreeSet<u32>,
-    ) -> Result<Found> {
-        let Self { problem, parts, patterns, edges, held_by_contact, .. } = self;
-        let silent = vec![0.0; edges.len()];
-        let load = |field| condensed_load(problem, edges, field, &silent, openings);
-        let floating = held_by_contact.first().filter(|_| source.is_some());
-        let data = FormData {
-            problem,
-            parts,
-            edges,
-            patterns,
-            fields,
-            openings,
-            matrix,
-            source: source.map(|field| (field, load(field))),
-            floating: floating.cloned().unwrap_or_default(),
-            laws: self.laws.as_ref(),
-            released,
+    /// d_i = 1/√S_ii, by which the fields of unit openings are multiplied.
+    fn scaled(&self, fields: &mut [Field]) -> Result<Vec<f64>> {
+        /// S_ii below this part of the fluxes around is the rounding of 0.
+        const ROUNDING: f64 = 1e-11;
+        let free = self.problem.topology.counts.free;
+        let scale = |(edge, field): (&usize, &mut Field)| {
+            let own = field.flux[free + edge];
+            let most = field.flux.iter().fold(0.0, |most: f64, flux| most.max(flux.abs()));
+            if own > ROUNDING * most {
+                let opening = 1.0 / own.sqrt();
+                field.scale(opening);
+                return Ok(opening);
+            }
+            Err(held_by_one(&self.problem.scene))
         };
-        data.form()
+        self.edges.iter().zip(fields).map(scale).collect()
+    }
+
+    /// Ŝ from the fluxes of the scaled fields; rounding leaves them not quite symmetric.
+    fn matrix(&self, fields: &[Field], openings: &[f64]) -> Mat<f64> {
+        let free = self.problem.topology.counts.free;
+        let entry = |i: usize, j: usize| openings[i] * fields[j].flux[free + self.edges[i]];
+        Mat::from_fn(openings.len(), openings.len(), |i, j| {
+            if i == j { 1.0 } else { 0.5 * (entry(i, j) + entry(j, i)) }
+        })
+    }
+
+    /// −d_i ∫_E (σ·n − q)
+    fn load(&self, field: &Field, q: &[f64], openings: &[f64]) -> Vec<f64> {
+        let fluxes = &field.flux[self.problem.topology.counts.free..];
+        self.edges.iter().zip(openings).map(|(&edge, d)| d * (q[edge] - fluxes[edge])).collect()
     }
 }
 
@@ -213,41 +220,12 @@ struct Fields {
     more: Vec<Field>,
 }
 
-/// d_i = 1/√S_ii, by which the fields of unit openings are multiplied.
-fn scaled(problem: &Problem, edges: &[usize], fields: &mut [Field]) -> Result<Vec<f64>> {
-    /// S_ii below this part of the fluxes around is the rounding of 0.
-    const ROUNDING: f64 = 1e-11;
-    let free = problem.topology.counts.free;
-    let scale = |(edge, field): (&usize, &mut Field)| {
-        let own = field.flux[free + edge];
-        let most = field.flux.iter().fold(0.0, |most: f64, flux| most.max(flux.abs()));
-        if own > ROUNDING * most {
-            let opening = 1.0 / own.sqrt();
-            field.scale(opening);
-            return Ok(opening);
-        }
-        Err(held_by_one(&problem.scene))
-    };
-    edges.iter().zip(fields).map(scale).collect()
-}
-
-/// Ŝ from the fluxes of the scaled fields; rounding leaves them not quite symmetric.
-fn matrix(problem: &Problem, edges: &[usize], fields: &[Field], openings: &[f64]) -> Mat<f64> {
-    let free = problem.topology.counts.free;
-    let entry = |i: usize, j: usize| openings[i] * fields[j].flux[free + edges[i]];
-    Mat::from_fn(openings.len(), openings.len(), |i, j| {
-        if i == j { 1.0 } else { 0.5 * (entry(i, j) + entry(j, i)) }
-    })
-}
-
-/// −d_i ∫_E (σ·n − q)
-fn condensed_load(
-    problem: &Problem,
-    edges: &[usize],
-    field: &Field,
-    q: &[f64],
-    openings: &[f64],
-) -> Vec<f64> {
-    let fluxes = &field.flux[problem.topology.counts.free..];
-    edges.iter().zip(openings).map(|(&edge, d)| d * (q[edge] - fluxes[edge])).collect()
+/// Columns that a model is read off, its unknowns being scaled.
+#[derive(Clone, Copy)]
+struct Columns<'c> {
+    pieces: &'c Pieces<'c>,
+    /// Columns of p, then those of x.
+    fields: &'c [Field],
+    /// d_i where U = 1.
+    openings: &'c [f64],
 }

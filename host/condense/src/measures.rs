@@ -1,64 +1,46 @@
 //! Outputs as functions of (p, x, r): the full model's functionals applied to every column, and on contact
 //! edges the reactions.
 
-use super::Measure;
 use super::elimination::Field;
-use signorini_certify::TermData;
+use super::{Columns, Measure, Pieces};
+use signorini_problem::EdgeKind;
 use signorini_problem::field::CellField;
 use signorini_problem::functional::{Functional, functionals};
-use signorini_problem::{EdgeKind, Problem};
 use signorini_scene::error::Result;
 
-/// Every declared output; without any, contact force and length. `openings` are the d of U = 1, `spans` those of the
-/// constant pattern on each contact edge, where any flux has a limit.
-///
-/// # Errors
-/// A probe outside the mesh.
-pub(super) fn measures(
-    problem: &Problem,
-    edges: &[usize],
-    openings: &[f64],
-    patterns: &[TermData],
-    fields: &[Field],
-    spans: Option<&Vec<f64>>,
-) -> Result<Vec<Measure>> {
-    let columns = Columns { problem, edges, openings, patterns, fields, spans };
-    let measure = |functional: &Functional| match functional {
-        Functional::Flux(edges) => columns.flux(edges),
-        Functional::Force(edges) => columns.force(edges),
-        Functional::Probe(cell, point) => columns
-            .linear(|Field { u, flux }| CellField::new(problem, *cell, u, flux).sample(point).u),
-        Functional::Mean(parts) => columns.linear(|Field { u, .. }| {
-            parts.iter().fold(0.0, |sum, &(edge, part)| sum + part * u[edge])
-        }),
-        Functional::Length(lengths) => {
-            Measure::Length { always: 0.0, of_contact: columns.by_unknown(lengths) }
-        }
-        // Nothing is at its limit where there is none.
-        Functional::Saturated(_) if spans.is_none() => columns.linear(|_| 0.0),
-        Functional::Saturated(lengths) => {
-            Measure::Saturated { always: 0.0, of_contact: columns.by_unknown(lengths) }
-        }
-        Functional::Bound => Measure::Bound,
-    };
-    Ok(functionals(problem)?.iter().map(measure).collect())
-}
-
-/// Columns that outputs are sums over.
-struct Columns<'a> {
-    problem: &'a Problem,
-    /// The contact edge of each unknown.
-    edges: &'a [usize],
-    openings: &'a [f64],
-    patterns: &'a [TermData],
-    fields: &'a [Field],
-    spans: Option<&'a Vec<f64>>,
-}
-
 impl Columns<'_> {
+    /// Every declared output; without any, contact force and length.
+    ///
+    /// # Errors
+    /// A probe outside the mesh.
+    pub(super) fn measures(&self) -> Result<Vec<Measure>> {
+        let problem = self.pieces.problem;
+        let measure = |functional: &Functional| match functional {
+            Functional::Flux(edges) => self.flux(edges),
+            Functional::Force(edges) => self.force(edges),
+            Functional::Probe(cell, point) => self.linear(|Field { u, flux }| {
+                CellField::new(problem, *cell, u, flux).sample(point).u
+            }),
+            Functional::Mean(parts) => self.linear(|Field { u, .. }| {
+                parts.iter().fold(0.0, |sum, &(edge, part)| sum + part * u[edge])
+            }),
+            Functional::Length(lengths) => {
+                Measure::Length { always: 0.0, of_contact: self.by_unknown(lengths) }
+            }
+            // Nothing is at its limit where there is none.
+            Functional::Saturated(_) if self.pieces.spans.is_empty() => self.linear(|_| 0.0),
+            Functional::Saturated(lengths) => {
+                Measure::Saturated { always: 0.0, of_contact: self.by_unknown(lengths) }
+            }
+            Functional::Bound => Measure::Bound,
+        };
+        Ok(functionals(problem)?.iter().map(measure).collect())
+    }
+
     /// The flux (15) through edges that are not in contact, q and the reactions through those that are.
     fn flux(&self, edges: &[usize]) -> Measure {
-        let is_contact = |edge: &usize| self.problem.kinds[*edge] == EdgeKind::Contact;
+        let Pieces { problem, patterns, .. } = self.pieces;
+        let is_contact = |edge: &usize| problem.kinds[*edge] == EdgeKind::Contact;
         let (contact, rest): (Vec<usize>, Vec<usize>) = edges.iter().partition(|e| is_contact(e));
         let recovered = |field: &Field| rest.iter().fold(0.0, |sum, &edge| sum + field.flux[edge]);
         let elsewhere = self.linear(recovered);
@@ -69,10 +51,10 @@ impl Columns<'_> {
             Measure::Linear { of_inputs, of_contact } if !rest.is_empty() => {
                 (of_inputs, of_contact)
             }
-            _ => (vec![0.0; self.patterns.len()], Vec::new()),
+            _ => (vec![0.0; patterns.len()], Vec::new()),
         };
-        let free = self.problem.topology.counts.free;
-        for (sum, pattern) in of_inputs.iter_mut().zip(self.patterns) {
+        let free = problem.topology.counts.free;
+        for (sum, pattern) in of_inputs.iter_mut().zip(patterns) {
             *sum +=
                 contact.iter().map(|edge| pattern.loads().contact_flux[edge - free]).sum::<f64>();
         }
@@ -85,10 +67,10 @@ impl Columns<'_> {
     /// ∫(τ·n − lo) over contact edges, and ∫(hi − τ·n) where lo is infinite. Where the base is hi, the way from lo to it is
     /// constant.
     fn force(&self, edges: &[usize]) -> Measure {
-        let free = self.problem.topology.counts.free;
-        let span = |edge: usize| {
-            self.spans.and_then(|spans| spans.get(edge - free)).copied().unwrap_or(f64::INFINITY)
-        };
+        let Pieces { problem, patterns, spans, .. } = self.pieces;
+        let free = problem.topology.counts.free;
+        let span =
+            |edge: usize| spans.first().map_or(f64::INFINITY, |constant| constant[edge - free]);
         let from_above: f64 = edges
             .iter()
             .map(|&edge| span(edge))
@@ -96,7 +78,7 @@ impl Columns<'_> {
             .sum();
         let mut of_inputs = Vec::new();
         if from_above < 0.0 {
-            of_inputs = vec![0.0; self.patterns.len()];
+            of_inputs = vec![0.0; patterns.len()];
             of_inputs[0] = -from_above;
         }
         let sign = |edge: usize| if span(edge) == f64::NEG_INFINITY { -1.0 } else { 1.0 };
@@ -107,7 +89,7 @@ impl Columns<'_> {
     /// Σ Y_p p + Σ Y_x x
     fn linear(&self, value: impl Fn(&Field) -> f64) -> Measure {
         let mut of_inputs: Vec<f64> = self.fields.iter().map(value).collect();
-        let of_contact = of_inputs.split_off(self.patterns.len());
+        let of_contact = of_inputs.split_off(self.pieces.patterns.len());
         Measure::Linear { of_inputs, of_contact }
     }
 
@@ -119,9 +101,9 @@ impl Columns<'_> {
 
     /// Values of contact edges, in the order of the unknowns.
     fn by_unknown(&self, numbers: &[(usize, f64)]) -> Vec<f64> {
-        let counts = self.problem.topology.counts;
+        let counts = self.pieces.problem.topology.counts;
         let mut by_edge = vec![0.0; counts.contact];
         numbers.iter().for_each(|&(edge, number)| by_edge[edge - counts.free] = number);
-        self.edges.iter().map(|&edge| by_edge[edge]).collect()
+        self.pieces.edges.iter().map(|&edge| by_edge[edge]).collect()
     }
 }

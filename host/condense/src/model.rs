@@ -39,44 +39,8 @@ pub struct CondensedModel {
     pub held_by_contact: Vec<Vec<usize>>,
 }
 
-/// How an output follows from p and x.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Measure {
-    /// of_inputs·p + of_contact·x
-    Linear {
-        /// m factors.
-        of_inputs: Vec<f64>,
-        /// n factors.
-        of_contact: Vec<f64>,
-    },
-    /// of_inputs·p + of_contact·x + Σ of_reaction τ: a force, and a flux through contact edges. τ, from the base of its
-    /// range on, is the admissible one nearest to r̂ where x_i = 0, max(r̂, 0) without limits; the lower end where x_i > 0 and
-    /// the upper one where x_i < 0.
-    Flux {
-        /// m factors, or none.
-        of_inputs: Vec<f64>,
-        /// n factors, or none.
-        of_contact: Vec<f64>,
-        /// n factors, 0 where the edge does not count.
-        of_reaction: Vec<f64>,
-    },
-    /// The sum over the edges with x_i = 0, and those that always touch.
-    Length {
-        /// Of edges that always touch and have no x.
-        always: f64,
-        /// |E|, or 0 where the edge does not count.
-        of_contact: Vec<f64>,
-    },
-    /// The sum over the edges with x_i < 0, whose flux is at its limit, and those for which that always is so.
-    Saturated {
-        /// Of edges that are always at their limit and have no x.
-        always: f64,
-        /// |E|, or 0 where the edge does not count.
-        of_contact: Vec<f64>,
-    },
-    /// The error bound.
-    Bound,
-}
+/// How an output follows from p, x and r̂, in the columns of the model.
+pub type Measure = signorini_contact::outputs::Output<Vec<f64>, f64>;
 
 /// The certificate: all but `vertices` and `corners` in the unit U.
 #[derive(Debug, Clone)]
@@ -110,16 +74,8 @@ impl Form {
     pub const NOTHING: usize = usize::MAX;
 }
 
-/// A contact vertex: where e = s − ψ comes from there.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Vertex {
-    /// The two unknowns that e is interpolated from.
-    pub edges: [usize; 2],
-    /// e = U Σ weights · x\[edges\]
-    pub weights: [f64; 2],
-    /// The unknowns of the contact edges that meet here; the same one twice at an end.
-    pub beside: [usize; 2],
-}
+/// A contact vertex, e = U Σ weights · x\[edges\] there.
+pub type Vertex = signorini_contact::certificate::Vertex<f64, usize>;
 
 /// A contact edge whose end is on D: it adds excess·r̂ to (gap/U)² where it is active.
 #[derive(Debug, Clone, PartialEq)]

@@ -10,8 +10,8 @@ use std::collections::BTreeSet;
 use faer::Mat;
 
 use super::chain::is_left_out;
-use super::form::Admissibles;
-use super::{CondensedModel, Pieces, Recovery};
+use super::form::{Admissibles, FormData};
+use super::{Columns, CondensedModel, Pieces, Recovery};
 use signorini_certify::curved::peak;
 use signorini_certify::deviation::Deviations;
 use signorini_problem::Problem;
@@ -41,8 +41,9 @@ pub fn with_released(
     let (pieces, n, unit) = (Pieces::new(problem)?, whole.contact, whole.energy_unit);
     let openings: Vec<f64> = whole.opening.iter().map(|d| d / unit).collect();
     let matrix = Mat::from_fn(n, n, |i, j| whole.matrix[i * n + j]);
-    let found = pieces.form(&recovery.fields, &openings, &matrix, None, released)?;
-    let Ok((mut form, admissibles)) = found else { return Ok(None) };
+    let columns = Columns { pieces: &pieces, fields: &recovery.fields, openings: &openings };
+    let data = FormData { columns, matrix: &matrix, source: None, released };
+    let Ok((mut form, admissibles)) = data.form()? else { return Ok(None) };
     form.rescale(unit, whole.inputs);
     let model = CondensedModel { certificate: Ok(form), ..whole.clone() };
     let (fields, admissibles) = (recovery.fields.clone(), Some(admissibles));

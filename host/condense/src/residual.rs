@@ -8,22 +8,20 @@
 
 use std::collections::BTreeSet;
 
-use signorini_kernel::{Real, Tensor};
+use signorini_kernel::Tensor;
 
-use super::block::{Block, triangular};
+use super::block::{Block, Functions, triangular};
 use super::chain::is_left_out;
-use super::functions::Functions;
-use super::laws::{Laws, of_law, transfer};
+use super::laws::{Laws, of_law, of_robin, transfer};
 use super::points::{points, points_for};
 use signorini_certify::TermData;
 use signorini_certify::cell::{Cell, Local};
 use signorini_certify::conductivity::Conductivity;
 use signorini_certify::curved::{POINTS, of_rough_sides};
 use signorini_certify::deviation::Deviations;
-use signorini_certify::robin::RobinPoints;
 use signorini_problem::Problem;
 use signorini_problem::field::CellField;
-use signorini_problem::quadrature::{DATA_POINTS, Point, gauss};
+use signorini_problem::quadrature::{Point, gauss};
 use signorini_scene::error::Result;
 
 /// The rows of all cells and Robin edges.
@@ -227,29 +225,4 @@ impl Root {
         let first = x / self.xx;
         [self.weight * first, self.weight * (y - self.yx * first) / self.yy]
     }
-}
-
-/// The rows of a Robin edge: `ambient` holds \[h |E|, u_ext\] at its points for each pattern. Where h is
-/// 0 the flux is, and there is nothing to add.
-fn of_robin(
-    problem: &Problem,
-    edge: usize,
-    functions: &Functions,
-    ambient: &[RobinPoints],
-) -> Block {
-    let bubble = functions.bubble(edge);
-    let of_s: Vec<u32> = problem.ends[edge].into_iter().chain(bubble).collect();
-    let mut columns = vec![Vec::new(); of_s.len() + 1 + ambient.len()];
-    for (at, &[t, weight]) in f64::GAUSS[DATA_POINTS - 1].iter().enumerate() {
-        let transfer = ambient.first().map_or(0.0, |points| points[at][0]);
-        if transfer <= 0.0 {
-            continue;
-        }
-        let root = (weight * transfer).sqrt();
-        let own = [1.0 - t, t, 4.0 * t * (1.0 - t)].map(|value| root * value);
-        let own = own.into_iter().take(of_s.len()).chain([root / transfer]);
-        let given = ambient.iter().map(|points| -root * points[at][1]);
-        columns.iter_mut().zip(own.chain(given)).for_each(|(to, entry)| to.push(entry));
-    }
-    Block { functions: of_s, edges: vec![edge as u32], rows: triangular(columns) }
 }

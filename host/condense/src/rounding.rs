@@ -15,9 +15,10 @@ use super::best::Table;
 use super::block::Block;
 use super::elimination::Field;
 use super::form::FormData;
+use super::{Columns, Pieces};
 use signorini_certify::forest::EquilibrationForest;
 use signorini_certify::metric::Metric;
-use signorini_problem::{Assembled, EdgeKind, Loads};
+use signorini_problem::{Assembled, EdgeKind, Loads, Problem};
 use signorini_scene::error::Result;
 use signorini_solve::unfit;
 
@@ -38,14 +39,15 @@ impl FormData<'_> {
         assembled: &Assembled<f64>,
         stability: f64,
     ) -> Result<Vec<f64>> {
-        let inputs = self.patterns.len();
+        let Columns { pieces, fields, openings } = self.columns;
+        let inputs = pieces.patterns.len();
         let mut lost = terms(blocks, s, fluxes);
         lost.iter_mut().for_each(|size| *size *= FEW);
-        let most = self.openings.iter().fold(0.0, |most: f64, d| most.max(*d));
-        let out = if self.floating.is_empty() { 0.0 } else { stability * most };
+        let most = openings.iter().fold(0.0, |most: f64, d| most.max(*d));
+        let out = if self.floating().is_empty() { 0.0 } else { stability * most };
         let way = self.way(assembled)? + out;
-        for (at, (field, lost)) in self.fields.iter().zip(&mut lost).enumerate() {
-            let loads = self.patterns.get(at).map(|pattern| pattern.loads());
+        for (at, (field, lost)) in fields.iter().zip(&mut lost).enumerate() {
+            let loads = pieces.patterns.get(at).map(|pattern| pattern.loads());
             *lost += way * self.unbalanced(field, loads);
             if let Some(column) = at.checked_sub(inputs) {
                 *lost += stability * self.skewed(field, column);
@@ -56,12 +58,12 @@ impl FormData<'_> {
 
     /// Energy that it takes to bring 1 from the farthest cell to the boundary.
     fn way(&self, assembled: &Assembled<f64>) -> Result<f64> {
-        let problem = self.problem;
+        let Pieces { problem, parts, .. } = self.columns.pieces;
         let unfit = unfit::<f64>(&problem.scene);
         let edges = *assembled.edges();
         let alone = |edge: usize| {
             problem.kinds[edge] == EdgeKind::Contact
-                && self.parts.support(self.parts.of_edge(&edges, edge)) == Support::Contact
+                && parts.support(parts.of_edge(&edges, edge)) == Support::Contact
         };
         let mut ways = EquilibrationForest::new(problem);
         ways.find(assembled, &Metric::new(problem), alone).map_err(&unfit)?;
@@ -70,7 +72,7 @@ impl FormData<'_> {
 
     /// Σ over the cells and Neumann edges of what `field` is out of balance, and may be by rounding.
     fn unbalanced(&self, field: &Field, loads: Option<&Loads>) -> f64 {
-        let (topology, kinds) = (&self.problem.topology, &self.problem.kinds);
+        let Problem { topology, kinds, .. } = self.columns.pieces.problem;
         let (triangles, quads) = (&topology.of_triangles, &topology.of_quads);
         let sides = triangles.iter().map(|of| &of[..]).chain(quads.iter().map(|of| &of[..]));
         let of_cells: f64 = sides
@@ -96,8 +98,9 @@ impl FormData<'_> {
 
     /// Σ_i |Ŝ_ij − d_i ∫σ_j·n| of column j.
     fn skewed(&self, field: &Field, column: usize) -> f64 {
-        let contact = &field.flux[self.problem.topology.counts.free..];
-        let rows = self.edges.iter().zip(self.openings).enumerate();
+        let Columns { pieces, openings, .. } = self.columns;
+        let contact = &field.flux[pieces.problem.topology.counts.free..];
+        let rows = pieces.edges.iter().zip(openings).enumerate();
         rows.map(|(i, (&edge, d))| (self.matrix[(i, column)] - d * contact[edge]).abs()).sum()
     }
 }

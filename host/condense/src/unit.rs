@@ -1,6 +1,7 @@
 //! The energy unit U: a power of two, so that scaling rounds nothing. Where the defaults of the inputs make next to
 //! nothing, what one unit of each input makes tells the size: a large input would overflow f32 otherwise.
 
+use super::factor::column;
 use super::{CondensedModel, Form, Measure};
 
 /// Answers at the defaults that are smaller than this part of what one input does are cancellation or 0.
@@ -27,8 +28,10 @@ impl CondensedModel {
         let forms = self.certificate.iter().flat_map(|form| {
             self.defaults.iter().enumerate().map(|(j, &default)| {
                 let value = if default == 0.0 { 1.0 } else { default.abs() };
-                let column = &form.factor[j * (j + 1) / 2..(j + 1) * (j + 2) / 2];
-                value * column.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()))
+                value
+                    * column(&form.factor, j)
+                        .iter()
+                        .fold(0.0, |most: f64, entry| most.max(entry.abs()))
             })
         });
         loads.chain(forms).filter(|size| size.is_finite()).fold(0.0, f64::max)

@@ -28,8 +28,7 @@ mod signs;
 mod values;
 
 use super::elimination::Field;
-use super::factor::triangular;
-use super::form::packed;
+use super::factor::{packed, triangular};
 use super::laws::Laws;
 use super::rounding::{FEW, terms};
 use super::{CondensedModel, Pieces, Recovery};

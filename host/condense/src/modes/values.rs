@@ -1,12 +1,12 @@
 //! A model of modes at one value of its coefficient: matrix, loads, outputs, bound.
 
 use super::ModalModel;
+use crate::evaluate::dot;
 use crate::{CondensedModel, Measure};
 
 impl ModalModel {
     /// p and y where the input of the coefficient is `value`, of any x of [`ModalModel::model`].
     pub fn amplitudes(&self, value: f64, p: &[f64], x: &[f64]) -> Vec<f64> {
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let rows = self.of_inputs.iter().zip(&self.of_contact);
         let sums = rows.map(|(beta, alpha)| dot(beta, p) + dot(alpha, x));
         let y = self.gains(value).into_iter().zip(sums).map(|(gain, sum)| gain * sum);

@@ -27,42 +27,6 @@ pub struct Enclosure {
     pub reaction: Vec<f64>,
 }
 
-/// Intervals of the loads of both sides of every edge: b and the lower end of Sx − b, b and the upper one.
-#[derive(Debug, Clone, PartialEq)]
-pub struct EndBox {
-    /// Where x > 0; −∞ where there is no such side.
-    pub least: LoadBox,
-    /// Where x < 0; ∞ where there is no such side.
-    pub greatest: LoadBox,
-}
-
-impl EndBox {
-    /// Enclosure of the solutions of `model` for p in `ranges`. An input has one value in a load and in the end of its side.
-    pub fn new(model: &CondensedModel, ranges: &[[f64; 2]]) -> Self {
-        let ends: Vec<_> = (0..model.contact).map(|at| model.end_columns(at)).collect();
-        let side = |side: usize, infinite: f64| {
-            let entry = |j: usize, at: usize| {
-                let end = ends[at][side][j];
-                if end.is_finite() { model.load[j][at] + end } else { 0.0 }
-            };
-            let column = |j: usize| (0..model.contact).map(|at| entry(j, at)).collect();
-            let columns: Vec<Vec<f64>> = (0..model.inputs).map(column).collect();
-            let mut loads = LoadBox::new(&columns, ranges, model.contact);
-            for (at, end) in ends.iter().enumerate() {
-                if end[side][0].is_infinite() {
-                    (loads.lo[at], loads.hi[at]) = (infinite, infinite);
-                }
-            }
-            loads
-        };
-        let mut of = Self { least: side(0, f64::NEG_INFINITY), greatest: side(1, f64::INFINITY) };
-        // Inputs with the upper end below the lower one have no solution.
-        of.greatest.hi = higher(&of.greatest.hi, &of.least.hi);
-        of.least.lo = lower(&of.least.lo, &of.greatest.lo);
-        of
-    }
-}
-
 /// An interval for each entry of the load.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadBox {
@@ -94,64 +58,108 @@ impl LoadBox {
     }
 }
 
+/// Intervals of the loads of both sides of every edge: b and the lower end of Sx − b, b and the upper one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EndBox {
+    /// Where x > 0; −∞ where there is no such side.
+    pub least: LoadBox,
+    /// Where x < 0; ∞ where there is no such side.
+    pub greatest: LoadBox,
+}
+
+impl EndBox {
+    /// Loads of edges whose fluxes all go up without an end.
+    pub fn above(least: LoadBox) -> Self {
+        let infinite = vec![f64::INFINITY; least.lo.len()];
+        Self { least, greatest: LoadBox { lo: infinite.clone(), hi: infinite } }
+    }
+
+    /// Enclosure of the solutions of `model` for p in `ranges`. An input has one value in a load and in the end of its side.
+    pub fn new(model: &CondensedModel, ranges: &[[f64; 2]]) -> Self {
+        let ends: Vec<_> = (0..model.contact).map(|at| model.end_columns(at)).collect();
+        let side = |side: usize, infinite: f64| {
+            let entry = |j: usize, at: usize| {
+                let end = ends[at][side][j];
+                if end.is_finite() { model.load[j][at] + end } else { 0.0 }
+            };
+            let column = |j: usize| (0..model.contact).map(|at| entry(j, at)).collect();
+            let columns: Vec<Vec<f64>> = (0..model.inputs).map(column).collect();
+            let mut loads = LoadBox::new(&columns, ranges, model.contact);
+            for (at, end) in ends.iter().enumerate() {
+                if end[side][0].is_infinite() {
+                    (loads.lo[at], loads.hi[at]) = (infinite, infinite);
+                }
+            }
+            loads
+        };
+        let mut of = Self { least: side(0, f64::NEG_INFINITY), greatest: side(1, f64::INFINITY) };
+        // Inputs with the upper end below the lower one have no solution.
+        of.greatest.hi = higher(&of.greatest.hi, &of.least.hi);
+        of.least.lo = lower(&of.least.lo, &of.greatest.lo);
+        of
+    }
+}
+
 impl Enclosure {
-    /// Encloses the solutions of x ≥ 0, Sx − b ≥ 0, xᵀ(Sx − b) = 0 for all b of `loads`.
+    /// Encloses the solutions for all loads and ends of `box_of`: x ≥ 0, Sx − b ≥ 0, xᵀ(Sx − b) = 0, or the same with limits.
+    /// Nothing where fluxes have limits and P is not 0: x may have either sign then, and there is no enclosure to begin with.
     ///
     /// # Errors
     /// Loads that are not finite.
-    pub fn new(split: &Split, loads: &LoadBox) -> Result<Self, ReferenceError> {
-        let n = loads.lo.len();
-        let mut now = Self { lo: vec![0.0; n], hi: vec![f64::INFINITY; n], reaction: vec![0.0; n] };
+    pub fn new(split: &Split, box_of: &EndBox) -> Result<Option<Self>, ReferenceError> {
+        let (EndBox { least, greatest }, n) = (box_of, box_of.least.lo.len());
+        let is_limited = greatest.hi.iter().any(|&end| end != f64::INFINITY);
+        if is_limited && !split.has_all_signs() {
+            return Ok(None);
+        }
+        let lowest = if is_limited { f64::NEG_INFINITY } else { 0.0 };
+        let (lo, hi, reaction) = (vec![lowest; n], vec![f64::INFINITY; n], vec![0.0; n]);
+        let mut now = Self { lo, hi, reaction };
         for step in 0..STEPS {
             let before = now.width();
-            let [least, _] = split.push(&now.lo);
-            now.hi = lower(&now.hi, &split.above(&minus(&loads.hi, &least))?);
-            // What overflows tells nothing of any edge.
-            if now.hi.iter().any(|hi| !hi.is_finite()) {
-                return Ok(now);
+            let [push, _] = split.push(&now.lo);
+            let hi = split.above(&minus(&least.hi, &push), &greatest.hi)?;
+            now.hi = lower(&now.hi, &hi);
+            if !split.has_all_signs() && !now.is_finite() {
+                break;
             }
-            let [_, most] = split.push(&now.hi);
-            now.lo = higher(&now.lo, &split.below(&minus(&loads.lo, &most))?);
+            let [_, push] = split.push(&now.hi);
+            let lo = split.below(&minus(&least.lo, &push), &greatest.lo)?;
+            now.lo = higher(&now.lo, &lo);
             let has_shrunk = before - now.width() > GAIN * before;
             if split.has_all_signs() || step > 0 && !has_shrunk {
                 break;
             }
         }
-        now.reaction = split.reaction(&now, loads);
-        Ok(now)
+        // What overflows tells nothing of any edge.
+        if now.is_finite() {
+            now.reaction = split.rooms(&now, box_of);
+        }
+        Ok(Some(now))
     }
 
-    /// The solutions of `model` for p in `ranges`, where fluxes have limits; nothing where P is not 0: x may have either sign
-    /// then, and there is no enclosure to begin with.
+    /// Encloses the solutions of `model` for p in `ranges`, as [`Enclosure::new`] does.
     ///
     /// # Errors
     /// Loads that are not finite.
-    pub fn between(
+    pub fn of(
         split: &Split,
         model: &CondensedModel,
         ranges: &[[f64; 2]],
     ) -> Result<Option<Self>, ReferenceError> {
-        if !split.has_all_signs() {
-            return Ok(None);
-        }
-        let EndBox { least, greatest } = EndBox::new(model, ranges);
-        let hi = split.above_ends(&least.hi, &greatest.hi)?;
-        let lo = split.below_ends(&least.lo, &greatest.lo)?;
-        let mut now = Self { reaction: vec![0.0; lo.len()], lo, hi };
-        // What overflows tells nothing of any edge.
-        if now.lo.iter().chain(&now.hi).all(|end| end.is_finite()) {
-            now.reaction = split.rooms(&now, &least, &greatest);
-        }
-        Ok(Some(now))
+        Self::new(split, &EndBox::new(model, ranges))
+    }
+
+    /// Whether nothing has overflowed.
+    pub(super) fn is_finite(&self) -> bool {
+        self.lo.iter().chain(&self.hi).all(|end| end.is_finite())
     }
 
     /// Σ (hi − lo)
     fn width(&self) -> f64 {
         self.hi.iter().zip(&self.lo).map(|(hi, lo)| hi - lo).sum()
     }
-}
 
-impl Enclosure {
     /// lo ≤ x ≤ hi
     pub(super) fn intervals(&self) -> Vec<Interval> {
         self.lo.iter().zip(&self.hi).map(|(&lo, &hi)| Interval { lo, hi }).collect()
@@ -174,35 +182,23 @@ impl Enclosure {
 }
 
 impl Split {
-    /// At most (Sx − b)_i = s_ii x_i + (N x)_i off the diagonal + (Px)_i − b_i where x_i = 0 is taken.
-    fn reaction(&self, of: &Enclosure, loads: &LoadBox) -> Vec<f64> {
-        let [push, _] = self.push(&of.lo);
-        let rows = self.off_diagonal().zip(push).zip(&loads.hi);
-        let least = rows.map(|((row, push), b)| {
-            let (sum, noise) = product(&row, &of.hi);
-            let size = sum.abs() + push.abs() + b.abs();
-            sum - noise + push - b - 4.0 * f64::EPSILON * size
-        });
-        least.collect()
-    }
-}
-
-impl Split {
-    /// At most the way from (Sx − b)_i to either end, where x_i = 0 is taken.
-    fn rooms(&self, of: &Enclosure, least: &LoadBox, greatest: &LoadBox) -> Vec<f64> {
-        let rows = self.off_diagonal().enumerate();
+    /// At most the way from (Sx − b)_i = s_ii x_i + (N x)_i off the diagonal + (Px)_i − b_i to either end, where x_i = 0 is taken.
+    fn rooms(&self, of: &Enclosure, EndBox { least, greatest }: &EndBox) -> Vec<f64> {
+        let pushes = self.push(&of.lo);
         let room = |(at, row): (usize, Vec<f64>)| {
-            let way = |x: &[f64], end: f64, sign: f64| {
+            let way = |x: &[f64], push: f64, end: f64, sign: f64| {
                 let (sum, noise) = product(&row, x);
-                let size = sum.abs() + end.abs();
+                let size = sum.abs() + push.abs() + end.abs();
                 match end.is_infinite() {
                     true => f64::INFINITY,
-                    false => sign * (sum - end) - noise - 4.0 * f64::EPSILON * size,
+                    false => sign * (sum + push - end) - noise - 4.0 * f64::EPSILON * size,
                 }
             };
-            way(&of.hi, least.hi[at], 1.0).min(way(&of.lo, greatest.lo[at], -1.0))
+            let [down, up] = [&pushes[0], &pushes[1]].map(|push| push[at]);
+            let above = way(&of.hi, down, least.hi[at], 1.0);
+            above.min(way(&of.lo, up, greatest.lo[at], -1.0))
         };
-        rows.map(room).collect()
+        self.off_diagonal().enumerate().map(room).collect()
     }
 }
 

@@ -9,7 +9,7 @@
 //! solution, since there is one alone. The box is proposed by the middle of the piece, widened, and checked.
 
 use super::change::Change;
-use super::enclosure::{Enclosure, LoadBox};
+use super::enclosure::Enclosure;
 use super::interval::{Interval, between};
 use super::outputs::intervals;
 use super::sides::{EdgeSide, Sides, widened};
@@ -190,13 +190,8 @@ impl<'p> Piece<'p> {
             return Ok(None);
         }
         self.model.ranges[m..].copy_from_slice(&ends);
-        let ranges = &self.model.ranges;
-        let found = match self.model.is_limited() {
-            true => Enclosure::between(&self.split, &self.model, ranges)?,
-            false => Some(Enclosure::new(&self.split, &LoadBox::new(&self.model.load, ranges, n))?),
-        };
-        let is_finite = |of: &Enclosure| of.lo.iter().chain(&of.hi).all(|end| end.is_finite());
-        Ok(found.filter(is_finite))
+        let found = Enclosure::of(&self.split, &self.model, &self.model.ranges)?;
+        Ok(found.filter(Enclosure::is_finite))
     }
 }
 

@@ -13,6 +13,7 @@ use super::crossed::{crossed, eased};
 use super::interval::{Interval, between, dot};
 use super::reduced::Reduced;
 use super::sides::Sides;
+use crate::factor::{column, norm};
 use crate::{CondensedModel, Form, Vertex};
 use signorini_reference::ReferenceError;
 
@@ -186,22 +187,17 @@ impl Form {
     /// At least |F z| for z within these, and what rounding hides of F.
     fn largest(&self, z: &[Interval]) -> f64 {
         let mut middle = vec![0.0; z.len()];
-        let (mut apart, mut hidden, mut start) = (0.0, 0.0, 0);
+        let (mut apart, mut hidden) = (0.0, 0.0);
         // Sums of so many products, and the same of squares.
         let share = 2.0 * (z.len() as f64 + 4.0) * f64::EPSILON;
         for (j, z) in z.iter().enumerate() {
-            let column = &self.factor[start..=start + j];
+            let column = column(&self.factor, j);
             let center = 0.5 * z.lo + 0.5 * z.hi;
             middle.iter_mut().zip(column).for_each(|(sum, entry)| *sum += entry * center);
             let norm = norm(column);
             apart += (z.hi - center).max(center - z.lo).next_up() * norm;
             hidden += z.size() * (self.lost[j] + share * norm);
-            start += j + 1;
         }
         norm(&middle) + apart + hidden
     }
-}
-
-fn norm(numbers: &[f64]) -> f64 {
-    numbers.iter().map(|number| number * number).sum::<f64>().sqrt()
 }

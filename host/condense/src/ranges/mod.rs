@@ -9,7 +9,6 @@
 
 mod affine;
 mod change;
-mod columns;
 mod crossed;
 pub mod enclosure;
 pub mod follow;

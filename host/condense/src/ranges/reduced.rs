@@ -32,7 +32,7 @@ impl Reduced {
         if sides.kept.iter().all(|&kept| kept) {
             return None;
         }
-        let maps = Reduction::new(whole, sides.partition())?;
+        let maps = sides.reduction(whole)?;
         let m = whole.inputs;
         let scale: Vec<f64> =
             maps.residuals.iter().enumerate().map(|(at, row)| row.factors[m + at].sqrt()).collect();

@@ -1,8 +1,11 @@
-//! The error bound of a reduced model: the form of the whole one in what is left.
+//! The error bound of a reduced model: the form of the whole one in what is left, F M = Q F′, and what that loses to rounding.
 
-use super::columns::Columns;
+use faer::Mat;
+
 use super::reduced::Build;
+use super::reduction::Affine;
 use super::sides::VertexSide;
+use crate::factor::{column, norm, packed};
 use crate::{Corner, Form, Vertex};
 
 impl Build<'_> {
@@ -14,9 +17,9 @@ impl Build<'_> {
         let most = self.scale.iter().fold(0.0, |most: f64, s| most.max(*s));
         let least = self.scale.iter().fold(f64::INFINITY, |least: f64, s| least.min(*s));
         Form {
-            factor: columns.of(&form.factor),
-            jump: form.jump.as_ref().map(|jump| columns.of(jump)),
-            lost: columns.lost(form, &self.rescaled(self.maps.hidden(self.whole.inputs))),
+            factor: product(&form.factor, &columns),
+            jump: form.jump.as_ref().map(|jump| product(jump, &columns)),
+            lost: lost(form, &columns, &self.rescaled(self.maps.hidden(self.whole.inputs))),
             vertices: seen.into_iter().map(|vertex| self.vertex(vertex)).collect(),
             stability: form.stability * most,
             corners: form.corners.iter().map(|corner| self.corner(corner)).collect(),
@@ -44,38 +47,33 @@ impl Build<'_> {
         self.maps.kept.iter().map(|&edge| form.ends[edge].map(place)).collect()
     }
 
-    /// M: what each column of F is multiplied by, in (p, x′, d′).
-    fn columns(&self, form: &Form, seen: &[&Vertex]) -> Columns {
+    /// M, row by row: each column of F in (p, x′, d′).
+    fn columns(&self, form: &Form, seen: &[&Vertex]) -> Vec<Affine> {
         let (m, n) = (self.whole.inputs, self.sides.of.len());
         let width = m + self.maps.kept.len() + seen.len();
-        let wide = |mut row: Vec<f64>| {
+        let wide = |factors: Vec<f64>| {
+            let mut row = self.rescaled(factors);
             row.resize(width, 0.0);
             row
         };
-        let unit = |at: usize| {
-            let mut row = vec![0.0; width];
-            row[at] = 1.0;
-            row
-        };
+        let unit = |at: usize| Affine::exact((0..width).map(|k| f64::from(k == at)).collect());
         let inputs = (0..m).map(unit);
-        let openings = (0..n).map(|edge| wide(self.rescaled(self.maps.opening(edge, m))));
+        let openings = (0..n).map(|edge| Affine::exact(wide(self.maps.opening(edge, m))));
         let mut next = m + self.maps.kept.len();
         let corrections =
             form.vertices.iter().map(|vertex| match self.sides.at(vertex, self.maps) {
-                VertexSide::Free => [vec![0.0; width], vec![0.0; width]],
+                VertexSide::Free => Affine::exact(vec![0.0; width]),
                 VertexSide::Touching => {
                     let e = self.maps.interpolated(vertex, m);
-                    let factors = self.rescaled(e.factors).into_iter().map(|factor| -factor);
-                    [wide(factors.collect()), wide(self.rescaled(e.noise))]
+                    let factors = wide(e.factors).into_iter().map(|factor| -factor);
+                    Affine { factors: factors.collect(), noise: wide(e.noise) }
                 }
                 VertexSide::MayChange => {
                     next += 1;
-                    [unit(next - 1), vec![0.0; width]]
+                    unit(next - 1)
                 }
             });
-        let exact = inputs.chain(openings).map(|row| [row, vec![0.0; width]]);
-        let (rows, noise) = exact.chain(corrections).map(|[row, noise]| (row, noise)).unzip();
-        Columns { rows, noise, width }
+        inputs.chain(openings).chain(corrections).collect()
     }
 
     /// e in x′; an edge that always touches has no share in it.
@@ -100,4 +98,41 @@ impl Build<'_> {
             energy: corner.energy / s,
         }
     }
+}
+
+/// How many numbers the rows of M take.
+fn width(columns: &[Affine]) -> usize {
+    columns.first().map_or(0, |row| row.factors.len())
+}
+
+/// F′ of F, both upper triangles by columns.
+fn product(factor: &[f64], columns: &[Affine]) -> Vec<f64> {
+    let width = width(columns);
+    let mut product = Mat::<f64>::zeros(columns.len().max(width), width);
+    for (j, row) in columns.iter().enumerate() {
+        for (k, &weight) in row.factors.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
+            for (i, entry) in column(factor, j).iter().enumerate() {
+                product[(i, k)] += weight * entry;
+            }
+        }
+    }
+    packed(&product.qr().thin_R().to_owned())
+}
+
+/// What rounding may hide of the columns of F′, `left` beside what M loses.
+fn lost(form: &Form, columns: &[Affine], left: &[f64]) -> Vec<f64> {
+    let width = width(columns);
+    // Sums of so many products, and the rotations of as many rows.
+    let share = 8.0 * (columns.len() + width) as f64 * f64::EPSILON;
+    let mut lost = vec![0.0; width];
+    for (j, Affine { factors, noise }) in columns.iter().enumerate() {
+        let of_jump = form.jump.as_ref().map_or(0.0, |jump| norm(column(jump, j)));
+        let largest = norm(column(&form.factor, j)).max(of_jump);
+        let size = form.lost[j] + share * largest;
+        for ((lost, weight), noise) in lost.iter_mut().zip(factors).zip(noise) {
+            *lost += size * weight.abs() + largest * noise;
+        }
+    }
+    lost.iter_mut().zip(left).for_each(|(lost, left)| *lost += form.stability * left);
+    lost
 }

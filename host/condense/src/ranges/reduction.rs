@@ -25,19 +25,6 @@ pub struct Affine {
     pub noise: Vec<f64>,
 }
 
-/// The unknowns of a condensed model by what becomes of them.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Partition {
-    /// U
-    pub kept: Vec<usize>,
-    /// O
-    pub open: Vec<usize>,
-    /// Those at their upper end, x < 0, which are eliminated like O.
-    pub saturated: Vec<usize>,
-    /// T
-    pub touching: Vec<usize>,
-}
-
 /// Affine maps (p, x_U) ─► x_O, r_T, r_U and what is left of r_O.
 #[derive(Debug, Clone)]
 pub struct Reduction {
@@ -60,9 +47,13 @@ pub struct Reduction {
 }
 
 impl Reduction {
-    /// The maps for these edges; nothing where S_OO is not positive definite.
-    pub fn new(model: &CondensedModel, parts: Partition) -> Option<Self> {
-        let Partition { kept, mut open, saturated, touching } = parts;
+    /// The maps that leave `kept` of the edges, the others being open, at their upper end, and touching; nothing where S_OO is not
+    /// positive definite.
+    pub(super) fn new(
+        model: &CondensedModel,
+        kept: Vec<usize>,
+        [mut open, saturated, touching]: [Vec<usize>; 3],
+    ) -> Option<Self> {
         let above = open.len();
         open.extend(saturated);
         let end = |(at, &edge): (usize, &usize)| {
@@ -91,18 +82,12 @@ impl Reduction {
         let open = self.open.iter().zip(&self.openings).enumerate();
         let open = open.filter(|(at, (_, row))| !is_open(*at, row)).map(|(_, (&edge, _))| edge);
         let is_touching = |edge: usize, row: &Affine| {
-            let [lower, upper] = model.end_columns(edge);
-            let is_within = |mut row: Affine, end: &[f64], is_upper: bool| {
-                if end[0].is_infinite() {
-                    return true;
-                }
-                row.subtract(end);
-                if is_upper {
-                    row.factors = negated(&row.factors);
-                }
-                least(&row.factors, &row.noise, intervals) >= 0.0
+            let is_within = |(end, sign): (Vec<f64>, f64)| {
+                let mut row = row.clone();
+                row.subtract(&end);
+                end[0].is_infinite() || row.least(sign, intervals) >= 0.0
             };
-            is_within(row.clone(), &lower, false) && is_within(row.clone(), &upper, true)
+            model.end_columns(edge).into_iter().zip([1.0, -1.0]).all(is_within)
         };
         let touching = self.touching.iter().zip(&self.reactions);
         let touching =
@@ -132,6 +117,18 @@ impl Reduction {
 }
 
 impl Affine {
+    /// Factors that no rounding has put off.
+    pub(super) fn exact(factors: Vec<f64>) -> Self {
+        let noise = vec![0.0; factors.len()];
+        Self { factors, noise }
+    }
+
+    /// At most the least value of `sign` times it, for variables within `intervals`.
+    pub(super) fn least(&self, sign: f64, intervals: &[[f64; 2]]) -> f64 {
+        let signed: Vec<f64> = self.factors.iter().map(|factor| sign * factor).collect();
+        least(&signed, &self.noise, intervals)
+    }
+
     /// Less what the m factors of p in `end` make.
     fn subtract(&mut self, end: &[f64]) {
         for ((factor, noise), end) in self.factors.iter_mut().zip(&mut self.noise).zip(end) {

@@ -10,7 +10,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::interval::Interval;
-use super::reduction::{Affine, Reduction, least};
+use super::reduction::{Affine, Reduction};
 use super::sides::{Sides, VertexSide};
 use crate::{CondensedModel, Form, Recovery, ReleasedVertex, with_released};
 use signorini_problem::Problem;
@@ -41,7 +41,7 @@ pub fn released(
     sides: &Sides,
 ) -> Result<Option<Released>> {
     let (Ok(form), false) = (&whole.certificate, whole.is_limited()) else { return Ok(None) };
-    let Some(maps) = Reduction::new(whole, sides.partition()) else { return Ok(None) };
+    let Some(maps) = sides.reduction(whole) else { return Ok(None) };
     let vertices = form.vertices.iter().zip(recovery.contact_vertices());
     let is_free = |vertex| sides.at(vertex, &maps) == VertexSide::Free;
     let mut free: BTreeSet<u32> =
@@ -84,10 +84,7 @@ impl Proof<'_> {
     fn clearance(&self, vertex: &ReleasedVertex) -> f64 {
         let Self { model, form, sides, maps } = *self;
         let (m, n) = (model.inputs, model.contact);
-        let mut sum = Affine {
-            factors: vec![0.0; m + maps.kept.len()],
-            noise: vec![0.0; m + maps.kept.len()],
-        };
+        let mut sum = Affine::exact(vec![0.0; m + maps.kept.len()]);
         sum.factors[..m].copy_from_slice(&vertex.above[..m]);
         for (edge, &factor) in vertex.above[m..m + n].iter().enumerate() {
             sum.add(factor, &Affine::exact(maps.opening(edge, m)));
@@ -99,9 +96,8 @@ impl Proof<'_> {
                 VertexSide::Free => {}
                 VertexSide::Touching => sum.add(-factor, &e),
                 VertexSide::MayChange => {
-                    let negated: Vec<f64> = e.factors.iter().map(|e| -e).collect();
-                    let highest = -least(&negated, &e.noise, &inputs);
-                    let up = (-least(&e.factors, &e.noise, &inputs)).max(0.0);
+                    let highest = -e.least(-1.0, &inputs);
+                    let up = (-e.least(1.0, &inputs)).max(0.0);
                     let d = Interval { lo: -highest.max(0.0), hi: up };
                     lower += (factor * d.lo).min(factor * d.hi).next_down();
                 }
@@ -109,17 +105,12 @@ impl Proof<'_> {
         }
         let peak: f64 =
             vertex.peak.iter().zip(&inputs).map(|(peak, [lo, hi])| peak * hi.max(-lo)).sum();
-        let least = least(&sum.factors, &sum.noise, &inputs) + lower * (1.0 + 1e-12);
+        let least = sum.least(1.0, &inputs) + lower * (1.0 + 1e-12);
         least - peak * (1.0 + 1e-12)
     }
 }
 
 impl Affine {
-    fn exact(factors: Vec<f64>) -> Self {
-        let noise = vec![0.0; factors.len()];
-        Self { factors, noise }
-    }
-
     /// Adds so many times another.
     fn add(&mut self, times: f64, other: &Self) {
         let own = self.factors.iter_mut().zip(&mut self.noise);

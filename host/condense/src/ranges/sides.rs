@@ -14,8 +14,8 @@
 //!   ends at a Dirichlet value.
 //! ```
 
-use super::enclosure::{Enclosure, LoadBox};
-use super::reduction::{Affine, Partition, Reduction, least};
+use super::enclosure::Enclosure;
+use super::reduction::{Affine, Reduction};
 use super::split::Split;
 use crate::{CondensedModel, Form, Vertex};
 use signorini_reference::ReferenceError;
@@ -81,11 +81,9 @@ impl Sides {
         let is_held = model.held_by_contact.is_empty();
         let split = Split::new(&model.matrix, n).filter(|_| is_bounded && is_held && n > 0);
         let Some(split) = split else { return Ok(Self::unproved(model)) };
-        let enclosure = match model.is_limited() {
-            false => Some(Enclosure::new(&split, &LoadBox::new(&model.load, &inputs, n))?),
-            true => Enclosure::between(&split, model, &inputs)?,
+        let Some(enclosure) = Enclosure::of(&split, model, &inputs)? else {
+            return Ok(Self::unproved(model));
         };
-        let Some(enclosure) = enclosure else { return Ok(Self::unproved(model)) };
         let mut sides = Self::proposed(model, enclosure, inputs);
         while sides.demote(model) {}
         Ok(sides)
@@ -135,13 +133,12 @@ impl Sides {
         Self { inputs, of, kept, limits, enclosure: Some(enclosure) }
     }
 
-    /// Partition of the edges by their sides.
-    pub fn partition(&self) -> Partition {
+    /// The maps that take out the edges which are not kept; nothing where their matrix is not positive definite.
+    pub fn reduction(&self, model: &CondensedModel) -> Option<Reduction> {
         let all = |is: &dyn Fn(usize) -> bool| (0..self.of.len()).filter(|&at| is(at)).collect();
         let dropped = |side| all(&|at| !self.kept[at] && self.of[at] == side);
-        let [open, saturated, touching] =
-            [EdgeSide::Open, EdgeSide::Saturated, EdgeSide::Touching].map(dropped);
-        Partition { kept: all(&|at| self.kept[at]), open, saturated, touching }
+        let out = [EdgeSide::Open, EdgeSide::Saturated, EdgeSide::Touching].map(dropped);
+        Reduction::new(model, all(&|at| self.kept[at]), out)
     }
 
     /// How many edges are on this side.
@@ -152,7 +149,7 @@ impl Sides {
     /// Keeps the edges for which the affine maps do not prove their side, and those that the bound needs; whether there
     /// were any.
     fn demote(&mut self, model: &CondensedModel) -> bool {
-        let Some(reduction) = Reduction::new(model, self.partition()) else {
+        let Some(reduction) = self.reduction(model) else {
             *self = Self::unproved(model);
             return false;
         };
@@ -206,9 +203,7 @@ impl Sides {
         }
         let e = reduction.interpolated(vertex, self.inputs.len());
         let are = |side: EdgeSide, sign: f64| {
-            let signed: Vec<f64> = e.factors.iter().map(|factor| sign * factor).collect();
-            beside().all(|&at| self.of[at] == side)
-                && least(&signed, &e.noise, &self.box_of(reduction)) >= 0.0
+            beside().all(|&at| self.of[at] == side) && e.least(sign, &self.box_of(reduction)) >= 0.0
         };
         let is_free = are(EdgeSide::Open, 1.0) || are(EdgeSide::Saturated, -1.0);
         if is_free { VertexSide::Free } else { VertexSide::MayChange }

@@ -13,7 +13,7 @@
 //! which is y(p*) where no slope changes its sign. The same from below.
 
 use super::affine::AffineOutput;
-use super::enclosure::{Enclosure, LoadBox};
+use super::enclosure::Enclosure;
 use super::interval::{Interval, between, dot};
 use super::split::Split;
 use crate::CondensedModel;
@@ -79,14 +79,10 @@ impl<'s> Slopes<'s> {
             ends.map(|(slope, range)| [range[usize::from(rises(slope))]; 2]).collect();
         let x = match &self.split {
             None => Vec::new(),
-            Some(split) => {
-                let between = match self.model.is_limited() {
-                    true => Enclosure::between(split, self.model, &corner)?,
-                    false => None,
-                };
-                let loads = || LoadBox::new(&self.model.load, &corner, self.model.contact);
-                between.map_or_else(|| Enclosure::new(split, &loads()), Ok)?.intervals()
-            }
+            Some(split) => Enclosure::of(split, self.model, &corner)?.map_or_else(
+                || vec![Interval::between([f64::NEG_INFINITY, f64::INFINITY]); self.model.contact],
+                |found| found.intervals(),
+            ),
         };
         Ok(of.within(&between(&corner), &x))
     }
@@ -130,7 +126,8 @@ fn slopes(least: &Part, most: &Part, column: &[Interval]) -> Result<Vec<Interval
             let parts = column.iter().map(|b| of((sign * b.lo).max(0.0), (sign * b.hi).max(0.0)));
             parts.collect::<Vec<f64>>()
         });
-        let ends = least.below(&few)?.into_iter().zip(most.above(&many)?);
+        let least = least.solved(&few, Split::below)?;
+        let ends = least.into_iter().zip(most.solved(&many, Split::above)?);
         Ok(ends.map(|(lo, hi)| Interval { lo, hi }).collect())
     };
     let [up, down] = [moved(1.0)?, moved(-1.0)?];
@@ -159,26 +156,17 @@ impl Part {
         Some(Self { unknowns: n, edges, split })
     }
 
-    /// At most S_AA⁻¹ b_A for b ≥ 0, with 0 elsewhere.
-    fn below(&self, load: &[f64]) -> Result<Vec<f64>, ReferenceError> {
-        self.solved(load, Split::below)
-    }
-
-    /// At least S_AA⁻¹ b_A for b ≥ 0, with 0 elsewhere.
-    fn above(&self, load: &[f64]) -> Result<Vec<f64>, ReferenceError> {
-        self.solved(load, Split::above)
-    }
-
-    /// By the contact problem, of which S_AA⁻¹ b_A ≥ 0 is the solution.
+    /// S_AA⁻¹ b_A for b ≥ 0, with 0 elsewhere, as `side` bounds it: by the contact problem, whose solution it is.
     fn solved(
         &self,
         load: &[f64],
-        side: impl Fn(&Split, &[f64]) -> Result<Vec<f64>, ReferenceError>,
+        side: impl Fn(&Split, &[f64], &[f64]) -> Result<Vec<f64>, ReferenceError>,
     ) -> Result<Vec<f64>, ReferenceError> {
         let mut x = vec![0.0; self.unknowns];
         if let Some(split) = &self.split {
             let own: Vec<f64> = self.edges.iter().map(|&at| load[at]).collect();
-            self.edges.iter().zip(side(split, &own)?).for_each(|(&at, value)| x[at] = value);
+            let found = side(split, &own, &vec![f64::INFINITY; own.len()])?;
+            self.edges.iter().zip(found).for_each(|(&at, value)| x[at] = value);
         }
         Ok(x)
     }

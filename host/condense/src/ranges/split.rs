@@ -7,7 +7,7 @@
 //!   x ≥ 0, (Nx)_i ≤ b_i wherever x_i > 0        lies below it.
 //! ```
 //! So whatever solves the problem nearly is moved along w until it is a bound, rounding included. Where Nx has two ends, as in
-//! [`Split::above_ends`], the solution grows with both, and
+//! [`Split::above`], the solution grows with both, and
 //! ```text
 //!   (Nx)_i ≥ least_i, or greatest_i where x_i < 0       lies above it,
 //!   (Nx)_i ≤ greatest_i, or least_i where x_i > 0       lies below it.
@@ -59,6 +59,9 @@ impl Split {
 
     /// Px for 0 ≤ x, from below and from above.
     pub fn push(&self, x: &[f64]) -> [Vec<f64>; 2] {
+        if self.has_all_signs() {
+            return [vec![0.0; self.n], vec![0.0; self.n]];
+        }
         let rows = || self.positive.chunks(self.n.max(1)).map(|row| product(row, x));
         let side = |sign: f64| rows().map(|(sum, noise)| sum + sign * noise).collect();
         [side(-1.0), side(1.0)]
@@ -72,48 +75,39 @@ impl Split {
         })
     }
 
-    /// At least the solution of the contact problem (N, `load`), entry by entry.
+    /// Upper solution where Nx is `least` with x > 0, `greatest` with x < 0, and between them with x = 0; either may be infinite,
+    /// and where `greatest` is, this is the contact problem (N, `least`).
     ///
     /// # Errors
-    /// A load that is not finite.
-    pub fn above(&self, load: &[f64]) -> Result<Vec<f64>, ReferenceError> {
-        self.above_ends(load, &vec![f64::INFINITY; load.len()])
+    /// Loads that are not finite.
+    pub fn above(&self, least: &[f64], greatest: &[f64]) -> Result<Vec<f64>, ReferenceError> {
+        self.bounded(least, greatest, 1.0)
     }
 
-    /// Upper solution where Nx is `least` with x > 0, `greatest` with x < 0, and between them with x = 0; either may be infinite.
+    /// Lower solution, as for [`Split::above`]; not negative where `greatest` is infinite.
     ///
     /// # Errors
     /// As for [`Split::above`].
-    pub fn above_ends(&self, least: &[f64], greatest: &[f64]) -> Result<Vec<f64>, ReferenceError> {
-        let x = self.solve(least, greatest)?;
-        let wrong = |at: usize| {
-            let (sum, noise) = product(self.row(at), &x);
-            let b = if x[at] < 0.0 { greatest[at] } else { least[at] };
-            if b.is_infinite() { 0.0 } else { b - sum + noise + 2.0 * f64::EPSILON * b.abs() }
-        };
-        Ok(self.moved(&x, [least, greatest], wrong, 1.0))
+    pub fn below(&self, least: &[f64], greatest: &[f64]) -> Result<Vec<f64>, ReferenceError> {
+        self.bounded(least, greatest, -1.0)
     }
 
-    /// At most the solution of the contact problem (N, `load`), entry by entry; not negative.
-    ///
-    /// # Errors
-    /// A load that is not finite.
-    pub fn below(&self, load: &[f64]) -> Result<Vec<f64>, ReferenceError> {
-        self.below_ends(load, &vec![f64::INFINITY; load.len()])
-    }
-
-    /// Lower solution with two ends, as for [`Split::above_ends`].
-    ///
-    /// # Errors
-    /// As for [`Split::above`].
-    pub fn below_ends(&self, least: &[f64], greatest: &[f64]) -> Result<Vec<f64>, ReferenceError> {
+    /// At least the solution for a sign of 1, and at most that for −1, entry by entry.
+    fn bounded(
+        &self,
+        least: &[f64],
+        greatest: &[f64],
+        sign: f64,
+    ) -> Result<Vec<f64>, ReferenceError> {
         let x = self.solve(least, greatest)?;
+        let [own, other] = if sign > 0.0 { [least, greatest] } else { [greatest, least] };
         let wrong = |at: usize| {
             let (sum, noise) = product(self.row(at), &x);
-            let b = if x[at] > 0.0 { least[at] } else { greatest[at] };
-            if b.is_infinite() { 0.0 } else { sum - b + noise + 2.0 * f64::EPSILON * b.abs() }
+            let b = if sign * x[at] < 0.0 { other[at] } else { own[at] };
+            let off = sign * (b - sum) + noise + 2.0 * f64::EPSILON * b.abs();
+            if b.is_infinite() { 0.0 } else { off }
         };
-        Ok(self.moved(&x, [least, greatest], wrong, -1.0))
+        Ok(self.moved(&x, [least, greatest], wrong, sign))
     }
 
     fn row(&self, at: usize) -> &[f64] {

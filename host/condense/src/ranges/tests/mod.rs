@@ -8,7 +8,7 @@ mod twice;
 
 use faer::MatRef;
 
-use super::enclosure::{Enclosure, LoadBox};
+use super::enclosure::{Enclosure, EndBox, LoadBox};
 use super::sides::EdgeSide;
 use super::split::Split;
 use signorini_reference::minimise;
@@ -61,6 +61,11 @@ fn drawn(ranges: &[[f64; 2]], random: &mut impl FnMut() -> f64) -> Vec<f64> {
     ranges.iter().map(|range| at(range, random())).collect()
 }
 
+fn enclosed(split: &Split, loads: LoadBox) -> Enclosure {
+    let found = Enclosure::new(split, &EndBox::above(loads)).expect("finite loads");
+    found.expect("no limits")
+}
+
 #[test]
 fn every_solution_lies_in_its_enclosure() {
     let mut proved = [0, 0];
@@ -74,8 +79,7 @@ fn every_solution_lies_in_its_enclosure() {
         let columns: Vec<Vec<f64>> =
             (0..3).map(|_| (0..n).map(|_| 2.0 * random() - 1.0).collect()).collect();
         let ranges = [[1.0, 1.0], [-0.5, 0.25], [0.0, 0.3]];
-        let enclosure =
-            Enclosure::new(&split, &LoadBox::new(&columns, &ranges, n)).expect("finite loads");
+        let enclosure = enclosed(&split, LoadBox::new(&columns, &ranges, n));
         for _ in 0..200 {
             let p = drawn(&ranges, &mut random);
             let load: Vec<f64> =
@@ -103,7 +107,7 @@ fn a_single_load_is_enclosed_to_rounding() {
     let mut random = scatter(9);
     let column: Vec<f64> = (0..n).map(|_| 2.0 * random() - 1.0).collect();
     let loads = LoadBox::new(&[column], &[[1.0, 1.0]], n);
-    let Enclosure { lo, hi, .. } = Enclosure::new(&split, &loads).expect("finite loads");
+    let Enclosure { lo, hi, .. } = enclosed(&split, loads);
     assert!(lo.iter().zip(&hi).all(|(lo, hi)| lo <= hi && hi - lo < 1e-12));
 }
 
@@ -124,13 +128,14 @@ fn what_is_no_m_matrix_proves_nothing() {
 fn loads_that_overflow_prove_nothing() {
     let matrix = [4.0, -2.0, -2.0, 4.0];
     let split = Split::new(&matrix, 2).expect("an M-matrix");
+    const ENDLESS: [f64; 2] = [f64::INFINITY; 2];
     for size in [1e308, f64::MAX] {
-        let above = split.above(&[size, size]).expect("finite loads");
+        let above = split.above(&[size, size], &ENDLESS).expect("finite loads");
         assert!(above.iter().all(|&x| x >= 0.5 * size), "{above:?}");
-        let below = split.below(&[size, size]).expect("finite loads");
+        let below = split.below(&[size, size], &ENDLESS).expect("finite loads");
         assert!(below.iter().all(|&x| (0.0..=0.5 * size).contains(&x)), "{below:?}");
         let loads = LoadBox { lo: vec![-size; 2], hi: vec![size; 2] };
-        let Enclosure { lo, hi, reaction } = Enclosure::new(&split, &loads).expect("finite loads");
+        let Enclosure { lo, hi, reaction } = enclosed(&split, loads);
         assert_eq!((lo, reaction), (vec![0.0; 2], vec![0.0; 2]));
         assert!(hi.iter().all(|&x| x >= 0.5 * size), "{hi:?}");
     }

@@ -71,7 +71,9 @@ fn bounds_of_a_contact_problem_hold_in_every_row() {
         let entries = matrix(n, case, 0.0);
         let Some(split) = Split::new(&entries, n) else { continue };
         let load: Vec<f64> = (0..n).map(|_| 2.0 * random() - 1.0).collect();
-        let [above, below] = [split.above(&load), split.below(&load)].map(|x| x.expect("finite"));
+        let endless = vec![f64::INFINITY; n];
+        let found = [split.above(&load, &endless), split.below(&load, &endless)];
+        let [above, below] = found.map(|x| x.expect("finite"));
         for (row, (i, b)) in entries.chunks(n).zip(load.iter().enumerate()) {
             assert!(Twice::dot(row, &above).less(*b) >= 0.0, "row {i} of {case}");
             assert!(

@@ -104,7 +104,7 @@ fn affine_maps_are_those_of_elimination() {
     let whole = model(&matrix, &[&[2.0, -4.0, 0.0], &[0.5, 0.25, 1.0]], &[[1.0, 1.0], [-1.0, 1.0]]);
     let sides = sides(&whole);
     assert_eq!(sides.of, [EdgeSide::Open, EdgeSide::Touching, EdgeSide::MayChange]);
-    let maps = Reduction::new(&whole, sides.partition()).expect("positive definite");
+    let maps = sides.reduction(&whole).expect("positive definite");
     assert_eq!((&maps.open, &maps.touching, &maps.kept), (&vec![0], &vec![1], &vec![2]));
     // x_0 = 2 + ½p + ¼x_2
     KNOWN.check_each("x_O", &maps.openings[0], &[2.0, 0.5, 0.25]);
