@@ -79,6 +79,21 @@ impl<C, R: Copy> Output<C, R> {
         }
     }
 
+    /// The columns that it has.
+    pub fn columns(&self) -> impl Iterator<Item = &C> {
+        let all = match self {
+            Self::Linear { of_inputs, of_contact } => [Some(of_inputs), Some(of_contact), None],
+            Self::Flux { of_inputs, of_contact, of_reaction } => {
+                [of_inputs, of_contact, of_reaction].map(Some)
+            }
+            Self::Length { of_contact, .. } | Self::Saturated { of_contact, .. } => {
+                [Some(of_contact), None, None]
+            }
+            Self::Bound => [None; 3],
+        };
+        all.into_iter().flatten()
+    }
+
     /// With its columns borrowed.
     pub fn view(&self) -> Measure<'_, R>
     where

@@ -5,14 +5,14 @@ use signorini_contact::certificate::Corner;
 use signorini_contact::dense::blocks::{Block, SIDE, padded};
 use signorini_contact::dense::rule::{Phases, Rule as _};
 use signorini_contact::method::Sweeps;
+use signorini_contact::outputs::Output;
 use signorini_contact::sides;
 use signorini_contact::spans::SpanColumns;
 use signorini_kernel::{Error, error::Array};
 
 use super::bound::{Bound, Ends};
 use super::modes::{Modes, Scaled};
-use super::output::Output;
-use super::padding::{filled_up, matrix};
+use super::padding::{filled_up, matrix, narrow};
 use super::relaxation::best_omega;
 use super::start::InitialState;
 use signorini_condense::ranges::split::Split;
@@ -74,7 +74,7 @@ pub struct Baked<R: Scalar> {
     pub(super) spans: Vec<R>,
     /// Of the inputs without the constant; empty where no range is declared.
     pub(super) ranges: Vec<[R; 2]>,
-    pub(super) outputs: Vec<Output<R>>,
+    pub(super) outputs: Vec<Output<Vec<R>, R>>,
     pub(super) bound: Result<Bound<R>, String>,
 }
 
@@ -109,7 +109,7 @@ impl<R: Scalar> Baked<R> {
             limits: condensate.limits.iter().map(|pair| pair.map(R::narrow)).collect(),
             spans: spans(condensate)?,
             ranges: ranges(condensate.ranges.get(1..).unwrap_or_default()),
-            outputs: condensate.outputs.iter().map(Output::new).collect(),
+            outputs: condensate.outputs.iter().map(|of| of.map(|c| narrow(c), R::narrow)).collect(),
             bound,
         };
         baked.check().map(|()| baked)
@@ -271,7 +271,7 @@ impl<R: Scalar> Baked<R> {
 
     /// Lends the model, as the generated module has it.
     pub fn with_model<T>(&self, then: impl FnOnce(&Condensed<R>) -> T) -> T {
-        let outputs: Vec<_> = self.outputs.iter().map(Output::measure).collect();
+        let outputs: Vec<_> = self.outputs.iter().map(Output::view).collect();
         let corners = self.bound.as_ref().map(|bound| &bound.corners[..]).unwrap_or_default();
         let corners: Vec<_> = corners
             .iter()
@@ -304,7 +304,7 @@ impl<R: Scalar> Baked<R> {
         };
         finite(Array::Load, &self.load)?;
         for output in &self.outputs {
-            for numbers in output.arrays() {
+            for numbers in output.columns() {
                 finite(Array::Fluxes, numbers)?;
             }
         }
