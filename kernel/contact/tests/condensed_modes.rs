@@ -1,15 +1,14 @@
 //! Two contact edges and two modes of a coefficient, in numbers that are exact: against the same by hand.
 
+use crate::memory::bare;
 use signorini_contact::Condensed;
 use signorini_contact::certificate::Form;
 use signorini_contact::dense::blocks::Block;
-use signorini_contact::dense::tableau::InitialTableau;
 use signorini_contact::factor::Factor;
 use signorini_contact::method::Sweeps;
 use signorini_contact::modes::{ArrayModalStorage, Modal};
 use signorini_contact::outputs::Measure;
 use signorini_contact::sides::Sides;
-use signorini_contact::spans::SpanColumns;
 use signorini_contact::storage::ArrayTableauStorage;
 use signorini_kernel::Error;
 use signorini_kernel::limits::Deadline;
@@ -43,14 +42,10 @@ const MODEL: Modal<'static, f64> = Modal {
     model: Condensed {
         contact: 2,
         matrix: &MATRIX,
-        x: &[],
-        start: InitialTableau { blocks: &[], exchanged: &[] },
         load: &LOAD,
-        limits: &[],
-        spans: SpanColumns::UNLIMITED,
         outputs: &[OUTPUT],
-        certificate: None,
         has_bound: true,
+        ..bare()
     },
     input: 2,
     origin: ORIGIN,
@@ -71,7 +66,7 @@ impl Memory {
         Self { storage: ArrayModalStorage::zeros(), tableau: ArrayTableauStorage::zeros() }
     }
 
-    /// Whether the matrix was worked out, how the tick ended, x and the output.
+    /// Whether the matrix was worked out, how the tick ended with what bound, x and the output.
     fn tick(&mut self, modal: &Modal<'static, f64>, q: f64, h: f64) -> Result<Ticked, Error> {
         let is_new = self.storage.set(modal, &[1.0, q, h])?;
         if is_new {
@@ -83,7 +78,7 @@ impl Memory {
         let report = modal.tick(&model, &mut method, &mut Deadline::never(), &mut memory)?;
         let output = model.output(0, memory.inputs, &memory.shared, &report)?;
         let x = [memory.shared.iterate.x[0], memory.shared.iterate.x[1]];
-        Ok(Ticked { is_new, ended: report.ended, x, output })
+        Ok(Ticked { is_new, ended: report.ended, verdict: report.verdict, x, output })
     }
 }
 
@@ -91,6 +86,7 @@ impl Memory {
 struct Ticked {
     is_new: bool,
     ended: Ended,
+    verdict: Verdict<f64>,
     x: [f64; 2],
     output: f64,
 }
@@ -274,12 +270,7 @@ fn outputs_that_amplitudes_may_bring_to_overflow_are_refused() -> Result<(), Err
 fn a_report_says_whether_a_bound_was_asked_for() -> Result<(), Error> {
     for (has_bound, expected) in [(true, Verdict::NotAsked), (false, Verdict::Unavailable)] {
         let modal = Modal { model: Condensed { has_bound, ..MODEL.model }, ..MODEL };
-        let mut storage = ArrayModalStorage::<f64, 8, 0, 1, 5>::zeros();
-        storage.set(&modal, &[1.0, 0.0, 3.5])?;
-        let (model, mut memory) = storage.at(&modal);
-        let mut sweeps = Sweeps { omega: 1.0, tolerance: 1e-9, most: 50 };
-        let report = modal.tick(&model, &mut sweeps, &mut Deadline::never(), &mut memory)?;
-        assert_eq!(report.verdict, expected);
+        assert_eq!(Memory::new().tick(&modal, 0.0, 3.5)?.verdict, expected);
     }
     Ok(())
 }

@@ -78,7 +78,7 @@ impl<R: Real> Dense<R> {
 }
 
 /// A model of no edges, inputs, outputs and bound.
-pub fn bare<'a, R: Real>() -> Condensed<'a, R> {
+pub const fn bare<'a, R: Real>() -> Condensed<'a, R> {
     Condensed {
         contact: 0,
         matrix: &[],
