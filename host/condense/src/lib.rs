@@ -11,7 +11,7 @@
 //! ∫_E (τ·n − q) = max(r, 0) where v = 0, and 0 where v > 0.
 //!
 //! Where fluxes have limits, x has either sign, and r̂ is at the least end of its range where x > 0, at the greatest where
-//! x < 0, and between them where x = 0 (`ends`). Spans are linear in the inputs like loads (`spans`).
+//! x < 0, and between them where x = 0 (`ends`). Spans are linear in the inputs like loads (`ends`).
 //!
 //! ```text
 //!   terms ───► columns ─► elimination (a field for each p_j and x_i) ─┬─► Ŝ, B̂, measures ─► CondensedModel
@@ -29,7 +29,6 @@ mod best;
 mod block;
 mod bound;
 mod chain;
-mod columns;
 mod elimination;
 mod ends;
 mod evaluate;
@@ -47,7 +46,6 @@ mod recovery;
 mod released;
 mod residual;
 mod rounding;
-mod spans;
 mod stability;
 #[cfg(test)]
 mod tests;
@@ -57,8 +55,8 @@ use std::collections::BTreeSet;
 
 use faer::Mat;
 
-use columns::columns;
-use elimination::{Field, FieldLoads, fields};
+use elimination::{Field, FieldLoads, columns, fields};
+use ends::{in_unknowns, spans};
 use form::FormData;
 use held::{held_alone, held_by_contact, held_by_one};
 use laws::Laws;
@@ -72,7 +70,6 @@ use signorini_certify::term::condensed_terms;
 use signorini_problem::{Approach, Parts, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Input;
-use spans::{in_unknowns, spans};
 
 /// Condenses `problem` for all values of its inputs; its own loads only decide whether there is a solution.
 ///

@@ -75,9 +75,7 @@ impl Recovery {
             following: Following::Except(self.left_out(problem)),
         })
     }
-}
 
-impl Recovery {
     /// The edges between vertices at which s is free: it follows no curve there.
     fn left_out(&self, problem: &Problem) -> Vec<u32> {
         let released = self.admissibles.iter().flat_map(|of| &of.released);

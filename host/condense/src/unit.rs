@@ -21,24 +21,17 @@ impl CondensedModel {
     /// The largest load of one input alone, by its default or, where that is 0, by 1: what the inputs stand for where
     /// their defaults, or their sum, say nothing.
     fn size_of_inputs(&self) -> f64 {
-        let loads = self.load.iter().zip(&self.defaults).map(|(load, &default)| {
+        let forms = self.certificate.iter();
+        let forms = forms.flat_map(|form| (0..self.inputs).map(|j| column(&form.factor, j)));
+        let all = self.load.iter().map(Vec::as_slice).zip(&self.defaults);
+        let sizes = all.chain(forms.zip(&self.defaults)).map(|(column, &default)| {
             let value = if default == 0.0 { 1.0 } else { default.abs() };
-            value * load.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()))
+            value * largest(column)
         });
-        let forms = self.certificate.iter().flat_map(|form| {
-            self.defaults.iter().enumerate().map(|(j, &default)| {
-                let value = if default == 0.0 { 1.0 } else { default.abs() };
-                value
-                    * column(&form.factor, j)
-                        .iter()
-                        .fold(0.0, |most: f64, entry| most.max(entry.abs()))
-            })
-        });
-        loads.chain(forms).filter(|size| size.is_finite()).fold(0.0, f64::max)
+        sizes.filter(|size| size.is_finite()).fold(0.0, f64::max)
     }
 
     fn size(&self, p: &[f64]) -> f64 {
-        let largest = |numbers: &[f64]| numbers.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         match self.solve(p) {
             Ok(x) if self.contact > 0 => largest(&x).max(largest(&self.residual(p, &x))),
             Ok(x) => self.bound(p, &x).unwrap_or(1.0),
@@ -79,4 +72,9 @@ impl Form {
         all.for_each(|number| *number /= unit);
         self.span_excess /= unit;
     }
+}
+
+/// max |x|
+fn largest(numbers: &[f64]) -> f64 {
+    numbers.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
 }

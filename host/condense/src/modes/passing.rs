@@ -2,8 +2,7 @@
 
 use faer::{Mat, Side};
 
-use crate::columns::silent;
-use crate::elimination::{Field, FieldLoads};
+use crate::elimination::{Field, FieldLoads, silent};
 use signorini_problem::{Problem, TransferPattern};
 use signorini_scene::error::{InputError, Result};
 

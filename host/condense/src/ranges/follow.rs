@@ -87,9 +87,8 @@ impl FollowedRanges {
         };
         let side = |(&a, &b): (&EdgeSide, &EdgeSide)| if a == b { a } else { EdgeSide::MayChange };
         let of = self.sides.of.iter().zip(&others.sides.of).map(side).collect();
-        let hull = |(a, b): (&Option<Interval>, &Option<Interval>)| {
-            a.zip(*b).map(|(a, b)| Interval { lo: a.lo.min(b.lo), hi: a.hi.max(b.hi) })
-        };
+        let hull =
+            |(a, b): (&Option<Interval>, &Option<Interval>)| a.zip(*b).map(|(a, b)| a.hull(b));
         let outputs = self.outputs.iter().zip(&others.outputs).map(hull).collect();
         let sides = Sides { of, enclosure: Some(enclosure), ..others.sides };
         Self { sides, outputs, pieces: self.pieces + others.pieces }
@@ -238,9 +237,5 @@ fn extend(model: &mut CondensedModel) {
 /// Intervals that hold both, and more.
 fn wider(a: &[Interval], b: &[Interval]) -> Vec<Interval> {
     let largest = b.iter().fold(0.0, |most: f64, x| most.max(x.size()));
-    let hull = a
-        .iter()
-        .zip(b)
-        .map(|(a, b)| Interval { lo: a.lo.min(b.lo), hi: a.hi.max(b.hi) }.widened(ROOM * largest));
-    hull.collect()
+    a.iter().zip(b).map(|(a, b)| a.hull(*b).widened(ROOM * largest)).collect()
 }

@@ -45,6 +45,11 @@ impl Interval {
         Self { lo: self.lo.max(other.lo), hi: self.hi.min(other.hi) }
     }
 
+    /// The least interval that holds both.
+    pub fn hull(self, other: Self) -> Self {
+        Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
+    }
+
     /// max(x, 0)
     pub fn not_negative(self) -> Self {
         Self { lo: self.lo.max(0.0), hi: self.hi.max(0.0) }

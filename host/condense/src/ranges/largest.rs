@@ -7,14 +7,19 @@
 //! In a piece of the box fewer edges may change sides. Those that cannot are taken out as they are of the whole box, which
 //! makes all that depends on them part of the columns of p: what is left of the sum shrinks with the piece. So the piece
 //! with the largest bound is halved until it is hardly larger than one that some inputs reach, or there are too many.
+//!
+//! Where fluxes have limits an edge of a solution is in one of three states, and is charged for s on the other side of the gap
+//! by one of them:
+//! ```text
+//!   x > 0:  span · mean⁻        x = 0:  what corners are off ψ        x < 0:  span · mean⁺
+//! ```
 
 use super::affine::AffineOutput;
-use super::crossed::{crossed, eased};
 use super::interval::{Interval, between, dot};
 use super::reduced::Reduced;
 use super::sides::Sides;
 use crate::factor::{column, norm};
-use crate::{CondensedModel, Form, Vertex};
+use crate::{CondensedModel, Corner, Form, Vertex};
 use signorini_reference::ReferenceError;
 
 /// Pieces at most.
@@ -149,7 +154,7 @@ fn most(model: &CondensedModel, p: &[Interval], x: &[Interval]) -> Option<f64> {
     let z: Vec<_> = p.iter().chain(x).copied().chain(moved).collect();
     let (mut square, mut moved) = (form.largest(&z).powi(2), 0.0);
     for corner in &form.corners {
-        let excess = dot(corner.excess.iter().copied().map(Interval::point), p.iter().copied());
+        let excess = excess(corner, p);
         let size: f64 = corner.excess.iter().zip(p).map(|(a, p)| a.abs() * p.size()).sum();
         let ends = model.end_columns(corner.edge).map(|end| end[0]);
         let [is_below, is_above] = [ends[1] == f64::INFINITY, ends[0] == f64::NEG_INFINITY];
@@ -174,8 +179,7 @@ fn most(model: &CondensedModel, p: &[Interval], x: &[Interval]) -> Option<f64> {
 
 /// d of a vertex: −e beside an edge that touches, else what brings e up to 0.
 fn correction(vertex: &Vertex, x: &[Interval]) -> Interval {
-    let weights = vertex.weights.map(Interval::point);
-    let e = dot(weights, vertex.edges.map(|edge| x[edge]));
+    let e = interpolated(vertex, x);
     let up = Interval { lo: -e.hi, hi: -e.lo }.not_negative();
     match vertex.beside.iter().all(|&edge| x[edge].lo > 0.0) {
         true => up,
@@ -200,4 +204,77 @@ impl Form {
         }
         norm(&middle) + apart + hidden
     }
+}
+
+/// d of a vertex where fluxes have limits: from nothing to all that brings e to 0.
+fn eased(vertex: &Vertex, x: &[Interval]) -> Interval {
+    let e = interpolated(vertex, x);
+    Interval { lo: (-e.hi).min(0.0), hi: (-e.lo).max(0.0) }
+}
+
+/// Largest charge for s where it is on another side of the gap than u.
+fn crossed(model: &CondensedModel, form: &Form, p: &[Interval], x: &[Interval]) -> f64 {
+    let of_edge = |(at, ends): (usize, &[usize; 2])| {
+        let scale = Interval::point(model.energy_unit) * inverse(model.opening[at]);
+        let excess = ends.map(|place| match form.vertices.get(place) {
+            // d brings e towards 0.
+            Some(vertex) => {
+                let e = interpolated(vertex, x);
+                scale * Interval { lo: e.lo.min(0.0), hi: e.hi.max(0.0) }
+            }
+            None => corner_of(form, place, p),
+        });
+        let sum = |of: fn(&Interval) -> f64| of(&excess[0]).max(0.0) + of(&excess[1]).max(0.0);
+        let [above, below] = [sum(|e| e.hi), sum(|e| -e.lo)];
+        let [least, greatest] = model.end_columns(at).map(|end| match end[0].is_finite() {
+            true => dot(end.into_iter().map(Interval::point), p.iter().copied()),
+            false => Interval::point(end[0]),
+        });
+        let price = |excess: f64, room: f64| match excess > 0.0 && room.is_finite() {
+            true => excess * (room.max(0.0) + form.span_excess),
+            false => 0.0,
+        };
+        let span = greatest.hi - least.lo;
+        let open = if x[at].hi > 0.0 { price(below, span) } else { 0.0 };
+        let saturated = if x[at].lo < 0.0 { price(above, span) } else { 0.0 };
+        // An edge that touches has s = ψ at its ends but for corners.
+        let mut reaction = AffineOutput::none(model);
+        reaction.add(model, at, 1.0);
+        let r = reaction.within(p, x);
+        let corners = ends.map(|place| match form.vertices.get(place) {
+            Some(_) => Interval::ZERO,
+            None => corner_of(form, place, p),
+        });
+        let touching = match x[at].lo <= 0.0 && x[at].hi >= 0.0 {
+            true => corners.into_iter().fold(0.0, |sum, e| {
+                let [down, up] = [(r.hi - least.lo).min(span), (greatest.hi - r.lo).min(span)];
+                sum + price(e.hi.max(0.0), down).max(price((-e.lo).max(0.0), up))
+            }),
+            false => 0.0,
+        };
+        open.max(saturated).max(touching)
+    };
+    // A few roundings of sums of positive numbers.
+    form.ends.iter().enumerate().map(of_edge).sum::<f64>() * (1.0 + 1e-12)
+}
+
+/// (u_D − ψ)/d of a corner, or 0.
+fn corner_of(form: &Form, place: usize, p: &[Interval]) -> Interval {
+    let corner = form.corners.get(place.wrapping_sub(form.vertices.len()));
+    corner.map_or(Interval::ZERO, |corner| excess(corner, p))
+}
+
+/// (u_D − ψ)/d
+fn excess(corner: &Corner, p: &[Interval]) -> Interval {
+    dot(corner.excess.iter().copied().map(Interval::point), p.iter().copied())
+}
+
+/// e of a vertex.
+fn interpolated(vertex: &Vertex, x: &[Interval]) -> Interval {
+    dot(vertex.weights.map(Interval::point), vertex.edges.map(|edge| x[edge]))
+}
+
+/// 1/x of a positive number.
+fn inverse(x: f64) -> Interval {
+    Interval { lo: (1.0 / x).next_down(), hi: (1.0 / x).next_up() }
 }

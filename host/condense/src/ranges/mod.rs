@@ -9,7 +9,6 @@
 
 mod affine;
 mod change;
-mod crossed;
 pub mod enclosure;
 pub mod follow;
 pub mod interval;

@@ -66,9 +66,16 @@ impl Known<'_> {
             Measure::Flux { of_inputs, of_contact, of_reaction } => {
                 self.linear(of_inputs, of_contact, of_reaction).map(Some)
             }
-            Measure::Length { always, of_contact } => Ok(Some(self.length(*always, of_contact))),
+            Measure::Length { always, of_contact } => {
+                let may_touch = |at: usize| [self.enclosure.is_touching(at), true];
+                let counts = |at| if self.side(at).is_some() { [false; 2] } else { may_touch(at) };
+                Ok(Some(self.lengths(*always, of_contact, counts)))
+            }
             Measure::Saturated { always, of_contact } => {
-                Ok(Some(self.saturated(*always, of_contact)))
+                let Enclosure { lo, .. } = self.enclosure;
+                let may_be = |at: usize| !self.enclosure.is_touching(at) && lo[at] < 0.0;
+                let counts = |at| [self.enclosure.is_saturated(at), may_be(at)];
+                Ok(Some(self.lengths(*always, of_contact, counts)))
             }
             Measure::Bound => Ok(None),
         }
@@ -171,19 +178,22 @@ impl Known<'_> {
         Some(sum)
     }
 
-    /// All that always touches, and any part of what may.
-    fn length(&self, always: f64, of_contact: &[f64]) -> Interval {
-        let length = |(at, &length): (usize, &f64)| match () {
-            () if self.side(at).is_some() => Interval::ZERO,
-            () if self.enclosure.is_touching(at) => Interval::point(length),
-            () => Interval::between([0.0, length]),
+    /// All that counts in any case, and any part of what may; `counts` tells of an edge which of both it is, if either.
+    fn lengths(
+        &self,
+        always: f64,
+        of_contact: &[f64],
+        counts: impl Fn(usize) -> [bool; 2],
+    ) -> Interval {
+        let length = |(at, &length): (usize, &f64)| match counts(at) {
+            [true, _] => Interval::point(length),
+            [false, true] => Interval::between([0.0, length]),
+            [false, false] => Interval::ZERO,
         };
         let lengths = of_contact.iter().enumerate().map(length);
         lengths.fold(Interval::point(always), |sum, length| sum + length).not_negative()
     }
-}
 
-impl Known<'_> {
     /// The end of r on an edge that is always on one side: 0 where it is open, 1 where it is at its limit.
     fn side(&self, at: usize) -> Option<usize> {
         let is_saturated = || self.enclosure.is_saturated(at);
@@ -198,17 +208,6 @@ impl Known<'_> {
         });
         let lo = if least.lo == f64::NEG_INFINITY { r.lo } else { r.lo.max(least.lo) };
         Interval { lo, hi: if greatest.hi == f64::INFINITY { r.hi } else { r.hi.min(greatest.hi) } }
-    }
-
-    /// All that always is at its limit, and any part of what may be.
-    fn saturated(&self, always: f64, of_contact: &[f64]) -> Interval {
-        let length = |(at, &length): (usize, &f64)| match () {
-            () if self.enclosure.is_saturated(at) => Interval::point(length),
-            () if self.enclosure.is_touching(at) || self.enclosure.lo[at] >= 0.0 => Interval::ZERO,
-            () => Interval::between([0.0, length]),
-        };
-        let lengths = of_contact.iter().enumerate().map(length);
-        lengths.fold(Interval::point(always), |sum, length| sum + length).not_negative()
     }
 }
 

@@ -112,9 +112,7 @@ fn column(model: &CondensedModel, enclosure: &Enclosure, j: usize) -> Vec<Interv
         let ends = model.end_columns(at);
         let there = sides.into_iter().zip(&ends).filter(|(may, end)| *may && end[0].is_finite());
         let entries = there.map(|(_, end)| Interval::point(b) + Interval::point(end[j]));
-        let whole =
-            |all: Interval, of: Interval| Interval { lo: all.lo.min(of.lo), hi: all.hi.max(of.hi) };
-        entries.reduce(whole).unwrap_or(Interval::point(b))
+        entries.reduce(Interval::hull).unwrap_or(Interval::point(b))
     };
     model.load[j].iter().enumerate().map(of_edge).collect()
 }

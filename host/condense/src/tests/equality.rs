@@ -1,59 +1,18 @@
 //! The condensed model and the full one give the same outputs.
 
-use signorini_tolerances::solve::CONDENSED;
 use std::path::Path;
 
 use super::*;
-use crate::{Measure, condense};
 use signorini_problem::fixtures::distorted;
 use signorini_scene::mesh;
 use signorini_scene::mesh::structured::{Cells, grid};
-
-/// Both at some inputs of size `amount` around the defaults; bounds are the business of other tests.
-fn compare(problem: &Problem, amount: f64, rounds: usize) -> Result<Vec<f64>> {
-    let condensate = condense(problem)?;
-    assert_eq!(condensate.inputs, 1 + problem.scene.inputs.len());
-    let mut lengths = Vec::new();
-    for round in 0..rounds {
-        let moved = condensate.defaults.iter().enumerate();
-        let p: Vec<f64> = moved
-            .map(|(at, p)| if at == 0 { 1.0 } else { p + amount * scatter(31 * round + at) })
-            .collect();
-        let (full, solution, expected) = full_at(problem, &p)?;
-        let x = condensate.solve(&p).expect("a solution");
-        let found = condensate.outputs(&p, &x);
-        let scale = solution.largest_flux();
-        for ((found, expected), measure) in found.iter().zip(&expected).zip(&condensate.outputs) {
-            if *measure == Measure::Bound {
-                continue;
-            }
-            let (found, expected) = (found.expect("a value"), expected.expect("a value"));
-            if let Measure::Length { .. } = measure {
-                lengths.push(found);
-            }
-            let size = expected.abs().max(scale);
-            CONDENSED.check_over(format_args!("{measure:?}"), found - expected, size);
-        }
-        let residual = condensate.residual(&p, &x);
-        for (at, (r, multiplier)) in residual.iter().zip(&condensate.multiplier).enumerate() {
-            let of_contact = condensate.edges[at];
-            let edge = full.topology.counts.free + of_contact;
-            let opening = solution.u[edge] - full.loads.gap[of_contact];
-            let found = condensate.opening[at] * x[at];
-            CONDENSED.check_over("opening", found - opening, scale_of(&solution.u));
-            let force = solution.flux[edge] - full.loads.contact_flux[of_contact];
-            CONDENSED.check_over("force", r * multiplier - force, scale);
-        }
-    }
-    Ok(lengths)
-}
 
 #[test]
 fn inputs_of_all_fields_on_all_cells() -> Result<()> {
     for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
         for mesh in [grid(5, cells), distorted(grid(4, cells))] {
             let (_, problem) = on_grid(ALL, mesh)?;
-            let lengths = compare(&problem, 0.3, 6)?;
+            let lengths = compare(&problem, 0.3, 6)?.lengths;
             assert!(lengths.iter().any(|length| (0.1..1.9).contains(length)), "{lengths:?}");
         }
     }
@@ -98,11 +57,6 @@ fn without_contact_the_model_is_linear() -> Result<()> {
     let bound = condensate.bound(&condensate.defaults, &[]).expect("a bound");
     assert!((0.5..2.0).contains(&(bound / condensate.energy_unit)), "{bound}");
     Ok(())
-}
-
-/// max |u|
-fn scale_of(u: &[f64]) -> f64 {
-    u.iter().fold(0.0, |most: f64, u| most.max(u.abs()))
 }
 
 /// The scenes that come with the project, with inputs about as large as in use.

@@ -1,9 +1,6 @@
 //! Contact whose flux has two ends, condensed: the answers and outputs of the full solver.
 
-use signorini_tolerances::solve::CONDENSED;
-
 use super::*;
-use crate::{Measure, condense};
 use signorini_problem::fixtures::distorted;
 use signorini_problem::fixtures::limited::{drawn, wall};
 use signorini_reference::ReferenceError;
@@ -27,61 +24,6 @@ pub(super) const ENDS: [&str; 5] = [
     "flux = \"-0.1\", limit = \"1e9\"",
 ];
 
-/// How many are open, touch, and are at their limit.
-pub(super) fn states(x: &[f64]) -> [usize; 3] {
-    let count = |is: fn(f64) -> bool| x.iter().filter(|&&x| is(x)).count();
-    [count(|x| x > 0.0), count(|x| x == 0.0), count(|x| x < 0.0)]
-}
-
-/// Openings, fluxes and outputs at some inputs of size `amount` around the defaults, and the states of all edges.
-pub(super) fn compare(problem: &Problem, amount: f64, rounds: usize) -> Result<[usize; 3]> {
-    let model = condense(problem)?;
-    let mut all = [0; 3];
-    for round in 0..rounds {
-        let moved = model.defaults.iter().enumerate();
-        let p: Vec<f64> = moved
-            .map(|(at, p)| if at == 0 { 1.0 } else { p + amount * scatter(17 * round + at) })
-            .collect();
-        let (full, solution, expected) = full_at(problem, &p)?;
-        let x = model.solve(&p).expect("a solution");
-        states(&x).into_iter().zip(&mut all).for_each(|(count, sum)| *sum += count);
-        // Where nothing flows, fluxes are the rounding of u.
-        let scale = solution.u.iter().fold(solution.largest_flux(), |most, u| most.max(u.abs()));
-        let found = model.outputs(&p, &x);
-        for ((found, expected), measure) in found.iter().zip(&expected).zip(&model.outputs) {
-            if *measure != Measure::Bound {
-                let (found, expected) = (found.expect("a value"), expected.expect("a value"));
-                let size = expected.abs().max(scale);
-                CONDENSED.check_over(format_args!("{measure:?}"), found - expected, size);
-            }
-        }
-        let edges = model.edges.iter().zip(&x).zip(model.residual(&p, &x)).enumerate();
-        for (at, ((&of_contact, x), r)) in edges {
-            let edge = full.topology.counts.free + of_contact;
-            let opening = solution.u[edge] - full.loads.gap[of_contact];
-            let size = solution.u.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
-            CONDENSED.check_over("opening", model.opening[at] * x - opening, size);
-            // The base of a model whose ends inputs change is the lower end, that of a scene the smaller one.
-            let [least, most] = full.loads.flux_range(of_contact).ends();
-            let base = match model.is_varying() && least.is_finite() {
-                true => least,
-                false if full.loads.flux_range(of_contact).base() == most => most,
-                false => least,
-            };
-            let off = r * model.multiplier[at] - (solution.flux[edge] - base);
-            CONDENSED.check_over(
-                format_args!(
-                    "flux {of_contact} {x} {base} {:?}",
-                    full.loads.flux_range(of_contact)
-                ),
-                off,
-                scale.max(base.abs()),
-            );
-        }
-    }
-    Ok(all)
-}
-
 #[test]
 fn every_input_and_range_on_all_cells() -> Result<()> {
     let mut sums = [0; 3];
@@ -94,8 +36,7 @@ fn every_input_and_range_on_all_cells() -> Result<()> {
             assert_ne!(fixed, text);
             for mesh in [grid(5, cells), distorted(grid(4, cells))] {
                 let (_, problem) = on_grid(&fixed, mesh)?;
-                let all = compare(&problem, 0.3, 4)?;
-                all.into_iter().zip(&mut sums).for_each(|(count, sum)| *sum += count);
+                add_to(&mut sums, compare(&problem, 0.3, 4)?.states);
             }
         }
     }
@@ -122,8 +63,7 @@ fn inputs_of_both_ends() -> Result<()> {
             let (_, problem) = on_grid(&text, grid(5, cells))?;
             let model = condense(&problem)?;
             assert!(ends.contains("inf") || model.is_varying(), "{ends}");
-            let all = compare(&problem, 0.25, 6)?;
-            all.into_iter().zip(&mut sums).for_each(|(count, sum)| *sum += count);
+            add_to(&mut sums, compare(&problem, 0.25, 6)?.states);
         }
     }
     assert!(sums.iter().all(|&count| count > 30), "{sums:?}");
@@ -155,8 +95,7 @@ fn random_problems_agree_with_the_full_solver() -> Result<()> {
     for seed in 1..=150 {
         let (text, mesh) = drawn(seed);
         let Ok((_, problem)) = on_grid(&text, mesh) else { continue };
-        let all = compare(&problem, 0.0, 1)?;
-        all.into_iter().zip(&mut sums).for_each(|(count, sum)| *sum += count);
+        add_to(&mut sums, compare(&problem, 0.0, 1)?.states);
         counted += 1;
     }
     assert!(counted > 75 && sums.iter().all(|&count| count > 50), "{counted}, {sums:?}");
@@ -195,7 +134,7 @@ fn a_part_that_contact_with_limits_holds() -> Result<()> {
         for heat in [-0.2, 0.0, 0.5, 0.9] {
             let p = [1.0, heat];
             let x = model.solve(&p).expect("a solution");
-            states(&x).into_iter().zip(&mut sums).for_each(|(count, sum)| *sum += count);
+            add_to(&mut sums, states(&x));
             let (_, solution, _) = full_at(&problem, &p)?;
             let of_mesh = solution.bound.expect("a bound").total;
             let bound = model.bound(&p, &x).expect("a bound");

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use signorini_tolerances::solve::{GUARANTEE_LIMITED, IDENTITY_LIMITED, SAME_LIMITED};
 
-use super::limits::{compare, limited, states};
+use super::limits::limited;
 use super::*;
-use crate::{CondensedModel, Form, Recovery, condense, recoverable};
+use crate::{Form, Recovery, recoverable};
 use signorini_certify::exact::distance;
 use signorini_problem::fixtures::distorted;
 use signorini_problem::fixtures::limited::{three_states, two_transitions};

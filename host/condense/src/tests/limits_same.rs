@@ -1,11 +1,11 @@
 //! Condensed contact with two ends, stated in another way: without an end, with equal ones, by modes.
 
-use signorini_tolerances::solve::{CONDENSED, SAME_LIMITED};
+use signorini_tolerances::solve::SAME_LIMITED;
 
 use super::equality::without_contact;
 use super::limits::{ENDS, limited};
 use super::*;
-use crate::{CondensedModel, Measure, condense, modal};
+use crate::modal;
 use signorini_scene::mesh::structured::{Cells, grid};
 
 /// An infinite limit is none, and one that is far away is like it.
@@ -22,10 +22,7 @@ fn without_an_end_it_is_the_model_without_limits() -> Result<()> {
     let far = model("flux = \"-0.1*x^2\", limit = \"1e9\"")?;
     assert!(far.is_limited());
     for round in 0..4 {
-        let moved = without.defaults.iter().enumerate();
-        let p: Vec<f64> = moved
-            .map(|(at, p)| if at == 0 { 1.0 } else { p + 0.3 * scatter(7 * round + at) })
-            .collect();
+        let p = moved(&without, 0.3, 7 * round);
         let [x, other] = [&without, &far].map(|model| model.solve(&p).expect("a solution"));
         x.iter().zip(&other).for_each(|(x, other)| SAME_LIMITED.check("opening", x - other));
         // Openings that extrapolate to below the gap at a vertex cost as much with a huge limit.

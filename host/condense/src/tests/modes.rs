@@ -1,10 +1,9 @@
 //! A model of modes at a coefficient is the model that a scene with this coefficient condenses to.
 
-use signorini_tolerances::Tolerance;
 use signorini_tolerances::solve::{GUARANTEE, IDENTITY_OF_MODES, MODES, MODES_OUTPUTS};
 
 use super::*;
-use crate::{CondensedModel, Measure, condense, modal};
+use crate::modal;
 use signorini_certify::exact::distance;
 use signorini_problem::fixtures::{SMOOTH, distorted};
 use signorini_scene::mesh::structured::{Cells, grid};
@@ -38,7 +37,7 @@ fn physical(model: &CondensedModel) -> Vec<Vec<f64>> {
     loads.chain([times(&model.opening, 1.0 / unit)]).collect()
 }
 
-fn compare(cells: Cells, pattern: &str) -> Result<()> {
+fn compare_modes(cells: Cells, pattern: &str) -> Result<()> {
     let mesh = || distorted(grid(5, cells));
     let (_, problem) = on_grid(&with_input(pattern), mesh())?;
     let (modes, _) = modal(&problem, 0.0)?;
@@ -63,22 +62,12 @@ fn compare(cells: Cells, pattern: &str) -> Result<()> {
 /// Solved at other inputs too, against the direct solver on the mesh.
 fn outputs(problem: &Problem, model: &CondensedModel, value: f64) -> Result<()> {
     for round in 0..3 {
-        let moved = model.defaults.iter().enumerate();
-        let mut p: Vec<f64> = moved
-            .map(|(at, p)| if at == 0 { 1.0 } else { p + 0.3 * scatter(17 * round + at) })
-            .collect();
+        let mut p = moved(model, 0.3, 17 * round);
         p[model.inputs - 1] = value;
         let (_, solution, expected) = full_at(problem, &p)?;
         let x = model.solve(&p).expect("a solution");
-        let all = model.outputs(&p, &x);
-        for ((found, expected), measure) in all.iter().zip(&expected).zip(&model.outputs) {
-            if *measure == Measure::Bound {
-                continue;
-            }
-            let (found, expected) = (found.expect("a value"), expected.expect("a value"));
-            let size = expected.abs().max(solution.largest_flux());
-            MODES_OUTPUTS.check_over(format_args!("{measure:?}"), found - expected, size);
-        }
+        let scale = solution.largest_flux();
+        check_outputs(MODES_OUTPUTS, model, [&p, &x], &expected, scale);
     }
     Ok(())
 }
@@ -86,9 +75,9 @@ fn outputs(problem: &Problem, model: &CondensedModel, value: f64) -> Result<()> 
 #[test]
 fn a_coefficient_by_modes_is_the_one_that_a_scene_states() -> Result<()> {
     for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
-        compare(cells, "1 + y/2")?;
+        compare_modes(cells, "1 + y/2")?;
     }
-    compare(Cells::Mixed, "1")
+    compare_modes(Cells::Mixed, "1")
 }
 
 /// u = SMOOTH's for every h: u_ext = u + σ·n/h, and σ·n is an input that is set to 1/h.
@@ -155,7 +144,7 @@ fn edges_without_a_pattern_are_no_part_of_the_modes() -> Result<()> {
     let pattern = "max(0, y - 0.5)";
     let (_, problem) = on_grid(&with_input(pattern), grid(6, Cells::Quads))?;
     assert_eq!(modal(&problem, 0.0)?.0.compliance.len(), 3);
-    compare(Cells::Triangles, pattern)
+    compare_modes(Cells::Triangles, pattern)
 }
 
 #[test]

@@ -1,7 +1,6 @@
 //! Scenes that cannot be condensed are refused by name; data without a bound are told.
 
 use super::*;
-use crate::condense;
 use signorini_problem::Approach;
 use signorini_scene::mesh::structured::{Cells, grid};
 

@@ -3,7 +3,7 @@
 use super::super::enclosure::Enclosure;
 use super::super::follow::FollowedRanges;
 use super::super::interval::Interval;
-use super::{ALL, drawn, is_there, scatter};
+use super::{ALL, inputs, is_there};
 use crate::{ModalModel, modal};
 use signorini_problem::fixtures::on_grid;
 use signorini_scene::error::Result;
@@ -55,7 +55,7 @@ fn compare(modes: &ModalModel, found: &FollowedRanges, seed: u64) -> Vec<f64> {
     let ranges = &modes.model.ranges[..modes.inputs];
     let Enclosure { lo, hi, .. } = found.sides.enclosure.as_ref().expect("an enclosure");
     let mut seen = vec![[f64::INFINITY, f64::NEG_INFINITY]; found.outputs.len()];
-    for p in inputs(ranges, seed) {
+    for p in inputs(ranges, 300, seed) {
         let model = modes.in_own_scale(p[modes.input]);
         let x = model.solve(&p).expect("a solution");
         for (at, &x) in x.iter().enumerate() {
@@ -71,17 +71,6 @@ fn compare(modes: &ModalModel, found: &FollowedRanges, seed: u64) -> Vec<f64> {
     }
     let widths = seen.iter().zip(&found.outputs);
     widths.map(|([least, most], proved)| proved.expect("one").width() / (most - least)).collect()
-}
-
-/// All corners of the box, and points of it.
-fn inputs(ranges: &[[f64; 2]], seed: u64) -> Vec<Vec<f64>> {
-    let mut random = scatter(seed);
-    let corner = |bits: usize| {
-        let end = |(at, range): (usize, &[f64; 2])| range[(bits >> at) & 1];
-        ranges.iter().enumerate().map(end).collect()
-    };
-    let corners: Vec<Vec<f64>> = (0..1 << ranges.len()).map(corner).collect();
-    corners.into_iter().chain((0..300).map(|_| drawn(ranges, &mut random))).collect()
 }
 
 #[test]

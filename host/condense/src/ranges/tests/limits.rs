@@ -6,7 +6,7 @@ use super::super::largest::LargestBound;
 use super::super::outputs::intervals;
 use super::super::reduced::Reduced;
 use super::super::sides::{EdgeSide, Sides};
-use super::{ALL, drawn, is_there, matrix, scatter};
+use super::{ALL, inputs, is_there, matrix, scatter};
 use crate::{CondensedModel, Measure, condense};
 use signorini_problem::fixtures::on_grid;
 use signorini_scene::error::Result;
@@ -37,48 +37,14 @@ fn model(case: u64, vary: bool) -> CondensedModel {
     let flux =
         Measure::Flux { of_inputs: signed(3), of_contact: signed(n), of_reaction: signed(n) };
     let lengths: Vec<f64> = signed(n).iter().map(|length| length.abs()).collect();
-    CondensedModel {
-        contact: n,
-        edges: (0..n).collect(),
-        inputs: 3,
-        matrix: matrix(n, case, 0.0),
-        opening: vec![1.0; n],
-        multiplier: vec![1.0; n],
-        load,
-        spans,
-        limits: Vec::new(),
-        defaults: vec![1.0, 0.0, 0.0],
-        ranges: vec![[1.0, 1.0], [-0.15, 0.1], [0.0, 0.2]],
-        outputs: vec![
-            flux,
-            Measure::Linear { of_inputs: signed(3), of_contact: signed(n) },
-            Measure::Length { always: 0.5, of_contact: lengths.clone() },
-            Measure::Saturated { always: 0.25, of_contact: lengths },
-        ],
-        certificate: Err(String::new()),
-        energy_unit: 1.0,
-        held_by_contact: Vec::new(),
-    }
-}
-
-/// All corners of the box, and so many points of it.
-fn inputs(model: &CondensedModel, count: usize, seed: u64) -> Vec<Vec<f64>> {
-    let mut random = scatter(seed);
-    let bits = model.inputs - 1;
-    let corners = (0..1_usize << bits).map(|corner| {
-        let end = |(at, range): (usize, &[f64; 2])| match at.checked_sub(1) {
-            Some(input) => range[(corner >> input) & 1],
-            None => 1.0,
-        };
-        model.ranges.iter().enumerate().map(end).collect()
-    });
-    let corners: Vec<Vec<f64>> = corners.collect();
-    let points = (0..count).map(|_| {
-        let mut p = drawn(&model.ranges, &mut random);
-        p[0] = 1.0;
-        p
-    });
-    corners.into_iter().chain(points.collect::<Vec<_>>()).collect()
+    let outputs = vec![
+        flux,
+        Measure::Linear { of_inputs: signed(3), of_contact: signed(n) },
+        Measure::Length { always: 0.5, of_contact: lengths.clone() },
+        Measure::Saturated { always: 0.25, of_contact: lengths },
+    ];
+    let ranges = [[1.0, 1.0], [-0.15, 0.1], [0.0, 0.2]];
+    CondensedModel { spans, ..super::model(matrix(n, case, 0.0), load, &ranges, outputs) }
 }
 
 #[test]
@@ -91,7 +57,7 @@ fn solutions_outputs_and_sides_are_enclosed() {
         let Enclosure { lo, hi, .. } = sides.enclosure.clone().expect("an M-matrix");
         let proved = intervals(&model, &sides).expect("finite loads").expect("proved");
         ALL.iter().zip(&mut counts).for_each(|(side, sum)| *sum += sides.count(*side));
-        for p in inputs(&model, 200, 40 + case) {
+        for p in inputs(&model.ranges, 200, 40 + case) {
             let x = model.solve(&p).expect("a solution");
             for (at, &x) in x.iter().enumerate() {
                 assert!(lo[at] - 1e-13 <= x && x <= hi[at] + 1e-13, "{case} {at}: {x}");
@@ -132,7 +98,7 @@ fn enclosures_are_reached() {
 fn compare(whole: &CondensedModel, count: usize, seed: u64) -> [usize; 2] {
     let sides = Sides::new(whole).expect("finite loads");
     let Some(reduced) = Reduced::new(whole, sides) else { return [whole.contact; 2] };
-    for p in inputs(whole, count, seed) {
+    for p in inputs(&whole.ranges, count, seed) {
         let (x, own) = (whole.solve(&p).expect("one"), reduced.model.solve(&p).expect("one"));
         for (x, found) in x.iter().zip(reduced.expand(&p, &own)) {
             REDUCED_LIMITED.check("opening", x - found);
@@ -214,7 +180,7 @@ fn no_solution_has_a_larger_bound_than_the_largest() -> Result<()> {
         let whole = scene(ends, ["[-0.02, 0.02]", "[0, 0.1]"])?;
         let largest = LargestBound::new(&whole).expect("finite loads").expect("proved");
         let mut reached = 0.0_f64;
-        for p in inputs(&whole, 300, 8) {
+        for p in inputs(&whole.ranges, 300, 8) {
             let x = whole.solve(&p).expect("a solution");
             reached = reached.max(whole.bound(&p, &x).expect("a bound"));
         }

@@ -11,7 +11,8 @@ use faer::MatRef;
 use super::enclosure::{Enclosure, EndBox, LoadBox};
 use super::sides::EdgeSide;
 use super::split::Split;
-use signorini_reference::minimise;
+use crate::{CondensedModel, Measure};
+use signorini_reference::minimise_between;
 
 mod outputs;
 
@@ -56,6 +57,44 @@ fn matrix(n: usize, seed: u64, positive: f64) -> Vec<f64> {
     entries
 }
 
+/// A model of this matrix and these columns of loads, all scales 1 and without a bound.
+fn model(
+    matrix: Vec<f64>,
+    load: Vec<Vec<f64>>,
+    ranges: &[[f64; 2]],
+    outputs: Vec<Measure>,
+) -> CondensedModel {
+    let n = load[0].len();
+    CondensedModel {
+        contact: n,
+        edges: (0..n).collect(),
+        inputs: load.len(),
+        matrix,
+        opening: vec![1.0; n],
+        multiplier: vec![1.0; n],
+        load,
+        spans: Vec::new(),
+        limits: Vec::new(),
+        defaults: ranges.iter().map(|[lo, hi]| 0.5 * (lo + hi)).collect(),
+        ranges: ranges.to_vec(),
+        outputs,
+        certificate: Err("none".to_owned()),
+        energy_unit: 1.0,
+        held_by_contact: Vec::new(),
+    }
+}
+
+/// All corners of the box, and so many points of it; the constant comes first.
+fn inputs(ranges: &[[f64; 2]], count: usize, seed: u64) -> Vec<Vec<f64>> {
+    let mut random = scatter(seed);
+    let corner = |bits: usize| {
+        let end = |(at, range): (usize, &[f64; 2])| range[(2 * bits >> at) & 1];
+        ranges.iter().enumerate().map(end).collect()
+    };
+    let corners = (0..1_usize << (ranges.len() - 1)).map(corner);
+    corners.chain((0..count).map(|_| drawn(ranges, &mut random))).collect()
+}
+
 fn drawn(ranges: &[[f64; 2]], random: &mut impl FnMut() -> f64) -> Vec<f64> {
     let at = |[lo, hi]: &[f64; 2], t: f64| lo + t * (hi - lo);
     ranges.iter().map(|range| at(range, random())).collect()
@@ -84,7 +123,7 @@ fn every_solution_lies_in_its_enclosure() {
             let p = drawn(&ranges, &mut random);
             let load: Vec<f64> =
                 (0..n).map(|i| columns.iter().zip(&p).map(|(b, p)| b[i] * p).sum()).collect();
-            let x = minimise(MatRef::from_row_major_slice(&entries, n, n), &[], &load)
+            let x = minimise_between(MatRef::from_row_major_slice(&entries, n, n), &[], &load, &[])
                 .expect("a positive definite matrix");
             for i in 0..n {
                 let row = &entries[i * n..][..n];

@@ -1,6 +1,6 @@
 //! Intervals of outputs against solutions at the corners of the box and inside it.
 
-use super::{drawn, matrix, scatter};
+use super::{inputs, matrix, scatter};
 use crate::ranges::interval::Interval;
 use crate::ranges::outputs::intervals;
 use crate::ranges::sides::Sides;
@@ -20,45 +20,17 @@ fn model(entries: Vec<f64>, n: usize, ranges: [[f64; 2]; 3], seed: u64) -> Conde
         of_contact: Vec::new(),
         of_reaction: (0..n).map(|at| at as f64).collect(),
     };
-    CondensedModel {
-        contact: n,
-        edges: (0..n).collect(),
-        inputs: 3,
-        matrix: entries,
-        opening: vec![1.0; n],
-        multiplier: vec![1.0; n],
-        load,
-        spans: Vec::new(),
-        limits: Vec::new(),
-        defaults: vec![1.0, 0.0, 0.0],
-        ranges: ranges.to_vec(),
-        outputs: vec![
-            flux,
-            linear,
-            force,
-            Measure::Length { always: 0.5, of_contact: vec![1.0; n] },
-        ],
-        certificate: Err(String::new()),
-        energy_unit: 1.0,
-        held_by_contact: Vec::new(),
-    }
+    let length = Measure::Length { always: 0.5, of_contact: vec![1.0; n] };
+    super::model(entries, load, &ranges, vec![flux, linear, force, length])
 }
 
 /// The range of outputs at the corners of the box and at 200 points of it.
 fn reached(model: &CondensedModel, seed: u64) -> Vec<Interval> {
-    let mut random = scatter(seed);
-    let corners = (0..8_usize).map(|bits| {
-        let end = |(at, range): (usize, &[f64; 2])| range[(bits >> at) & 1];
-        model.ranges.iter().enumerate().map(end).collect()
-    });
-    let corners: Vec<Vec<f64>> = corners.collect();
-    let points = (0..200).map(|_| drawn(&model.ranges, &mut random));
     let mut all = vec![Interval { lo: f64::INFINITY, hi: f64::NEG_INFINITY }; model.outputs.len()];
-    for p in corners.into_iter().chain(points) {
+    for p in inputs(&model.ranges, 200, seed) {
         let x = model.solve(&p).expect("a solution");
         for (range, value) in all.iter_mut().zip(model.outputs(&p, &x)) {
-            let value = value.expect("no output is a bound");
-            *range = Interval { lo: range.lo.min(value), hi: range.hi.max(value) };
+            *range = range.hull(Interval::point(value.expect("no output is a bound")));
         }
     }
     all

@@ -7,28 +7,14 @@ use super::super::reduction::{Affine, Reduction};
 use super::super::sides::{EdgeSide, Sides};
 use crate::{CondensedModel, Measure};
 
-/// No bound; the output is the sum of all reactions.
+/// The outputs are the sum of all reactions, and a length.
 fn model(matrix: &[f64], load: &[&[f64]], ranges: &[[f64; 2]]) -> CondensedModel {
     let n = load[0].len();
     let force =
         Measure::Flux { of_inputs: Vec::new(), of_contact: Vec::new(), of_reaction: vec![1.0; n] };
-    CondensedModel {
-        contact: n,
-        edges: (0..n).collect(),
-        inputs: load.len(),
-        matrix: matrix.to_vec(),
-        opening: vec![1.0; n],
-        multiplier: vec![1.0; n],
-        load: load.iter().map(|column| column.to_vec()).collect(),
-        spans: Vec::new(),
-        limits: Vec::new(),
-        defaults: ranges.iter().map(|[lo, hi]| 0.5 * (lo + hi)).collect(),
-        ranges: ranges.to_vec(),
-        outputs: vec![force, Measure::Length { always: 0.25, of_contact: vec![1.0; n] }],
-        certificate: Err("none".to_owned()),
-        energy_unit: 1.0,
-        held_by_contact: Vec::new(),
-    }
+    let length = Measure::Length { always: 0.25, of_contact: vec![1.0; n] };
+    let load = load.iter().map(|column| column.to_vec()).collect();
+    super::model(matrix.to_vec(), load, ranges, vec![force, length])
 }
 
 fn sides(of: &CondensedModel) -> Sides {
