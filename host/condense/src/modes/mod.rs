@@ -22,19 +22,15 @@
 //! A mode that is left out, y_k = 0, leaves the flux of the law off by δ a_k: (Σ δ a_k²)^½ more, and no other part of the bound
 //! knows of it ([`LeftOut`]).
 
-mod left_out;
 mod passing;
 mod signs;
 mod values;
 
-use super::elimination::Field;
 use super::factor::{packed, triangular};
 use super::laws::Laws;
 use super::rounding::{FEW, terms};
 use super::{CondensedModel, Pieces, Recovery};
-pub use left_out::LeftOut;
-use left_out::{Shares, norms, sizes};
-use passing::{Passing, combined};
+use passing::{Mode, Passing, combined};
 use signorini_certify::TermData;
 use signorini_certify::robin::{RobinPoints, robin};
 use signorini_problem::quadrature::DATA_POINTS;
@@ -69,6 +65,17 @@ pub struct ModalModel {
     pub slack: Option<f64>,
 }
 
+/// (Σ over the modes left out of δ a_k²)^½ is at most √δ (Σ|p_j| of_inputs_j + Σ x_i of_contact_i).
+#[derive(Debug, Clone)]
+pub struct LeftOut {
+    /// How many.
+    pub count: usize,
+    /// The norm of all their β_k, a number for each input.
+    pub of_inputs: Vec<f64>,
+    /// The norm of all their U α_k, a number for each contact edge.
+    pub of_contact: Vec<f64>,
+}
+
 /// F_π
 #[derive(Debug, Clone)]
 pub struct LawsForm {
@@ -93,29 +100,14 @@ pub fn modal(problem: &Problem, negligible: f64) -> Result<(ModalModel, Recovery
     let mut pieces = Pieces::new(problem)?;
     let m = pieces.patterns.len();
     let mut fields = pieces.fields(range.unit_loads(problem))?;
-    let modes = range.modes(&fields.more, problem)?;
-    let of_fields = |all: &[Field]| -> Vec<Vec<f64>> {
-        all.iter().map(|field| modes.iter().map(|mode| range.seen(mode, field)).collect()).collect()
-    };
-    let mut of_inputs = of_fields(&fields.inputs);
-    for (term, products) in &pattern.ambient {
-        let brought = modes.iter().map(|mode| range.brought(mode, products));
-        of_inputs[*term].iter_mut().zip(brought).for_each(|(sum, more)| *sum += more);
-    }
-    let of_openings = of_fields(&fields.openings);
+    let modes = range.modes(&fields, problem, &pattern)?;
     let free = problem.topology.counts.free;
     let stiffness = pieces.edges.iter().zip(&fields.openings);
     let openings = stiffness.map(|(edge, field)| field.flux[free + edge].sqrt().recip());
-    let shares = Shares {
-        change: most - origin,
-        inputs: &of_inputs,
-        sizes: &sizes(problem),
-        contact: &of_openings,
-        openings: &openings.collect::<Vec<_>>(),
-    };
-    let is_kept = |k: &usize| shares.of(*k) > negligible;
-    let (kept, others): (Vec<usize>, Vec<usize>) = (0..modes.len()).partition(is_kept);
-    let of_kept = kept.iter().map(|&k| combined(&modes[k].weights, &fields.more));
+    let share = shares(&modes, problem, most - origin, &openings.collect::<Vec<_>>());
+    let (kept, others): (Vec<_>, Vec<_>) =
+        modes.iter().zip(share).partition(|(_, share)| *share > negligible);
+    let of_kept = kept.iter().map(|(mode, _)| combined(&mode.weights, &fields.more));
     fields.inputs.extend(of_kept.collect::<Vec<_>>());
     let silent = TermData::silent(problem)?;
     pieces.patterns.resize(m + kept.len(), silent);
@@ -126,32 +118,61 @@ pub fn modal(problem: &Problem, negligible: f64) -> Result<(ModalModel, Recovery
             Err("a transfer coefficient that changes varies along an edge".to_owned());
     }
     let of_laws = of_laws(problem, &pieces, &recovery, &model)?;
-    let row = |columns: &[Vec<f64>], units: &[f64], k: usize| -> Vec<f64> {
-        columns.iter().zip(units).map(|(of, unit)| unit * of[k]).collect()
+    let alpha = |mode: &Mode| -> Vec<f64> {
+        model.opening.iter().zip(&mode.of_contact).map(|(d, of)| d * of).collect()
     };
-    let rows = |columns: &[Vec<f64>], units: &[f64], of: &[usize]| -> Vec<Vec<f64>> {
-        of.iter().map(|&k| row(columns, units, k)).collect()
+    let alphas = |of: &[(&Mode, f64)]| of.iter().map(|(mode, _)| alpha(mode)).collect::<Vec<_>>();
+    let betas = |of: &[(&Mode, f64)]| -> Vec<Vec<f64>> {
+        of.iter().map(|(mode, _)| mode.of_inputs.clone()).collect()
     };
-    let (ones, openings) = (vec![1.0; m], model.opening.clone());
-    let left_out = LeftOut {
-        count: others.len(),
-        of_inputs: norms(&rows(&of_inputs, &ones, &others), m),
-        of_contact: norms(&rows(&of_openings, &openings, &others), model.contact),
-    };
-    let all: Vec<usize> = (0..modes.len()).collect();
     let modal = ModalModel {
-        of_inputs: rows(&of_inputs, &ones, &kept),
-        of_contact: rows(&of_openings, &openings, &kept),
-        slack: slack(&model, &modes, &rows(&of_openings, &openings, &all)),
-        model,
+        of_inputs: betas(&kept),
+        of_contact: alphas(&kept),
+        slack: slack(&model, &modes, &modes.iter().map(alpha).collect::<Vec<_>>()),
+        left_out: LeftOut {
+            count: others.len(),
+            of_inputs: norms(&betas(&others), m),
+            of_contact: norms(&alphas(&others), model.contact),
+        },
         inputs: m,
         input: input + 1,
         origin,
-        compliance: kept.iter().map(|&k| modes[k].compliance).collect(),
+        compliance: kept.iter().map(|(mode, _)| mode.compliance).collect(),
         of_laws,
-        left_out,
+        model,
     };
     Ok((modal, recovery))
+}
+
+/// The share of each mode: that of the energy of unit openings, Ŝ having a diagonal of 1 where they are scaled by `openings`, for
+/// the largest δ, or that of what all inputs make of all modes, the larger.
+fn shares(modes: &[Mode], problem: &Problem, change: f64, openings: &[f64]) -> Vec<f64> {
+    let square = |of: &[f64], sizes: &[f64]| -> f64 {
+        of.iter().zip(sizes).map(|(of, size)| (of * size).powi(2)).sum()
+    };
+    let sizes = sizes(problem);
+    let all: f64 = modes.iter().map(|mode| square(&mode.of_inputs, &sizes)).sum();
+    let share = |mode: &Mode| {
+        let of_inputs = if all > 0.0 { square(&mode.of_inputs, &sizes) / all } else { 0.0 };
+        (change * square(&mode.of_contact, openings)).max(of_inputs)
+    };
+    modes.iter().map(share).collect()
+}
+
+/// How large the constant and every input may be: at the end of its range, or by its default where there is none.
+fn sizes(problem: &Problem) -> Vec<f64> {
+    let of_inputs = problem.scene.inputs.iter().map(|input| {
+        let most = input.interval().into_iter().fold(0.0, |most: f64, end| most.max(end.abs()));
+        let default = if input.default == 0.0 { 1.0 } else { input.default.abs() };
+        if most.is_finite() { most } else { default }
+    });
+    std::iter::once(1.0).chain(of_inputs).collect()
+}
+
+/// The norms of `count` columns.
+fn norms(rows: &[Vec<f64>], count: usize) -> Vec<f64> {
+    let square = |j: usize| rows.iter().map(|row| row[j] * row[j]).sum::<f64>();
+    (0..count).map(|j| square(j).sqrt()).collect()
 }
 
 /// `problem` with the input of the coefficient at the lower end of its range.

@@ -2,6 +2,7 @@
 
 use faer::{Mat, Side};
 
+use crate::Fields;
 use crate::elimination::{Field, FieldLoads, silent};
 use signorini_problem::{Problem, TransferPattern};
 use signorini_scene::error::{InputError, Result};
@@ -19,6 +20,10 @@ pub(super) struct Mode {
     pub vector: Vec<f64>,
     pub weights: Vec<f64>,
     pub compliance: f64,
+    /// β_k
+    pub of_inputs: Vec<f64>,
+    /// α_k where openings are not scaled.
+    pub of_contact: Vec<f64>,
 }
 
 impl Passing {
@@ -46,9 +51,15 @@ impl Passing {
         self.laws.iter().map(unit).collect()
     }
 
-    /// Q and ν from the fields of units.
-    pub(super) fn modes(&self, units: &[Field], problem: &Problem) -> Result<Vec<Mode>> {
-        let entry = |i: usize, j: usize| self.roots[i] * self.roots[j] * units[j].u[self.edges[i]];
+    /// Q and ν from the fields of units, and what the modes see of the other fields.
+    pub(super) fn modes(
+        &self,
+        fields: &Fields,
+        problem: &Problem,
+        pattern: &TransferPattern,
+    ) -> Result<Vec<Mode>> {
+        let u = |i: usize, j: usize| fields.more[j].u[self.edges[i]];
+        let entry = |i: usize, j: usize| self.roots[i] * self.roots[j] * u(i, j);
         let count = self.edges.len();
         let matrix = Mat::from_fn(count, count, |i, j| 0.5 * (entry(i, j) + entry(j, i)));
         let failed = |_| {
@@ -58,22 +69,29 @@ impl Passing {
         let found = matrix.self_adjoint_eigen(Side::Lower).map_err(failed)?;
         let mode = |k: usize| {
             let vector: Vec<f64> = (0..count).map(|edge| found.U()[(edge, k)]).collect();
-            let weights = vector.iter().zip(&self.roots).map(|(q, root)| q * root).collect();
-            Mode { vector, weights, compliance: found.S()[k] }
+            let weights: Vec<f64> = vector.iter().zip(&self.roots).map(|(q, w)| q * w).collect();
+            let seen = |of: &[Field]| -> Vec<f64> {
+                of.iter().map(|field| self.seen(&weights, field)).collect()
+            };
+            let (mut of_inputs, of_contact) = (seen(&fields.inputs), seen(&fields.openings));
+            for (term, products) in &pattern.ambient {
+                of_inputs[*term] += self.brought(&vector, products);
+            }
+            Mode { vector, weights, compliance: found.S()[k], of_inputs, of_contact }
         };
         Ok((0..count).map(mode).collect())
     }
 
     /// −q_kᵀ W^½ u_R
-    pub(super) fn seen(&self, mode: &Mode, field: &Field) -> f64 {
+    fn seen(&self, weights: &[f64], field: &Field) -> f64 {
         let means = self.edges.iter().map(|&edge| field.u[edge]);
-        -mode.weights.iter().zip(means).map(|(weight, u)| weight * u).sum::<f64>()
+        -weights.iter().zip(means).map(|(weight, u)| weight * u).sum::<f64>()
     }
 
     /// q_kᵀ W^−½ e, `products` being ∫π u_ext of every law.
-    pub(super) fn brought(&self, mode: &Mode, products: &[f64]) -> f64 {
+    fn brought(&self, vector: &[f64], products: &[f64]) -> f64 {
         let of_edges = self.laws.iter().zip(&self.roots).map(|(&law, root)| products[law] / root);
-        mode.vector.iter().zip(of_edges).map(|(q, e)| q * e).sum()
+        vector.iter().zip(of_edges).map(|(q, e)| q * e).sum()
     }
 }
 

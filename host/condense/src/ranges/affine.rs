@@ -21,6 +21,13 @@ impl AffineOutput {
         }
     }
 
+    /// Row `at` of Sx − Bp.
+    pub fn row(model: &CondensedModel, at: usize) -> Self {
+        let mut row = Self::none(model);
+        row.add(model, at, 1.0);
+        row
+    }
+
     /// Where it lies for p and x within these.
     pub fn within(&self, p: &[Interval], x: &[Interval]) -> Interval {
         let of_inputs = dot(self.of_inputs.iter().copied(), p.iter().copied());
@@ -51,5 +58,15 @@ impl AffineOutput {
         for (sum, &entry) in self.of_contact.iter_mut().zip(row) {
             *sum = *sum + weight * Interval::point(entry);
         }
+    }
+}
+
+impl CondensedModel {
+    /// Where the least and the greatest r̂ of an edge lie, for p within these.
+    pub(super) fn ends_within(&self, at: usize, p: &[Interval]) -> [Interval; 2] {
+        self.end_columns(at).map(|end| match end[0].is_finite() {
+            true => dot(end.into_iter().map(Interval::point), p.iter().copied()),
+            false => Interval::point(end[0]),
+        })
     }
 }

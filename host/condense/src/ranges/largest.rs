@@ -162,9 +162,8 @@ fn most(model: &CondensedModel, p: &[Interval], x: &[Interval]) -> Option<f64> {
             return None;
         }
         if !limits && x[corner.edge].lo <= 0.0 {
-            let mut reaction = AffineOutput::none(model);
-            reaction.add(model, corner.edge, 1.0);
-            square += excess.hi.max(0.0) * reaction.within(p, x).hi.max(0.0);
+            let reaction = AffineOutput::row(model, corner.edge).within(p, x);
+            square += excess.hi.max(0.0) * reaction.hi.max(0.0);
         }
         moved += if is_below { (-excess.lo).max(0.0) * corner.energy } else { 0.0 };
         moved += if is_above { excess.hi.max(0.0) * corner.energy } else { 0.0 };
@@ -226,10 +225,7 @@ fn crossed(model: &CondensedModel, form: &Form, p: &[Interval], x: &[Interval]) 
         });
         let sum = |of: fn(&Interval) -> f64| of(&excess[0]).max(0.0) + of(&excess[1]).max(0.0);
         let [above, below] = [sum(|e| e.hi), sum(|e| -e.lo)];
-        let [least, greatest] = model.end_columns(at).map(|end| match end[0].is_finite() {
-            true => dot(end.into_iter().map(Interval::point), p.iter().copied()),
-            false => Interval::point(end[0]),
-        });
+        let [least, greatest] = model.ends_within(at, p);
         let price = |excess: f64, room: f64| match excess > 0.0 && room.is_finite() {
             true => excess * (room.max(0.0) + form.span_excess),
             false => 0.0,
@@ -238,9 +234,7 @@ fn crossed(model: &CondensedModel, form: &Form, p: &[Interval], x: &[Interval]) 
         let open = if x[at].hi > 0.0 { price(below, span) } else { 0.0 };
         let saturated = if x[at].lo < 0.0 { price(above, span) } else { 0.0 };
         // An edge that touches has s = ψ at its ends but for corners.
-        let mut reaction = AffineOutput::none(model);
-        reaction.add(model, at, 1.0);
-        let r = reaction.within(p, x);
+        let r = AffineOutput::row(model, at).within(p, x);
         let corners = ends.map(|place| match form.vertices.get(place) {
             Some(_) => Interval::ZERO,
             None => corner_of(form, place, p),

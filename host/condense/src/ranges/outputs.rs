@@ -18,7 +18,7 @@ use faer::{Mat, Side};
 
 use super::affine::AffineOutput;
 use super::enclosure::Enclosure;
-use super::interval::{Interval, between, dot};
+use super::interval::{Interval, between};
 use super::sides::Sides;
 use super::slopes::Slopes;
 use crate::{CondensedModel, Measure};
@@ -145,13 +145,13 @@ impl Known<'_> {
             if weight == 0.0 {
                 return Interval::ZERO;
             }
-            let mut row = AffineOutput::none(self.model);
-            if let Some(side) = self.side(at) {
-                row.add_end(self.model, at, side, 1.0);
-                return Interval::point(weight) * row.within(&self.inputs, &x);
-            }
-            row.add(self.model, at, 1.0);
-            Interval::point(weight) * self.admissible(at, row.within(&self.inputs, &x))
+            let Some(side) = self.side(at) else {
+                let r = AffineOutput::row(self.model, at).within(&self.inputs, &x);
+                return Interval::point(weight) * self.admissible(at, r);
+            };
+            let mut end = AffineOutput::none(self.model);
+            end.add_end(self.model, at, side, 1.0);
+            Interval::point(weight) * end.within(&self.inputs, &x)
         };
         let reactions = of_reaction.iter().enumerate().map(reaction);
         reactions.fold(own.within(&self.inputs, &x), |sum, reaction| sum + reaction)
@@ -202,10 +202,7 @@ impl Known<'_> {
 
     /// Part of an interval of r that lies between the ends that inputs may make.
     fn admissible(&self, at: usize, r: Interval) -> Interval {
-        let [least, greatest] = self.model.end_columns(at).map(|end| match end[0].is_finite() {
-            true => dot(points(&end, end.len()), self.inputs.iter().copied()),
-            false => Interval::point(end[0]),
-        });
+        let [least, greatest] = self.model.ends_within(at, &self.inputs);
         let lo = if least.lo == f64::NEG_INFINITY { r.lo } else { r.lo.max(least.lo) };
         Interval { lo, hi: if greatest.hi == f64::INFINITY { r.hi } else { r.hi.min(greatest.hi) } }
     }
