@@ -2,9 +2,17 @@
 //!
 //! Rows come in chunks; of [F; chunk] the triangular factor is the new F, so that |Fz| = |(Gs − Tτ)(z)|
 //! for every column vector z, to rounding and without squaring the condition.
+//!
+//! Energies tell how far it is from a residual of 1 on a contact edge to a flux that mends it.
+//!
+//! w_i is a flux that brings 1 in through contact edge i and out where the part is held: τ of the column
+//! Ŝ⁻¹e_i. Then |A^{−½} Σδ_i w_i| ≤ stability |δ| with reach² = λ_max(Ŵ), Ŵ_ij = ∫A⁻¹w_i·w_j + ∫_R …/h.
+//! Where contact alone holds one of the parts, Ŝ is singular on its constants; there w_i lets its 1 go
+//! through a source all over the part, and whoever mends sends the sum of all through one more edge.
 
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, Par};
+use faer::linalg::solvers::Solve;
+use faer::{Accum, Mat, Par, Side};
 
 use super::best::Table;
 use super::block::Block;
@@ -86,4 +94,50 @@ pub(super) fn column(factor: &[f64], j: usize) -> &[f64] {
 /// |x|
 pub(super) fn norm(x: &[f64]) -> f64 {
     x.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
+}
+
+/// Source for a part held by contact alone.
+pub(super) struct Source {
+    /// 1/d_i of the unknowns of that part, 0 of the others.
+    pub inverse: Vec<f64>,
+    /// The condensed load B̂ of a source that adds up to 1.
+    pub load: Vec<f64>,
+}
+
+/// stability for Ŝ = `matrix`; `energies` of the columns of x, and of the source's where there is one.
+/// `None` where Ŝ is singular to rounding.
+pub(super) fn stability(
+    matrix: &Mat<f64>,
+    energies: &Mat<f64>,
+    source: Option<&Source>,
+) -> Option<f64> {
+    if matrix.nrows() == 0 {
+        return Some(0.0);
+    }
+    let columns = match source {
+        None => held(matrix)?,
+        Some(source) => floating(matrix, source)?,
+    };
+    let mending = columns.transpose() * energies * &columns;
+    let eigenvalues = mending.self_adjoint_eigenvalues(Side::Lower).ok()?;
+    let largest = eigenvalues.into_iter().fold(0.0, f64::max);
+    largest.is_finite().then(|| largest.sqrt())
+}
+
+/// Ŝ⁻¹
+fn held(matrix: &Mat<f64>) -> Option<Mat<f64>> {
+    let n = matrix.nrows();
+    Some(matrix.llt(Side::Lower).ok()?.solve(Mat::<f64>::identity(n, n)))
+}
+
+/// The columns (x, source) of the w_i: x solves Ŝx = e_i + Q_i B̂ with the source Q_i = −1/d_i that
+/// makes it solvable, Q_i = 0 in parts that something else holds; adding the constants' projection picks one x and changes no flux.
+fn floating(matrix: &Mat<f64>, Source { inverse, load }: &Source) -> Option<Mat<f64>> {
+    let n = matrix.nrows();
+    let square: f64 = inverse.iter().map(|c| c * c).sum();
+    let constant: Vec<f64> = inverse.iter().map(|c| c / square.sqrt()).collect();
+    let shifted = Mat::from_fn(n, n, |i, j| matrix[(i, j)] + constant[i] * constant[j]);
+    let given = Mat::from_fn(n, n, |i, j| f64::from(u8::from(i == j)) - load[i] * inverse[j]);
+    let x = shifted.llt(Side::Lower).ok()?.solve(given);
+    Some(Mat::from_fn(n + 1, n, |i, j| if i < n { x[(i, j)] } else { -inverse[j] }))
 }

@@ -40,12 +40,10 @@ mod measures;
 mod model;
 mod modes;
 mod order;
-mod points;
 pub mod ranges;
 mod recovery;
 mod residual;
 mod rounding;
-mod stability;
 #[cfg(test)]
 mod tests;
 mod unit;

@@ -35,7 +35,7 @@ impl Reduced {
         let maps = sides.reduction(whole)?;
         let m = whole.inputs;
         let scale: Vec<f64> =
-            maps.residuals.iter().enumerate().map(|(at, row)| row.factors[m + at].sqrt()).collect();
+            maps.kept.iter().zip(m..).map(|(&at, j)| maps.r[at].factors[j].sqrt()).collect();
         // Not positive definite to working precision.
         if !scale.iter().all(|s| *s > 0.0) {
             return None;
@@ -56,8 +56,8 @@ impl Reduced {
     pub fn expand(&self, p: &[f64], x: &[f64]) -> Vec<f64> {
         let mut whole = vec![0.0; self.sides.of.len()];
         let kept: Vec<f64> = x.iter().zip(&self.scale).map(|(x, s)| x / s).collect();
-        for (&at, row) in self.maps.open.iter().zip(&self.maps.openings) {
-            let terms = row.iter().zip(p.iter().chain(&kept));
+        for &at in &self.maps.open {
+            let terms = self.maps.x[at].iter().zip(p.iter().chain(&kept));
             whole[at] = terms.map(|(factor, value)| factor * value).sum();
         }
         self.maps.kept.iter().zip(kept).for_each(|(&at, x)| whole[at] = x);
@@ -84,14 +84,13 @@ impl Build<'_> {
         let Self { whole, maps, scale, .. } = *self;
         let (m, kept) = (whole.inputs, &maps.kept);
         let n = kept.len();
-        let entry = |i: usize, j: usize| maps.residuals[i].factors[m + j] / (scale[i] * scale[j]);
+        let entry = |i: usize, j: usize| maps.r[kept[i]].factors[m + j] / (scale[i] * scale[j]);
         let matrix = |at: usize| match (at / n, at % n) {
             (i, j) if i == j => 1.0,
             (i, j) => 0.5 * (entry(i, j) + entry(j, i)),
         };
-        let load = |j: usize| {
-            maps.residuals.iter().zip(scale).map(|(row, s)| -row.factors[j] / s).collect()
-        };
+        let load =
+            |j: usize| kept.iter().zip(scale).map(|(&at, s)| -maps.r[at].factors[j] / s).collect();
         let scaled = |of: &dyn Fn(usize, f64) -> f64| {
             kept.iter().zip(scale).map(|(&at, &s)| of(at, s)).collect::<Vec<f64>>()
         };
@@ -152,22 +151,20 @@ impl Build<'_> {
         let mut add = |weight: f64, row: &[f64]| {
             sum.iter_mut().zip(row).for_each(|(sum, factor)| *sum += weight * factor);
         };
-        for (&edge, row) in self.maps.open.iter().zip(&self.maps.openings) {
-            add(of_contact.get(edge).copied().unwrap_or(0.0), row);
+        let weight = |of: &[f64], edge: usize| of.get(edge).copied().unwrap_or(0.0);
+        for &edge in &self.maps.open {
+            add(weight(of_contact, edge), &self.maps.x[edge]);
         }
-        for (&edge, row) in self.maps.touching.iter().zip(&self.maps.reactions) {
-            add(of_reaction.get(edge).copied().unwrap_or(0.0), &row.factors);
+        for &edge in &self.maps.touching {
+            add(weight(of_reaction, edge), &self.maps.r[edge].factors);
         }
-        for (at, &edge) in self.maps.open.iter().enumerate() {
-            let [least, greatest] = self.whole.end_columns(edge);
-            let end = if at < self.maps.above { least } else { greatest };
-            let weight = of_reaction.get(edge).copied().unwrap_or(0.0);
-            if weight != 0.0 {
-                add(weight, &end);
-            }
+        // The end of a side that nobody asks for may be infinite.
+        let ends = self.maps.open.iter().zip(self.maps.ends(self.whole));
+        for (&edge, end) in ends.filter(|(edge, _)| weight(of_reaction, **edge) != 0.0) {
+            add(weight(of_reaction, edge), &end);
         }
         for (at, &edge) in self.maps.kept.iter().enumerate() {
-            sum[self.whole.inputs + at] += of_contact.get(edge).copied().unwrap_or(0.0);
+            sum[self.whole.inputs + at] += weight(of_contact, edge);
         }
         let mut of_inputs = self.rescaled(sum);
         let of_contact = of_inputs.split_off(self.whole.inputs);

@@ -49,7 +49,7 @@ impl Build<'_> {
 
     /// M, row by row: each column of F in (p, x′, d′).
     fn columns(&self, form: &Form, seen: &[&Vertex]) -> Vec<Affine> {
-        let (m, n) = (self.whole.inputs, self.sides.of.len());
+        let m = self.whole.inputs;
         let width = m + self.maps.kept.len() + seen.len();
         let wide = |factors: Vec<f64>| {
             let mut row = self.rescaled(factors);
@@ -58,13 +58,13 @@ impl Build<'_> {
         };
         let unit = |at: usize| Affine::exact((0..width).map(|k| f64::from(k == at)).collect());
         let inputs = (0..m).map(unit);
-        let openings = (0..n).map(|edge| Affine::exact(wide(self.maps.opening(edge, m))));
+        let openings = self.maps.x.iter().map(|row| Affine::exact(wide(row.clone())));
         let mut next = m + self.maps.kept.len();
         let corrections =
             form.vertices.iter().map(|vertex| match self.sides.at(vertex, self.maps) {
                 VertexSide::Free => Affine::exact(vec![0.0; width]),
                 VertexSide::Touching => {
-                    let e = self.maps.interpolated(vertex, m);
+                    let e = self.maps.interpolated(vertex);
                     let factors = wide(e.factors).into_iter().map(|factor| -factor);
                     Affine { factors: factors.collect(), noise: wide(e.noise) }
                 }

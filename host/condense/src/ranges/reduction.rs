@@ -14,7 +14,7 @@ use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 
 use super::split::product;
-use crate::CondensedModel;
+use crate::{CondensedModel, Vertex};
 
 /// A number as an affine function of (p, x_U).
 #[derive(Debug, Clone)]
@@ -25,7 +25,7 @@ pub struct Affine {
     pub noise: Vec<f64>,
 }
 
-/// Affine maps (p, x_U) ─► x_O, r_T, r_U and what is left of r_O.
+/// Affine maps (p, x_U) ─► x, r.
 #[derive(Debug, Clone)]
 pub struct Reduction {
     /// U
@@ -36,14 +36,10 @@ pub struct Reduction {
     pub above: usize,
     /// T
     pub touching: Vec<usize>,
-    /// x_O, exact by definition.
-    pub openings: Vec<Vec<f64>>,
-    /// r_T
-    pub reactions: Vec<Affine>,
-    /// r_U
-    pub residuals: Vec<Affine>,
-    /// r_O less the end of its side: zeros but for rounding.
-    pub left: Vec<Affine>,
+    /// x of every edge, exact by definition.
+    pub x: Vec<Vec<f64>>,
+    /// r of every edge, on O less the end of its side: zeros there but for rounding.
+    pub r: Vec<Affine>,
 }
 
 impl Reduction {
@@ -54,45 +50,83 @@ impl Reduction {
         kept: Vec<usize>,
         [mut open, saturated, touching]: [Vec<usize>; 3],
     ) -> Option<Self> {
-        let above = open.len();
+        let (m, n, above) = (model.inputs, model.contact, open.len());
         open.extend(saturated);
+        let (x, r) = (vec![vec![0.0; m + kept.len()]; n], Vec::new());
+        let mut maps = Self { kept, open, above, touching, x, r };
+        let ends = maps.ends(model);
+        for (&edge, row) in maps.open.iter().zip(maps.openings(model, &ends)?) {
+            maps.x[edge] = row;
+        }
+        for (at, &edge) in maps.kept.iter().enumerate() {
+            maps.x[edge][m + at] = 1.0;
+        }
+        maps.r = (0..n).map(|edge| maps.residual(model, edge)).collect();
+        maps.open.iter().zip(&ends).for_each(|(&edge, end)| maps.r[edge].subtract(end));
+        Some(maps)
+    }
+
+    /// The ends of the sides of O, as factors of p.
+    pub(super) fn ends(&self, model: &CondensedModel) -> Vec<Vec<f64>> {
         let end = |(at, &edge): (usize, &usize)| {
             let [least, greatest] = model.end_columns(edge);
-            if at < above { least } else { greatest }
+            if at < self.above { least } else { greatest }
         };
-        let ends: Vec<Vec<f64>> = open.iter().enumerate().map(end).collect();
-        let openings = openings(model, &kept, &open, &ends)?;
-        let rows = |edges: &[usize]| -> Vec<Affine> {
-            edges.iter().map(|&edge| residual(model, &kept, &open, &openings, edge)).collect()
+        self.open.iter().enumerate().map(end).collect()
+    }
+
+    /// x_O by rows.
+    fn openings(&self, model: &CondensedModel, ends: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+        let (n, m, Self { kept, open, .. }) = (model.contact, model.inputs, self);
+        let entry = |i: usize, j: usize| model.matrix[i * n + j];
+        let own = Mat::from_fn(open.len(), open.len(), |i, j| entry(open[i], open[j]));
+        let columns = m + kept.len();
+        let given = Mat::from_fn(open.len(), columns, |i, j| match j.checked_sub(m) {
+            None => model.load[j][open[i]] + ends[i][j],
+            Some(j) => -entry(open[i], kept[j]),
+        });
+        let solved = own.llt(Side::Lower).ok()?.solve(given);
+        let row = |i: usize| (0..columns).map(|j| solved[(i, j)]).collect();
+        Some((0..open.len()).map(row).collect())
+    }
+
+    /// (Sx − Bp)_edge
+    fn residual(&self, model: &CondensedModel, edge: usize) -> Affine {
+        let (n, m, Self { kept, open, x, .. }) = (model.contact, model.inputs, self);
+        let own = &model.matrix[edge * n..(edge + 1) * n];
+        let of_open: Vec<f64> = open.iter().map(|&at| own[at]).collect();
+        let column = |j: usize| {
+            let direct = match j.checked_sub(m) {
+                None => -model.load[j][edge],
+                Some(j) => own[kept[j]],
+            };
+            let through: Vec<f64> = open.iter().map(|&at| x[at][j]).collect();
+            let (sum, noise) = product(&of_open, &through);
+            (direct + sum, noise + f64::EPSILON * direct.abs())
         };
-        let (reactions, residuals, mut left) = (rows(&touching), rows(&kept), rows(&open));
-        for (row, end) in left.iter_mut().zip(&ends) {
-            row.subtract(end);
-        }
-        Some(Self { kept, open, above, touching, openings, reactions, residuals, left })
+        let (factors, noise) = (0..m + kept.len()).map(column).unzip();
+        Affine { factors, noise }
     }
 
     /// The edges of O and T that some (p, x_U) within `intervals` might put on another side.
     pub fn unproved(&self, model: &CondensedModel, intervals: &[[f64; 2]]) -> Vec<usize> {
         // A NaN proves nothing.
-        let is_open = |at: usize, row: &[f64]| match at < self.above {
-            true => least(row, &[], intervals) > 0.0,
-            false => least(&negated(row), &[], intervals) > 0.0,
+        let is_open = |(at, edge): (usize, usize)| {
+            let sign = if at < self.above { 1.0 } else { -1.0 };
+            let signed: Vec<f64> = self.x[edge].iter().map(|factor| sign * factor).collect();
+            least(&signed, &[], intervals) > 0.0
         };
-        let open = self.open.iter().zip(&self.openings).enumerate();
-        let open = open.filter(|(at, (_, row))| !is_open(*at, row)).map(|(_, (&edge, _))| edge);
-        let is_touching = |edge: usize, row: &Affine| {
+        let is_touching = |edge: usize| {
             let is_within = |(end, sign): (Vec<f64>, f64)| {
-                let mut row = row.clone();
+                let mut row = self.r[edge].clone();
                 row.subtract(&end);
                 end[0].is_infinite() || row.least(sign, intervals) >= 0.0
             };
             model.end_columns(edge).into_iter().zip([1.0, -1.0]).all(is_within)
         };
-        let touching = self.touching.iter().zip(&self.reactions);
-        let touching =
-            touching.filter(|(edge, row)| !is_touching(**edge, row)).map(|(&edge, _)| edge);
-        open.chain(touching).collect()
+        let open = self.open.iter().copied().enumerate().filter(|&of| !is_open(of));
+        let touching = self.touching.iter().copied().filter(|&edge| !is_touching(edge));
+        open.map(|(_, edge)| edge).chain(touching).collect()
     }
 
     /// Σ_i of what rounding leaves of r_O, and of r_U beside what S′ and B′ say, by columns of (p, x_U). S′ is made
@@ -104,15 +138,25 @@ impl Reduction {
                 *sum += share * factor.abs() + noise + 4.0 * f64::EPSILON * factor.abs();
             }
         };
-        self.left.iter().for_each(|row| add(row, 1.0));
-        self.residuals.iter().for_each(|row| add(row, 0.0));
-        for (i, row) in self.residuals.iter().enumerate() {
-            for (j, other) in self.residuals.iter().enumerate() {
+        let rows = |edges: &[usize]| edges.iter().map(|&at| &self.r[at]).collect::<Vec<_>>();
+        let (left, residuals) = (rows(&self.open), rows(&self.kept));
+        left.iter().for_each(|row| add(row, 1.0));
+        residuals.iter().for_each(|row| add(row, 0.0));
+        for (i, row) in residuals.iter().enumerate() {
+            for (j, other) in residuals.iter().enumerate() {
                 sum[inputs + j] +=
                     0.5 * (row.factors[inputs + j] - other.factors[inputs + i]).abs();
             }
         }
         sum
+    }
+
+    /// e of a vertex. Its two terms may cancel, their rounding does not.
+    pub(super) fn interpolated(&self, vertex: &Vertex) -> Affine {
+        let ([a, b], [p, q]) = (vertex.edges.map(|edge| &self.x[edge]), vertex.weights);
+        let factors = a.iter().zip(b).map(|(a, b)| p * a + q * b).collect();
+        let noise = |(a, b): (&f64, &f64)| 2.0 * f64::EPSILON * ((p * a).abs() + (q * b).abs());
+        Affine { factors, noise: a.iter().zip(b).map(noise).collect() }
     }
 }
 
@@ -138,10 +182,6 @@ impl Affine {
     }
 }
 
-fn negated(factors: &[f64]) -> Vec<f64> {
-    factors.iter().map(|factor| -factor).collect()
-}
-
 /// At most the least value of an affine function whose variables lie in `intervals`.
 pub(super) fn least(factors: &[f64], noise: &[f64], intervals: &[[f64; 2]]) -> f64 {
     let worst = |(a, [lo, hi]): (&f64, &[f64; 2])| if *a > 0.0 { *lo } else { *hi };
@@ -150,48 +190,4 @@ pub(super) fn least(factors: &[f64], noise: &[f64], intervals: &[[f64; 2]]) -> f
     let largest = |[lo, hi]: &[f64; 2]| lo.abs().max(hi.abs());
     let off: f64 = noise.iter().zip(intervals).map(|(noise, range)| noise * largest(range)).sum();
     sum - 2.0 * (rounding + off)
-}
-
-/// x_O by rows.
-fn openings(
-    model: &CondensedModel,
-    kept: &[usize],
-    open: &[usize],
-    ends: &[Vec<f64>],
-) -> Option<Vec<Vec<f64>>> {
-    let (n, m) = (model.contact, model.inputs);
-    let entry = |i: usize, j: usize| model.matrix[i * n + j];
-    let own = Mat::from_fn(open.len(), open.len(), |i, j| entry(open[i], open[j]));
-    let columns = m + kept.len();
-    let given = Mat::from_fn(open.len(), columns, |i, j| match j.checked_sub(m) {
-        None => model.load[j][open[i]] + ends[i][j],
-        Some(j) => -entry(open[i], kept[j]),
-    });
-    let solved = own.llt(Side::Lower).ok()?.solve(given);
-    let row = |i: usize| (0..columns).map(|j| solved[(i, j)]).collect();
-    Some((0..open.len()).map(row).collect())
-}
-
-/// (Sx − Bp)_edge with x_T = 0 and x_O as the rows of `openings` have it.
-fn residual(
-    model: &CondensedModel,
-    kept: &[usize],
-    open: &[usize],
-    openings: &[Vec<f64>],
-    edge: usize,
-) -> Affine {
-    let (n, m) = (model.contact, model.inputs);
-    let own = &model.matrix[edge * n..(edge + 1) * n];
-    let of_open: Vec<f64> = open.iter().map(|&at| own[at]).collect();
-    let column = |j: usize| {
-        let direct = match j.checked_sub(m) {
-            None => -model.load[j][edge],
-            Some(j) => own[kept[j]],
-        };
-        let through: Vec<f64> = openings.iter().map(|row| row[j]).collect();
-        let (sum, noise) = product(&of_open, &through);
-        (direct + sum, noise + f64::EPSILON * direct.abs())
-    };
-    let (factors, noise) = (0..m + kept.len()).map(column).unzip();
-    Affine { factors, noise }
 }

@@ -95,11 +95,11 @@ impl Proof<'_> {
         let mut sum = Affine::exact(vec![0.0; m + maps.kept.len()]);
         sum.factors[..m].copy_from_slice(&vertex.above[..m]);
         for (edge, &factor) in vertex.above[m..m + n].iter().enumerate() {
-            sum.add(factor, &Affine::exact(maps.opening(edge, m)));
+            sum.add(factor, &Affine::exact(maps.x[edge].clone()));
         }
         let (inputs, mut lower) = (sides.box_of(maps), 0.0);
         for (of, &factor) in form.vertices.iter().zip(&vertex.above[m + n..]) {
-            let e = maps.interpolated(of, m);
+            let e = maps.interpolated(of);
             match sides.at(of, maps) {
                 VertexSide::Free => {}
                 VertexSide::Touching => sum.add(-factor, &e),

@@ -15,7 +15,7 @@
 //! ```
 
 use super::enclosure::Enclosure;
-use super::reduction::{Affine, Reduction};
+use super::reduction::Reduction;
 use super::split::Split;
 use crate::{CondensedModel, Form, Vertex};
 use signorini_reference::ReferenceError;
@@ -201,7 +201,7 @@ impl Sides {
         if beside().any(|&at| self.of[at] == EdgeSide::Touching && !self.kept[at]) {
             return VertexSide::Touching;
         }
-        let e = reduction.interpolated(vertex, self.inputs.len());
+        let e = reduction.interpolated(vertex);
         let are = |side: EdgeSide, sign: f64| {
             beside().all(|&at| self.of[at] == side) && e.least(sign, &self.box_of(reduction)) >= 0.0
         };
@@ -221,27 +221,4 @@ fn there_is(model: &CondensedModel, at: usize, [lo, hi]: [f64; 2]) -> [f64; 2] {
 pub(super) fn widened(ranges: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let noise = |end: f64| f64::from(f32::EPSILON) * end.abs() + f64::from(f32::MIN_POSITIVE);
     ranges.iter().map(|&[lo, hi]| [lo - noise(lo), hi + noise(hi)]).collect()
-}
-
-impl Reduction {
-    /// x_edge as factors of (p, x_U).
-    pub(super) fn opening(&self, edge: usize, inputs: usize) -> Vec<f64> {
-        let mut factors = vec![0.0; inputs + self.kept.len()];
-        if let Some(at) = self.open.iter().position(|&open| open == edge) {
-            return self.openings[at].clone();
-        }
-        if let Some(at) = self.kept.iter().position(|&kept| kept == edge) {
-            factors[inputs + at] = 1.0;
-        }
-        factors
-    }
-
-    /// e of a vertex as factors of (p, x_U). Its two terms may cancel, their rounding does not.
-    pub(super) fn interpolated(&self, vertex: &Vertex, inputs: usize) -> Affine {
-        let [a, b] = vertex.edges.map(|edge| self.opening(edge, inputs));
-        let [p, q] = vertex.weights;
-        let factors = a.iter().zip(&b).map(|(a, b)| p * a + q * b).collect();
-        let noise = |(a, b): (&f64, &f64)| 2.0 * f64::EPSILON * ((p * a).abs() + (q * b).abs());
-        Affine { factors, noise: a.iter().zip(&b).map(noise).collect() }
-    }
 }

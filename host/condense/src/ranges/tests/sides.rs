@@ -93,12 +93,12 @@ fn affine_maps_are_those_of_elimination() {
     let maps = sides.reduction(&whole).expect("positive definite");
     assert_eq!((&maps.open, &maps.touching, &maps.kept), (&vec![0], &vec![1], &vec![2]));
     // x_0 = 2 + ½p + ¼x_2
-    KNOWN.check_each("x_O", &maps.openings[0], &[2.0, 0.5, 0.25]);
+    KNOWN.check_each("x_O", &maps.x[0], &[2.0, 0.5, 0.25]);
     // −½x_0 + 4 − ¼p
-    KNOWN.check_each("r_T", &maps.reactions[0].factors, &[3.0, -0.5, -0.125]);
+    KNOWN.check_each("r_T", &maps.r[1].factors, &[3.0, -0.5, -0.125]);
     // −¼x_0 + x_2 − p
-    KNOWN.check_each("r_U", &maps.residuals[0].factors, &[-0.5, -1.125, 0.9375]);
-    KNOWN.check_each("r_O", &maps.left[0].factors, &[0.0; 3]);
+    KNOWN.check_each("r_U", &maps.r[2].factors, &[-0.5, -1.125, 0.9375]);
+    KNOWN.check_each("r_O", &maps.r[0].factors, &[0.0; 3]);
     let reduced = Reduced::new(&whole, sides).expect("edges to take out");
     let s = 0.9375_f64.sqrt();
     assert_eq!((reduced.model.contact, &reduced.model.edges), (1, &vec![2]));
@@ -138,13 +138,12 @@ fn rounding_of_an_elimination_is_counted() {
         open: vec![2],
         above: 1,
         touching: Vec::new(),
-        openings: vec![vec![0.0; 3]],
-        reactions: Vec::new(),
-        residuals: vec![
+        x: Vec::new(),
+        r: vec![
             affine(&[1.0, 2.0, 0.5], &[0.001, 0.0, 0.0]),
             affine(&[1.0, 0.75, 2.0], &[0.0, 0.002, 0.0]),
+            affine(&[0.03, 0.0, -0.25], &[0.0, 0.0, 0.004]),
         ],
-        left: vec![affine(&[0.03, 0.0, -0.25], &[0.0, 0.0, 0.004])],
     };
     let hidden = maps.hidden(1);
     let known = [0.031, 0.002 + 0.125, 0.254 + 0.125];
