@@ -483,8 +483,7 @@ fn where_the_law_holds_rounding_alone_is_charged() -> Result<(), Error> {
         drawn.r = [r; EDGES];
         let (unsure, slack) = (2.0 * drawn.uncertainty(), drawn.slack());
         let off = 0.5 * (excess[0] + excess[1]).abs();
-        let room = if off == 0.0 { 0.0 } else { 1.0 };
-        let square = 2.0 * (off + slack) * unsure + 2.0 * slack * (room + unsure);
+        let square = 2.0 * (off + slack) * unsure + 2.0 * slack * (1.0 + unsure);
         LIMITED_FORM.check_relative(name, gap(&drawn)?.powi(2), square);
     }
     // Edges that do not touch have the flux of their side, and no other side where u_D is clearly on theirs.

@@ -115,11 +115,6 @@ impl<Numbers, Flags, Columns, Spans, Matrix, Inputs, R: Real>
         &self.shared
     }
 
-    /// Storage of the model, to be written.
-    pub fn shared_mut(&mut self) -> &mut Storage<Numbers, Flags, Columns, Spans> {
-        &mut self.shared
-    }
-
     /// p and y of the last tick.
     pub fn inputs(&self) -> &[R]
     where
