@@ -17,31 +17,19 @@ use signorini_tolerances::kernel::{CONDENSED_NARROW, EXTREME_DEFECT};
 const EDGES: usize = 19;
 
 /// Scalars by way of f64, which holds the bits of both.
-trait Scalar: Real {
-    fn of(x: f64) -> Self;
-    fn wide(self) -> f64;
+trait Scalar: Real + Into<f64> {
+    fn of(x: f64) -> Self {
+        Self::from_f64(x).expect("every number has a nearest one")
+    }
+    fn wide(self) -> f64 {
+        self.into()
+    }
     fn bits(self) -> u64 {
         self.wide().to_bits()
     }
 }
 
-impl Scalar for f32 {
-    fn of(x: f64) -> Self {
-        x as f32
-    }
-    fn wide(self) -> f64 {
-        self.into()
-    }
-}
-
-impl Scalar for f64 {
-    fn of(x: f64) -> Self {
-        x
-    }
-    fn wide(self) -> f64 {
-        self
-    }
-}
+impl<R: Real + Into<f64>> Scalar for R {}
 
 /// How a controller solves: with a tableau, or by sweeps alone.
 #[derive(Debug, Clone, Copy, PartialEq)]

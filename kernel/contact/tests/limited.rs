@@ -1,6 +1,6 @@
 //! Contact whose flux has two ends: what the law allows, and exchanges with three sides by complementarity itself.
 
-use crate::memory::{Dense, Draw};
+use crate::memory::{Dense, Draw, defect};
 use crate::strip::Strip;
 use signorini_contact::dense::blocks::padded;
 use signorini_contact::dense::pivoting::{Found, find};
@@ -155,26 +155,6 @@ fn a_flux_goes_with_its_side() {
     assert_eq!([0.5, 1.0, 1.5].map(|flux| from_above.multiplier(flux)), [-0.5, 0.0, 0.5]);
 }
 
-fn residual_of(strip: &Strip<f64>, load: &[f64], x: &[f64], row: usize) -> f64 {
-    (0..strip.order).fold(-load[row], |sum, column| sum + strip.at(row, column) * x[column])
-}
-
-/// How far x and w = Sx − b are from the law, relative to the load.
-fn defect(strip: &Strip<f64>, load: &[f64], x: &[f64], most: impl Fn(usize) -> f64) -> f64 {
-    let w: Vec<f64> = (0..strip.order).map(|row| residual_of(strip, load, x, row)).collect();
-    let size = load.iter().fold(1.0, |most: f64, b| most.max(b.abs()));
-    let one = |at: usize| {
-        let (x, w, most) = (x[at], w[at], most(at));
-        let [least, most] = if most < 0.0 { [most, 0.0] } else { [0.0, most] };
-        match x {
-            0.0 => (least - w).max(w - most).max(0.0),
-            _ if x > 0.0 => (w - least).abs(),
-            _ => (w - most).abs(),
-        }
-    };
-    (0..strip.order).map(one).fold(0.0, f64::max) / size
-}
-
 /// Loads that follow each other, with spans that are scaled edge by edge.
 #[test]
 fn exchanges_find_all_three_sides() -> Result<(), Error> {
@@ -191,7 +171,10 @@ fn exchanges_find_all_three_sides() -> Result<(), Error> {
             .take(order)
             .enumerate()
             .for_each(|(at, scale)| *scale = 0.5 + 0.1 * at as f64);
-        let most = |at: usize| spans[at] * scale[at];
+        let ends = |at: usize| match spans[at] * scale[at] {
+            most if most < 0.0 => [most, 0.0],
+            most => [0.0, most],
+        };
         let start = InitialTableau::untouched(&matrix);
         let mut memory = Dense::of(&matrix, order)?;
         let mut load = vec![0.0; length];
@@ -205,7 +188,9 @@ fn exchanges_find_all_three_sides() -> Result<(), Error> {
                 find(&matrix, given, &mut tableau, &start, &mut Largest, |_| true, iterate)?;
             let Dense { x, residual, open, .. } = &memory;
             assert!(found == Found::Exact && pivots as usize <= 4 * order, "{order}: {pivots}");
-            THREE_SIDES.check(format_args!("{order}"), defect(&strip, &load, x, most));
+            let size = load.iter().fold(1.0, |most: f64, b| most.max(b.abs()));
+            let off = defect(order, |i, j| strip.at(i, j), [&load, x], ends);
+            THREE_SIDES.check_over(format_args!("{order}"), off, size);
             for (at, &x) in x.iter().enumerate() {
                 assert_eq!(open[at], x != 0.0);
                 if at < order {

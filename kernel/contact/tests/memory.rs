@@ -93,6 +93,25 @@ pub const fn bare<'a, R: Real>() -> Condensed<'a, R> {
     }
 }
 
+/// How far x and w = Sx − b are from the law, S being `entry` and w between `ends`.
+pub fn defect(
+    order: usize,
+    entry: impl Fn(usize, usize) -> f64,
+    [load, x]: [&[f64]; 2],
+    ends: impl Fn(usize) -> [f64; 2],
+) -> f64 {
+    let of = |row: usize| {
+        let w = (0..order).fold(-load[row], |sum, column| sum + entry(row, column) * x[column]);
+        let [least, most] = ends(row);
+        match x[row] {
+            0.0 => (least - w).max(w - most).max(0.0),
+            x if x > 0.0 => (w - least).abs(),
+            _ => (w - most).abs(),
+        }
+    };
+    (0..order).map(of).fold(0.0, f64::max)
+}
+
 /// Knuth's generator.
 pub struct Draw(pub u64);
 

@@ -1,7 +1,7 @@
 //! Exchanges in phases on matrices without a positive entry off the diagonal: an end from every state, in two phases and, where
 //! fluxes have limits, in three; and sweeps to the same answer.
 
-use crate::memory::{Dense, Draw};
+use crate::memory::{Dense, Draw, defect};
 use crate::strip::in_blocks;
 use signorini_contact::dense::blocks::{Block, Blocks, SIDE, padded};
 use signorini_contact::dense::ranges::Given;
@@ -54,21 +54,6 @@ impl Plant {
         if span < 0.0 { [span, 0.0] } else { [0.0, span] }
     }
 
-    /// How far x and w = Sx − b are from the law.
-    fn defect(&self, x: &[f64]) -> f64 {
-        let of = |at: usize| {
-            let row = &self.rows[at];
-            let w = row.iter().zip(x).map(|(s, x)| s * x).sum::<f64>() - self.load[at];
-            let [least, most] = self.ends(at);
-            match x[at] {
-                0.0 => (least - w).max(w - most).max(0.0),
-                x if x > 0.0 => (w - least).abs(),
-                _ => (w - most).abs(),
-            }
-        };
-        (0..self.order).map(of).fold(0.0, f64::max)
-    }
-
     /// x, and what it took; it begins with these sides, above, on and below the gap.
     fn solved(&self, sides: &[i8], sweeps: Option<u32>) -> Result<(Vec<f64>, SolveSummary), Error> {
         let matrix = Blocks::new(&self.blocks, self.order)?;
@@ -99,7 +84,9 @@ impl Plant {
     fn exchanges(&self, sides: &[i8], seen: &mut [u32; 3]) -> Result<usize, Error> {
         let (x, found) = self.solved(sides, None)?;
         assert_eq!((found.ended, found.sweeps), (Ended::Exact, 0), "{sides:?}");
-        CONDENSED.check("law", self.defect(&x));
+        let entry = |i: usize, j: usize| self.rows[i][j];
+        let off = defect(self.order, entry, [&self.load, &x], |at| self.ends(at));
+        CONDENSED.check("law", off);
         for x in x {
             seen[usize::from(x > 0.0) + 2 * usize::from(x < 0.0)] += 1;
         }

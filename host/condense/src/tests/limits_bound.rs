@@ -111,18 +111,20 @@ fn the_bound_is_near_that_of_the_mesh() -> Result<()> {
     Ok(())
 }
 
+/// Water beside contact, its level being an input of this pattern.
+fn level(limit: &str, pattern: &str) -> String {
+    format!(
+        "mesh = \"grid\"\n[material.default]\nconductivity = \"1\"\n[boundary.dirichlet]\nkind = \"dirichlet\"\n\
+         value = \"0.2*y\"\n[boundary.contact]\nkind = \"contact\"\ngap = \"0\"\nflux = \"-1\"\nlimit = \"{limit}\"\n\
+         [input.level]\nof = \"dirichlet\"\nfield = \"value\"\npattern = \"{pattern}\"\n"
+    )
+}
+
 /// u_D below the gap is an error where the limit is infinite, and has its price where it is not.
 #[test]
 fn a_dirichlet_value_below_the_gap() -> Result<()> {
-    let text = |limit: &str| {
-        format!(
-            "mesh = \"grid\"\n[material.default]\nconductivity = \"1\"\n[boundary.dirichlet]\nkind = \"dirichlet\"\n\
-             value = \"0.2*y\"\n[boundary.contact]\nkind = \"contact\"\ngap = \"0\"\nflux = \"-1\"\nlimit = \"{limit}\"\n\
-             [input.level]\nof = \"dirichlet\"\nfield = \"value\"\npattern = \"1\"\n"
-        )
-    };
     for limit in ["0.5", "inf"] {
-        let (_, problem) = on_grid(&text(limit), grid(4, Cells::Triangles))?;
+        let (_, problem) = on_grid(&level(limit, "1"), grid(4, Cells::Triangles))?;
         let model = condense(&problem)?;
         for (level, is_bounded) in [(0.1, true), (-0.1, limit != "inf")] {
             let p = [1.0, level];
@@ -164,12 +166,7 @@ fn a_span_that_inputs_change_must_be_constant_along_edges() -> Result<()> {
 fn the_sign_of_a_pattern_does_not_matter() -> Result<()> {
     for limit in ["0.5", "inf"] {
         let [one, other] = ["1", "-1"].map(|pattern| -> Result<f64> {
-            let text = format!(
-                "mesh = \"grid\"\n[material.default]\nconductivity = \"1\"\n[boundary.dirichlet]\nkind = \"dirichlet\"\n\
-                 value = \"0.2*y\"\n[boundary.contact]\nkind = \"contact\"\ngap = \"0\"\nflux = \"-1\"\nlimit = \"{limit}\"\n\
-                 [input.level]\nof = \"dirichlet\"\nfield = \"value\"\npattern = \"{pattern}\"\n"
-            );
-            let model = condense(&on_grid(&text, grid(4, Cells::Triangles))?.1)?;
+            let model = condense(&on_grid(&level(limit, pattern), grid(4, Cells::Triangles))?.1)?;
             let p = [1.0, 0.1 * pattern.parse::<f64>().expect("a number")];
             let x = model.solve(&p).expect("a solution");
             Ok(model.bound(&p, &x).expect("a bound"))

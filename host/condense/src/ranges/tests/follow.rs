@@ -1,9 +1,8 @@
 //! Proofs about models whose matrix follows a transfer coefficient, against solutions of drawn inputs.
 
-use super::super::enclosure::Enclosure;
 use super::super::follow::FollowedRanges;
 use super::super::interval::Interval;
-use super::{ALL, inputs, is_there};
+use super::{ALL, check_enclosed, inputs};
 use crate::{ModalModel, modal};
 use signorini_problem::fixtures::on_grid;
 use signorini_scene::error::Result;
@@ -53,24 +52,15 @@ short = {{ kind = \"saturated\" }}
 /// Every solution and output of drawn inputs lies where it is proved to; how wide intervals of outputs are beside what was seen.
 fn compare(modes: &ModalModel, found: &FollowedRanges, seed: u64) -> Vec<f64> {
     let ranges = &modes.model.ranges[..modes.inputs];
-    let Enclosure { lo, hi, .. } = found.sides.enclosure.as_ref().expect("an enclosure");
-    let mut seen = vec![[f64::INFINITY, f64::NEG_INFINITY]; found.outputs.len()];
+    let none = Interval { lo: f64::INFINITY, hi: f64::NEG_INFINITY };
+    let mut seen = vec![none; found.outputs.len()];
     for p in inputs(ranges, 300, seed) {
         let model = modes.in_own_scale(p[modes.input]);
-        let x = model.solve(&p).expect("a solution");
-        for (at, &x) in x.iter().enumerate() {
-            assert!(lo[at] <= x && x <= hi[at], "{at}: {x} in {} to {}, {p:?}", lo[at], hi[at]);
-            assert!(is_there(found.sides.of[at], x), "{at}: {:?} {x}", found.sides.of[at]);
-        }
-        let values = model.outputs(&p, &x).into_iter().zip(&found.outputs);
-        for ((value, proved), [least, most]) in values.zip(&mut seen) {
-            let (value, Interval { lo, hi }) = (value.expect("a value"), proved.expect("one"));
-            assert!(lo <= value && value <= hi, "{value} in {lo} to {hi}, {p:?}");
-            (*least, *most) = (least.min(value), most.max(value));
-        }
+        let values = check_enclosed(&model, &p, (&found.sides, &found.outputs), 0.0);
+        values.iter().zip(&mut seen).for_each(|(x, of)| *of = of.hull(Interval::point(*x)));
     }
     let widths = seen.iter().zip(&found.outputs);
-    widths.map(|([least, most], proved)| proved.expect("one").width() / (most - least)).collect()
+    widths.map(|(seen, proved)| proved.expect("one").width() / seen.width()).collect()
 }
 
 #[test]

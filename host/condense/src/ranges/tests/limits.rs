@@ -1,12 +1,11 @@
 //! Enclosures, outputs and reduced models where fluxes have limits.
 
 use super::super::enclosure::Enclosure;
-use super::super::interval::Interval;
 use super::super::largest::LargestBound;
 use super::super::outputs::intervals;
 use super::super::reduced::Reduced;
 use super::super::sides::{EdgeSide, Sides};
-use super::{ALL, inputs, is_there, matrix, scatter};
+use super::{ALL, check_enclosed, inputs, matrix, scatter};
 use crate::{CondensedModel, Measure, condense};
 use signorini_problem::fixtures::on_grid;
 use signorini_scene::error::Result;
@@ -54,22 +53,10 @@ fn solutions_outputs_and_sides_are_enclosed() {
         let model = model(case, case % 2 == 1);
         assert_eq!(model.is_varying(), case % 2 == 1);
         let sides = Sides::new(&model).expect("finite loads");
-        let Enclosure { lo, hi, .. } = sides.enclosure.clone().expect("an M-matrix");
         let proved = intervals(&model, &sides).expect("finite loads").expect("proved");
         ALL.iter().zip(&mut counts).for_each(|(side, sum)| *sum += sides.count(*side));
         for p in inputs(&model.ranges, 200, 40 + case) {
-            let x = model.solve(&p).expect("a solution");
-            for (at, &x) in x.iter().enumerate() {
-                assert!(lo[at] - 1e-13 <= x && x <= hi[at] + 1e-13, "{case} {at}: {x}");
-                assert!(is_there(sides.of[at], x), "{case} {at}: {:?} {x}", sides.of[at]);
-                let [least, most] = sides.limits[at];
-                assert!(least <= x && x <= most, "{case} {at}: {x} in {least} to {most}");
-            }
-            for (value, interval) in model.outputs(&p, &x).iter().zip(&proved) {
-                let (value, Interval { lo, hi }) =
-                    (value.expect("a value"), interval.expect("one"));
-                assert!(lo <= value && value <= hi, "{case}: {value} in {lo} to {hi}");
-            }
+            check_enclosed(&model, &p, (&sides, &proved), 1e-13);
         }
     }
     assert!(counts.iter().all(|&count| count > 50), "{counts:?}");

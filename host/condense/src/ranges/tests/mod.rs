@@ -9,7 +9,8 @@ mod twice;
 use faer::MatRef;
 
 use super::enclosure::{Enclosure, EndBox, LoadBox};
-use super::sides::EdgeSide;
+use super::interval::Interval;
+use super::sides::{EdgeSide, Sides};
 use super::split::Split;
 use crate::{CondensedModel, Measure};
 use signorini_reference::minimise_between;
@@ -38,6 +39,29 @@ fn scatter(seed: u64) -> impl FnMut() -> f64 {
             state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 11) as f64 / (1_u64 << 53) as f64
     }
+}
+
+/// A solution lies where it is proved to, but for `room`, and so do its outputs, which are returned.
+fn check_enclosed(
+    model: &CondensedModel,
+    p: &[f64],
+    (sides, proved): (&Sides, &[Option<Interval>]),
+    room: f64,
+) -> Vec<f64> {
+    let x = model.solve(p).expect("a solution");
+    let Enclosure { lo, hi, .. } = sides.enclosure.as_ref().expect("an enclosure");
+    for (at, &x) in x.iter().enumerate() {
+        let (lo, hi, side, [least, most]) = (lo[at], hi[at], sides.of[at], sides.limits[at]);
+        assert!(lo - room <= x && x <= hi + room, "{at}: {x} in {lo} to {hi}, {p:?}");
+        assert!(is_there(side, x), "{at}: {side:?} {x}");
+        assert!(least <= x && x <= most, "{at}: {x} in {least} to {most}");
+    }
+    let value = |(value, proved): (Option<f64>, &Option<Interval>)| {
+        let (value, Interval { lo, hi }) = (value.expect("a value"), proved.expect("one"));
+        assert!(lo <= value && value <= hi, "{value} in {lo} to {hi}, {p:?}");
+        value
+    };
+    model.outputs(p, &x).into_iter().zip(proved).map(value).collect()
 }
 
 /// A chain of springs: diagonal 1, neighbours −0.4 or so; with `positive`, entries further away that push.
