@@ -11,7 +11,7 @@ use faer::MatRef;
 use super::enclosure::{Enclosure, LoadBox};
 use super::sides::EdgeSide;
 use super::split::Split;
-use signorini_reference::minimise;
+use signorini_reference::minimise_between;
 
 mod outputs;
 
@@ -80,7 +80,8 @@ fn every_solution_lies_in_its_enclosure() {
             let p = drawn(&ranges, &mut random);
             let load: Vec<f64> =
                 (0..n).map(|i| columns.iter().zip(&p).map(|(b, p)| b[i] * p).sum()).collect();
-            let x = minimise(MatRef::from_row_major_slice(&entries, n, n), &[], &load)
+            let matrix = MatRef::from_row_major_slice(&entries, n, n);
+            let x = minimise_between(matrix, &[], &load, &[])
                 .expect("a positive definite matrix");
             for i in 0..n {
                 let row = &entries[i * n..][..n];
