@@ -210,10 +210,10 @@ fn random_problems_agree_with_the_reference() -> Result<()> {
         LIMITED_RANDOM.check(format_args!("{seed}: sweeps"), distance(&kernel.u, &reference.u));
         let parts = Parts::examine(&problem)?;
         let auto = Options { solver: SolverKind::Auto, ..Options::default() };
-        let factored = by_factor::<f64>(&problem, &parts, &auto, &[])?.expect("a factor");
+        let factored = by_factor::<f64>(&problem, &parts, &auto, &[], None)?.expect("a factor");
         LIMITED_RANDOM.check(format_args!("{seed}: factor"), distance(&factored.u, &reference.u));
         let single = Options { scalar: ScalarKind::F32, ..auto };
-        if let Some(found) = by_factor::<f32>(&problem, &parts, &single, &[])? {
+        if let Some(found) = by_factor::<f32>(&problem, &parts, &single, &[], None)? {
             LIMITED_NARROW.check(format_args!("{seed}: f32"), distance(&found.u, &reference.u));
         }
     }
