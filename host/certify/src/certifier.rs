@@ -27,20 +27,8 @@ pub struct Certifier<R: Scalar> {
     bubbles: Vec<R>,
     tau: Vec<R>,
     indicators: Vec<R>,
-    refusal: Option<Refusal>,
-}
-
-/// Why the last iterate has no bound, apart from its data.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Refusal {
-    /// A part without a way out, by a cell in it.
-    NothingActive(usize),
-    /// A part held by nothing.
-    HeldByNothing,
-    /// A contact edge that would be pulled at.
-    Pulled(usize),
-    Overflow,
-    NotAsked,
+    /// Why the last iterate has no bound, apart from its data.
+    refusal: Option<NoBound>,
 }
 
 /// The admissible pair of a certificate, in f64.
@@ -127,24 +115,16 @@ impl<R: Scalar> Certifier<R> {
             certificate::certify(&discretization, &data.given(assembled)?, iterate, buffers)?;
         self.refusal = match verdict {
             Verdict::Certified(_) => None,
-            Verdict::Pulled { edge } => Some(Refusal::Pulled(edge)),
-            Verdict::NotAsked => Some(Refusal::NotAsked),
-            _ => Some(Refusal::Overflow),
+            Verdict::Pulled { edge } => Some(NoBound::pulled(assembled.problem(), edge)),
+            Verdict::NotAsked => Some(NoBound::NotAsked),
+            _ => Some(NoBound::Overflow { scalar: R::NAME }),
         };
         Ok(verdict.certificate().copied())
     }
 
     /// Why the last iterate has no bound, given these data.
-    pub fn no_bound(&self, problem: &Problem, parts: &Parts, data: &Data<R>) -> Option<NoBound> {
-        let middle = |cell| Cell::of(problem, cell).middle();
-        let refused = self.refusal.map(|refusal| match refusal {
-            Refusal::NothingActive(cell) => NoBound::NothingActive { at: middle(cell) },
-            Refusal::HeldByNothing => NoBound::HeldByNothing { at: middle(floating(parts)) },
-            Refusal::Pulled(edge) => NoBound::pulled(problem, edge),
-            Refusal::Overflow => NoBound::Overflow { scalar: R::NAME },
-            Refusal::NotAsked => NoBound::NotAsked,
-        });
-        data.no_bound().cloned().or(refused)
+    pub fn no_bound(&self, data: &Data<R>) -> Option<NoBound> {
+        data.no_bound().or(self.refusal.as_ref()).cloned()
     }
 
     /// The fields of the last certificate.
@@ -178,12 +158,13 @@ impl<R: Scalar> Certifier<R> {
         u: &[R],
     ) -> Result<bool, KernelError> {
         if parts.counts.floating > 0 {
-            self.refusal = Some(Refusal::HeldByNothing);
+            let at = Cell::of(assembled.problem(), floating(parts)).middle();
+            self.refusal = Some(NoBound::HeldByNothing { at });
             return Ok(false);
         }
         if !self.follows_contact {
             // Found once and for all.
-            return Ok(!matches!(self.refusal, Some(Refusal::NothingActive(_))));
+            return Ok(!matches!(self.refusal, Some(NoBound::NothingActive { .. })));
         }
         let edges = assembled.edges();
         let (free, law) = (edges.counts().free, assembled.law());
@@ -204,7 +185,8 @@ impl<R: Scalar> Certifier<R> {
         self.refusal = None;
         match self.ways.find(assembled, &self.metric, active) {
             Err(KernelError::NoWayOut { cell }) => {
-                self.refusal = Some(Refusal::NothingActive(cell));
+                let at = Cell::of(assembled.problem(), cell).middle();
+                self.refusal = Some(NoBound::NothingActive { at });
                 Ok(false)
             }
             found => found.map(|()| true),

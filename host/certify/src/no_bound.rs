@@ -49,11 +49,6 @@ pub enum NoBound {
         /// The middle of the edge.
         at: [f64; 2],
     },
-    /// u_D lies below ψ where Dirichlet and contact boundary meet: no u has both.
-    BelowGap {
-        /// The vertex.
-        at: [f64; 2],
-    },
     /// Neither a Dirichlet, Robin nor contact edge belongs to a part, so that nothing can take its surplus.
     HeldByNothing {
         /// A point in the part.
@@ -96,12 +91,11 @@ pub struct Spot {
 impl Spot {
     /// That at the part `t` of an edge on C or D.
     pub fn on_edge(problem: &Problem, edge: usize, t: f64) -> Self {
-        let [a, b] = problem.segment(edge);
         let is_contact = edge < problem.topology.counts.unknowns();
         Self {
             boundary: boundary(problem, edge),
             field: if is_contact { Field::Gap } else { Field::Value },
-            at: [0, 1].map(|k| a[k] + t * (b[k] - a[k])),
+            at: problem.along(edge, t),
         }
     }
 }
@@ -192,8 +186,7 @@ fn middle(problem: &Problem, edge: usize) -> [f64; 2] {
 
 /// The name of the boundary that an edge lies on.
 fn boundary(problem: &Problem, edge: usize) -> String {
-    let found = problem.binding.boundary(problem.ends[edge]);
-    found.map_or_else(|| "default".to_owned(), |at| problem.scene.boundaries[at].name.value.clone())
+    problem.boundary_of(edge).map_or("default", |of| &of.name.value).to_owned()
 }
 
 /// A point with six digits: where data are rough is not known better.
@@ -229,11 +222,6 @@ impl fmt::Display for NoBound {
                 f,
                 "limit − flux of boundary.{boundary} falls below half of its mean along the edge around {}: a finer mesh \
                  there gives a bound",
-                place(at)
-            ),
-            Self::BelowGap { at } => write!(
-                f,
-                "the Dirichlet value lies below the gap at {}, where both boundaries meet: no solution has both",
                 place(at)
             ),
             Self::HeldByNothing { at } => write!(

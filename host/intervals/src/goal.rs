@@ -175,14 +175,12 @@ impl Goal {
 
     /// ζ·n that is given on a boundary edge.
     pub fn density_on(&self, problem: &Problem, edge: usize) -> f64 {
-        let table = problem.binding.boundary(problem.ends[edge]);
-        table.map_or(0.0, |table| self.densities[table])
+        on(problem, edge, &self.densities)
     }
 
     /// z that is given there.
     pub fn value_on(&self, problem: &Problem, edge: usize) -> f64 {
-        let table = problem.binding.boundary(problem.ends[edge]);
-        table.map_or(0.0, |table| self.values[table])
+        on(problem, edge, &self.values)
     }
 
     /// The size of ∫ζ·n over the whole boundary, roughly: 1 for a mean, that of A where z goes from 0 to 1.
@@ -203,4 +201,9 @@ impl Goal {
         };
         values::given(problem, &part, field).map(Some)
     }
+}
+
+/// The number of the boundary that an edge lies on, of one for each table.
+fn on(problem: &Problem, edge: usize, numbers: &[f64]) -> f64 {
+    problem.binding.boundary(problem.ends[edge]).map_or(0.0, |table| numbers[table])
 }

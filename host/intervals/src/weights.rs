@@ -170,7 +170,7 @@ impl Weighing<'_> {
             for takes_least in [true, false] {
                 let mut weights = solved.clone();
                 // Nothing is asked of ζ.
-                weights.flux.fill(0.0);
+                weights.tau.fill(0.0);
                 let differ = keep(problem, goal, &contact, part, takes_least, &mut weights);
                 let rest = left(problem, goal, &contact, &weights);
                 let [total, _] = self.sizes(goal, &weights)?;

@@ -3,14 +3,19 @@
 //! ```text
 //!   h(x) = h_0(x) + Σ_j p_j π_j(x) ≥ h_0(x) + Σ_j min(lo_j π_j(x), hi_j π_j(x)) ≥ 0
 //! ```
-//! at the points of the rule for edge data and at the ends of every edge.
+//! at the points of the rule for edge data and at the ends of every edge. And the least transfer that they leave: what holds a
+//! part, or takes its surplus, does so for all of them then.
+//! ```text
+//!   min ∫h = ∫h_0 + Σ_j min(lo_j ∫π_j, hi_j ∫π_j)
+//! ```
+//! edge by edge. What is left where the terms cancel is rounding: nothing passes there.
 
-use signorini_kernel::Real;
-
-use super::{Problem, Sum};
-use crate::quadrature::DATA_POINTS;
+use super::{EdgeKind, Problem, Sum};
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Field, Input};
+use signorini_scene::scene::{Boundary, Field, Input};
+
+/// The part of its terms below which a coefficient is 0. In f32 the rounding of three terms is less than this.
+const CANCELLED: f64 = 1e-6;
 
 /// Refuses a coefficient that is negative with the inputs as they are.
 ///
@@ -20,7 +25,7 @@ pub(super) fn check_now(problem: &Problem) -> Result<()> {
     for record in &problem.loads.robin {
         let edge = record.edge as usize;
         let Some(h) = Sum::transfer(problem, edge, problem.time) else { continue };
-        for [x, y] in points(problem.segment(edge)) {
+        for [x, y] in problem.looks(edge) {
             let value = h.at(x, y);
             if value < 0.0 {
                 let message = format!("the coefficient is {value} at ({x}, {y}), expected ≥ 0");
@@ -31,12 +36,6 @@ pub(super) fn check_now(problem: &Problem) -> Result<()> {
         }
     }
     Ok(())
-}
-
-/// The points of the rule for edge data, and both ends.
-fn points([a, b]: [[f64; 2]; 2]) -> impl Iterator<Item = [f64; 2]> {
-    let inside = f64::GAUSS[DATA_POINTS - 1].iter().map(|point| point[0]);
-    inside.chain([0.0, 1.0]).map(move |t| [0, 1].map(|k| a[k] + t * (b[k] - a[k])))
 }
 
 /// Refuses ranges within which a coefficient is negative.
@@ -53,15 +52,10 @@ pub(super) fn check(problem: &Problem) -> Result<()> {
 
 fn check_edge(problem: &Problem, edge: usize) -> Result<()> {
     let scene = &problem.scene;
-    let Some(at) = problem.binding.boundary(problem.ends[edge]) else { return Ok(()) };
-    let boundary = &scene.boundaries[at];
+    let Some(boundary) = problem.boundary_of(edge) else { return Ok(()) };
     let Some(base) = boundary.condition.transfer() else { return Ok(()) };
-    let acts = |input: &&Input| {
-        input.field.value == Field::Coefficient && input.of.value == boundary.name.value
-    };
-    let inputs: Vec<&Input> = scene.inputs.iter().filter(acts).collect();
-    for [x, y] in points(problem.segment(edge)) {
-        let parts = inputs.iter().map(|input| (input, least(input, x, y)));
+    for [x, y] in problem.looks(edge) {
+        let parts = inputs(problem, boundary).map(|input| (input, least(input, x, y)));
         let parts: Vec<_> = parts.collect();
         let total = parts.iter().fold(base.value.eval(x, y, 0.0), |sum, (_, part)| sum + part);
         // A NaN is told with the loads, at the inputs that make it.
@@ -83,6 +77,65 @@ fn least(input: &Input, x: f64, y: f64) -> f64 {
     let pattern = input.pattern.value.eval(x, y, 0.0);
     let ends = input.interval().map(|end| end * pattern);
     ends[0].min(ends[1])
+}
+
+impl Problem {
+    /// This problem with the least ∫h on every transfer edge; other loads stay.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn at_least_transfer(&self) -> Result<Self> {
+        let mut least = self.clone();
+        if self.scene.transfer_input().is_none() {
+            return Ok(least);
+        }
+        for record in &mut least.loads.robin {
+            if let Some(coefficient) = self.least_on(record.edge as usize)? {
+                record.coefficient = coefficient;
+            }
+        }
+        Ok(least)
+    }
+
+    /// The first input that can take all transfer from an edge.
+    pub(super) fn insulating_input(&self) -> Option<&Input> {
+        let least = self.at_least_transfer().ok()?;
+        let mut closed = least.loads.robin.iter().filter(|record| record.coefficient == 0.0);
+        closed.find_map(|record| {
+            let boundary = self.transfers_at(record.edge as usize)?;
+            inputs(self, boundary).next()
+        })
+    }
+
+    /// The least ∫h of an edge whose coefficient inputs change.
+    fn least_on(&self, edge: usize) -> Result<Option<f64>> {
+        let Some(boundary) = self.transfers_at(edge) else { return Ok(None) };
+        let Some(base) = boundary.condition.transfer() else { return Ok(None) };
+        if inputs(self, boundary).next().is_none() {
+            return Ok(None);
+        }
+        let (segment, length) = (self.segment(edge), self.lengths[edge]);
+        let integral = |of| Sum::alone(&self.scene, of, self.time).mean(segment);
+        let first = length * integral(base)?;
+        let (mut sum, mut terms) = (first, first.abs());
+        for input in inputs(self, boundary) {
+            let share = length * integral(&input.pattern)?;
+            let [a, b] = input.interval().map(|end| end * share);
+            sum += a.min(b);
+            terms += a.min(b).abs();
+        }
+        Ok(Some(if sum > CANCELLED * terms { sum } else { 0.0 }))
+    }
+
+    /// The boundary of an edge with a transfer law.
+    fn transfers_at(&self, edge: usize) -> Option<&Boundary> {
+        self.boundary_of(edge).filter(|_| self.kinds[edge] == EdgeKind::Robin)
+    }
+}
+
+/// The inputs that add to the coefficient of a boundary.
+fn inputs<'p>(problem: &'p Problem, boundary: &'p Boundary) -> impl Iterator<Item = &'p Input> {
+    problem.inputs_of(boundary, &[Field::Coefficient])
 }
 
 #[cfg(test)]

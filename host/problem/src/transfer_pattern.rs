@@ -50,10 +50,9 @@ impl Problem {
     }
 
     fn pattern_at_points(&self, pattern: &Sum, edge: usize) -> Result<[f64; DATA_POINTS]> {
-        let [a, b] = self.segment(edge);
         let mut values = [0.0; DATA_POINTS];
         for (value, [t, _]) in values.iter_mut().zip(f64::GAUSS[DATA_POINTS - 1]) {
-            let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
+            let [x, y] = self.along(edge, *t);
             *value = pattern.finite(self.lengths[edge] * pattern.at(x, y), [x, y])?;
         }
         Ok(values)
@@ -82,8 +81,7 @@ impl Problem {
     ) -> Result<Vec<T>> {
         let records = self.loads.robin.iter().map(|record| record.edge as usize);
         let entry = |edge: usize| {
-            let at = self.binding.boundary(self.ends[edge]);
-            let name = at.map(|at| &self.scene.boundaries[at].name.value);
+            let name = self.boundary_of(edge).map(|boundary| &boundary.name.value);
             if name == Some(&of.of.value) { take(edge) } else { Ok(T::default()) }
         };
         records.map(entry).collect()
