@@ -12,6 +12,5 @@ mod forces;
 mod hostile;
 mod identities;
 mod mesh;
-mod naive;
 mod scene_data;
 mod twins;
