@@ -13,4 +13,5 @@ mod hostile;
 mod identities;
 mod mesh;
 mod scene_data;
+mod standard;
 mod twins;

@@ -17,9 +17,8 @@ use signorini_kernel::system::System;
 use signorini_kernel::{Error, Tensor};
 
 use super::element_matrices::ElementMatrices;
-use super::unit_box::UnitBox;
 use super::{Loads, Parts, Problem, QuadCoefficient};
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, UnitBox};
 
 /// Element matrices, CSR and loads in the scalar `R`; [`Assembled::system`] is the contact problem.
 ///

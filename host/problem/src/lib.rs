@@ -13,7 +13,6 @@ mod assembled;
 mod binding;
 pub mod cell;
 mod corners;
-mod diagonal;
 mod element_matrices;
 pub mod field;
 pub mod fixtures;
@@ -37,8 +36,6 @@ mod tests;
 pub mod threads;
 mod topology;
 mod transfer;
-mod transfer_pattern;
-mod unit_box;
 mod warnings;
 
 pub use assembled::Assembled;
@@ -51,7 +48,7 @@ pub use property::Property;
 pub use solvability::Parts;
 pub use sum::Sum;
 pub use topology::{EdgeKind, Topology};
-pub use transfer_pattern::TransferPattern;
+pub use transfer::TransferPattern;
 
 use std::sync::Arc;
 

@@ -19,10 +19,9 @@ use signorini_kernel::limits::Deadline;
 use signorini_kernel::report::{Ended, Report};
 use signorini_problem::Problem;
 
-use super::bytes::{Bits, Bytes};
+use super::bytes::{Bits, Bytes, bits, check_settled};
 use super::certified::is_bound;
 use super::scenes;
-use signorini_tolerances::twins::AFTER_EXTREMES;
 
 /// Contact edges, at most.
 const MOST: usize = 18;
@@ -193,10 +192,6 @@ pub fn controlled<R: Bits + Kept>(bytes: &mut Bytes) {
 /// Outputs, and the report beside them.
 type Answer<R> = (Vec<R>, Report<R>);
 
-fn bits<R: Bits>(numbers: &[R]) -> Vec<u64> {
-    numbers.iter().map(|x| x.wide().to_bits()).collect()
-}
-
 fn answered<R: Bits>(inputs: &[R], (values, report): &Answer<R>, x: &[R]) {
     let [values @ .., bound] = &values[..] else { return };
     let said = || format!("{inputs:?} {values:?} {bound:?} {report:?}");
@@ -226,12 +221,8 @@ fn ordinary<R: Bits>(
     if [answer.1.ended, expected.ended].contains(&Ended::OutOfSweeps) {
         return;
     }
-    let size = cold.x().iter().fold(R::ONE, |most, x| most.or_larger(*x));
-    let off = controller.x().iter().zip(cold.x());
-    let off = off.fold(R::ZERO, |most, (&x, &cold)| most.or_larger((x - cold).magnitude()));
-    let (off, size) = (off.wide(), size.wide());
     let said = format!("{inputs:?}: {:?} after {:?}", answer.1, expected);
-    AFTER_EXTREMES.check(&said, off / size * f64::EPSILON / R::EPSILON.wide());
+    check_settled(&said, controller.x(), cold.x());
 }
 
 /// Scalars with models that are baked once.

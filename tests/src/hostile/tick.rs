@@ -13,12 +13,11 @@ use signorini_kernel::stiffness::{self, Coefficient};
 use signorini_kernel::{Error, Libm, Tensor};
 use signorini_problem::Problem;
 
-use super::bytes::{Bits, Bytes};
+use super::bytes::{Bits, Bytes, bits, check_settled};
 use super::certified::{Conditions, Foundation, Loads, is_bound};
 use super::condensed::{self, Kept};
 use super::plate::Plate;
 use super::scenes;
-use signorini_tolerances::twins::AFTER_EXTREMES;
 
 /// The first byte chooses the loop and the scalar; the rest is what it is told.
 pub fn tick(data: &[u8]) {
@@ -165,10 +164,6 @@ fn on<R: Bits, const WIDTH: usize>(bytes: &mut Bytes, baked: &Baked<R>) {
     ordinary(bytes, baked, &mut controller);
 }
 
-fn bits<R: Bits>(numbers: &[R]) -> Vec<u64> {
-    numbers.iter().map(|x| x.wide().to_bits()).collect()
-}
-
 /// Inputs of ordinary size: the answer is that of a cold start, whatever came before.
 fn ordinary<R: Bits, const WIDTH: usize>(
     bytes: &mut Bytes,
@@ -185,11 +180,7 @@ fn ordinary<R: Bits, const WIDTH: usize>(
     let said = format!("{inputs:?}: {report:?} instead of {expected:?}");
     let is_settled = |ended| matches!(ended, Ended::Settled | Ended::Exact);
     assert!(is_settled(report.ended) && is_settled(expected.ended), "{said}");
-    let size = cold.u().iter().fold(R::ONE, |most, u| most.or_larger(u.magnitude()));
-    let off = controller.u().iter().zip(cold.u());
-    let off = off.fold(R::ZERO, |most, (&u, &cold)| most.or_larger((u - cold).magnitude()));
-    let epsilons = f64::EPSILON / R::EPSILON.wide();
-    AFTER_EXTREMES.check(&said, off.wide() / size.wide() * epsilons);
+    check_settled(&said, controller.u(), cold.u());
 }
 
 /// Scalars with full models that are baked once.

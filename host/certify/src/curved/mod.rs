@@ -11,7 +11,6 @@
 mod cleared;
 mod cross;
 mod inside;
-mod missed;
 mod panels;
 mod singular;
 #[cfg(test)]

@@ -8,23 +8,20 @@
 
 mod carry;
 mod for_inputs;
-mod history;
 pub mod indicators;
 mod marking;
-mod promise;
 mod stop;
 #[cfg(test)]
 mod tests;
 
 pub use for_inputs::{mesh_for_scene, mesh_of_scene, promised_mesh};
-pub use promise::{Allowed, MeshOfScene, Promise, Promised, Refining};
-pub use stop::{Stall, Stop, Term};
+pub use stop::{Allowed, MeshOfScene, Promise, Promised, Refining, Stall, Stop, Term};
 
 use std::time::Instant;
 
 use crate::energy_norm;
 use crate::{Options, Solution, SolverKind, solve_from};
-use history::History;
+use marking::History;
 use signorini_problem::Problem;
 use signorini_problem::progress::stage;
 use signorini_scene::error::Result;

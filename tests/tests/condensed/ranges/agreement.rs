@@ -2,7 +2,7 @@
 
 use signorini_tests::random::Random;
 
-use super::{Off, Pair, drawn};
+use super::Pair;
 
 /// Scenes to draw.
 const SEEDS: u64 = 400;
@@ -17,13 +17,7 @@ fn random_scenes_agree() {
         let Some(pair) = Pair::random(seed) else { continue };
         pairs += 1;
         empty += u64::from(pair.reduced.model.contact == 0);
-        let (random, mut off) = (&mut Random::new(seed), Off::default());
-        for _ in 0..SAMPLES {
-            let p = drawn(&pair.whole, random);
-            pair.at_solution(&p, &mut off);
-            pair.at(&p, &pair.within(random), &mut off);
-        }
-        off.check(&pair.what);
+        pair.sampled(SAMPLES, &mut Random::new(seed)).check(&pair.what);
     }
     assert!(pairs > count / 3 && empty > count / 40, "{pairs} {empty}");
 }

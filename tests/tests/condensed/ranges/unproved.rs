@@ -6,7 +6,7 @@ use signorini_condense::ranges::sides::{EdgeSide, Sides};
 use signorini_tests::random::Random;
 
 use super::standard::standard;
-use super::{Off, Pair, drawn, limit};
+use super::{Pair, limit};
 use crate::condensed::scenes::Model;
 
 fn keeps_all(what: &str, whole: &CondensedModel) {
@@ -71,13 +71,7 @@ fn positive_entries_are_counted_or_refused() {
             refused += 1;
             continue;
         };
-        let mut off = Off::default();
-        for _ in 0..20 {
-            let p = drawn(&whole, random);
-            pair.at_solution(&p, &mut off);
-            pair.at(&p, &pair.within(random), &mut off);
-        }
-        off.check(&model.what);
+        pair.sampled(20, random).check(&model.what);
         proved += 1;
     }
     assert!(refused > 10 && proved > 10, "{refused} {proved}");

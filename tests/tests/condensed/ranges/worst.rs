@@ -6,7 +6,7 @@ use signorini_problem::inputs::{InputSpace, drawn};
 use signorini_problem::scalar::Scalar;
 
 use super::Pair;
-use super::standard::standard;
+use super::standard::pairs;
 use crate::condensed::scenes::EXACT;
 
 /// Ticks of each controller.
@@ -31,9 +31,9 @@ fn most<R: Scalar>(pair: &Pair, ticks: usize) -> [u32; 2] {
 
 #[test]
 fn no_tick_takes_more_exchanges_than_are_proved() {
-    for name in ["levee", "slab"] {
-        let pair = Pair::new(name, &standard(name)).expect("edges to take out");
-        let of_both = [most::<f32>(&pair, TICKS), most::<f64>(&pair, TICKS / 10)];
+    for pair in &pairs()[..2] {
+        let (name, of_both) =
+            (&pair.what, [most::<f32>(pair, TICKS), most::<f64>(pair, TICKS / 10)]);
         for [most, proved] in of_both {
             let n = pair.reduced.model.contact as u32;
             assert!(proved == n + n / 2 && most <= proved, "{name}: {most} of {proved}");
