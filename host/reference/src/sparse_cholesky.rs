@@ -127,35 +127,34 @@ fn supernode_entries(
 /// The order of elimination: position → unknown.
 fn contact_last(matrix: &Matrix) -> Result<Perm<u32>, FaerError> {
     let (n, free) = (matrix.unknowns(), matrix.free);
-    let (col_ptr, row_idx) = free_block(matrix);
-    let mut order: Box<[u32]> = (0..n as u32).collect();
-    let mut position = order.clone();
-    minimum_degree(&col_ptr, &row_idx, [&mut order[..free], &mut position[..free]])?;
+    let is_free = |column: &u32| (*column as usize) < free;
+    let columns = (0..free).map(|row| matrix.columns(row).iter().copied().filter(is_free));
+    let both = minimum_degree(columns)?.map(|mut order| {
+        order.extend(free as u32..n as u32);
+        order.into_boxed_slice()
+    });
+    let [order, position] = both;
     Ok(Perm::new_checked(order, position, n))
 }
 
-/// Approximate minimum degree on a symmetric pattern: `order` (position → unknown) and its inverse.
+/// Approximate minimum degree on a symmetric pattern, given column by column: the order (position → unknown) and its inverse.
+///
+/// # Errors
+/// A pattern beyond 32 bits, or too little memory.
 pub fn minimum_degree(
-    col_ptr: &[u32],
-    row_idx: &[u32],
-    [order, position]: [&mut [u32]; 2],
-) -> Result<(), FaerError> {
-    let n = order.len();
-    let pattern = SymbolicSparseColMatRef::new_unsorted_checked(n, n, col_ptr, None, row_idx);
+    columns: impl Iterator<Item = impl Iterator<Item = u32>>,
+) -> Result<[Vec<u32>; 2], FaerError> {
+    let (mut col_ptr, mut row_idx) = (vec![0], Vec::new());
+    for column in columns {
+        row_idx.extend(column);
+        col_ptr.push(u32::try_from(row_idx.len()).map_err(|_| FaerError::IndexOverflow)?);
+    }
+    let n = col_ptr.len() - 1;
+    let pattern = SymbolicSparseColMatRef::new_unsorted_checked(n, n, &col_ptr, None, &row_idx);
     let scratch = amd::order_maybe_unsorted_scratch::<u32>(n, row_idx.len());
     let mut memory = MemBuffer::try_new(scratch).map_err(|_| FaerError::OutOfMemory)?;
     let (control, stack) = (amd::Control::default(), MemStack::new(&mut memory));
-    amd::order_maybe_unsorted(order, position, pattern, control, stack).map(|_| ())
-}
-
-/// The pattern of K_FF: column starts and row indices.
-fn free_block(matrix: &Matrix) -> (Vec<u32>, Vec<u32>) {
-    let mut col_ptr = Vec::with_capacity(matrix.free + 1);
-    let mut row_idx = Vec::with_capacity(matrix.col_idx.len());
-    col_ptr.push(0);
-    for unknown in 0..matrix.free {
-        row_idx.extend(matrix.columns(unknown).iter().filter(|&&row| (row as usize) < matrix.free));
-        col_ptr.push(row_idx.len() as u32);
-    }
-    (col_ptr, row_idx)
+    let (mut order, mut position) = (vec![0; n], vec![0; n]);
+    amd::order_maybe_unsorted(&mut order, &mut position, pattern, control, stack)?;
+    Ok([order, position])
 }
