@@ -8,7 +8,6 @@ use signorini_kernel::Error as KernelError;
 use signorini_kernel::mesh::components::Support;
 
 use super::admissible::{Admissible, Following};
-use super::cell::Cell;
 use super::data::Data;
 use super::forest::EquilibrationForest;
 use super::metric::Metric;
@@ -23,6 +22,8 @@ pub struct Certifier<R: Scalar> {
     ways: EquilibrationForest<R>,
     /// Where contact alone holds a part, its way out leads through edges that are active.
     follows_contact: bool,
+    /// Whether the last search has found ways.
+    found_ways: bool,
     vertices: Vec<R>,
     bubbles: Vec<R>,
     tau: Vec<R>,
@@ -76,6 +77,7 @@ impl<R: Scalar> Certifier<R> {
             metric: Metric::new(problem),
             ways: EquilibrationForest::new(problem),
             follows_contact: parts.counts.contact > 0,
+            found_ways: false,
             vertices: vec![R::ZERO; vertices],
             bubbles: vec![R::ZERO; edges],
             tau: vec![R::ZERO; edges],
@@ -116,8 +118,8 @@ impl<R: Scalar> Certifier<R> {
         self.refusal = match verdict {
             Verdict::Certified(_) => None,
             Verdict::Pulled { edge } => Some(NoBound::pulled(assembled.problem(), edge)),
-            Verdict::NotAsked => Some(NoBound::NotAsked),
-            _ => Some(NoBound::Overflow { scalar: R::NAME }),
+            Verdict::NotAsked => Some(NoBound::not_asked()),
+            _ => Some(NoBound::overflow::<R>()),
         };
         Ok(verdict.certificate().copied())
     }
@@ -158,13 +160,13 @@ impl<R: Scalar> Certifier<R> {
         u: &[R],
     ) -> Result<bool, KernelError> {
         if parts.counts.floating > 0 {
-            let at = Cell::of(assembled.problem(), floating(parts)).middle();
-            self.refusal = Some(NoBound::HeldByNothing { at });
+            let cell = floating(parts);
+            self.refusal = Some(NoBound::held_by_nothing(assembled.problem(), cell));
             return Ok(false);
         }
         if !self.follows_contact {
             // Found once and for all.
-            return Ok(!matches!(self.refusal, Some(NoBound::NothingActive { .. })));
+            return Ok(self.found_ways);
         }
         let edges = assembled.edges();
         let (free, law) = (edges.counts().free, assembled.law());
@@ -185,12 +187,12 @@ impl<R: Scalar> Certifier<R> {
         self.refusal = None;
         match self.ways.find(assembled, &self.metric, active) {
             Err(KernelError::NoWayOut { cell }) => {
-                let at = Cell::of(assembled.problem(), cell).middle();
-                self.refusal = Some(NoBound::NothingActive { at });
-                Ok(false)
+                self.refusal = Some(NoBound::nothing_active(assembled.problem(), cell));
+                self.found_ways = false;
             }
-            found => found.map(|()| true),
+            found => found.map(|()| self.found_ways = true)?,
         }
+        Ok(self.found_ways)
     }
 
     /// s alone, for the picture of a solution without a bound.

@@ -37,6 +37,6 @@ pub use bound::{Certified, ErrorBound};
 pub use certifier::{CertifiedFields, Certifier};
 pub use conductivity::eigenvalues;
 pub use data::{Data, Evaluated};
-pub use no_bound::{NoBound, Spot};
+pub use no_bound::NoBound;
 pub use signorini_problem::cell;
 pub use term::TermData;

@@ -135,26 +135,24 @@ impl Goal {
     ) -> Result<Self> {
         let part = &Part::new(problem, output);
         let density = 1.0 / part.length();
-        let tables = 0..problem.scene.boundaries.len();
-        Ok(Self {
-            sign: 1.0,
-            start: values::mean(problem, answer, deviations, part)?,
-            values: vec![0.0; tables.len()],
-            densities: tables.map(|at| if part.has_table(at) { density } else { 0.0 }).collect(),
-            cell: None,
-            beside: 0.0,
-            law: EVERYTHING,
-            of: described(output),
-        })
+        let start = values::mean(problem, answer, deviations, part)?;
+        let own = |at: usize| if part.has_table(at) { density } else { 0.0 };
+        let densities = (0..problem.scene.boundaries.len()).map(own).collect();
+        Ok(Self { densities, ..Self::without_data(problem, start, described(output)) })
+    }
+
+    /// u at the start and no data: z and ζ are 0.
+    fn without_data(problem: &Problem, start: Value, of: String) -> Self {
+        let none = vec![0.0; problem.scene.boundaries.len()];
+        let (values, densities) = (none.clone(), none);
+        Self { sign: 1.0, start, values, densities, cell: None, beside: 0.0, law: EVERYTHING, of }
     }
 
     fn of_cell(problem: &Problem, cell: usize, start: Value) -> Self {
-        let none = vec![0.0; problem.scene.boundaries.len()];
         let [x, y] = Cell::of(problem, cell).middle();
         let of = format!("the mean of u over the cell around ({x}, {y})");
-        let (values, densities) = (none.clone(), none);
         let beside = beside(problem, cell);
-        Self { sign: 1.0, start, values, densities, cell: Some(cell), beside, law: EVERYTHING, of }
+        Self { cell: Some(cell), beside, ..Self::without_data(problem, start, of) }
     }
 
     fn of_flux(problem: &Problem, answer: &Answered, output: &Output) -> Result<Self> {
@@ -165,12 +163,11 @@ impl Goal {
             true => 1.0,
             false => 0.0,
         };
-        let values: Vec<f64> = (0..problem.scene.boundaries.len()).map(weight).collect();
-        let start = values::flux(problem, answer, part, is_force)?;
-        let of = described(output);
-        let densities = vec![0.0; values.len()];
-        let law = law(problem, part, is_force);
-        Ok(Self { sign: -1.0, start, values, densities, cell: None, beside: 0.0, law, of })
+        let values = (0..problem.scene.boundaries.len()).map(weight).collect();
+        let (start, law) =
+            (values::flux(problem, answer, part, is_force)?, law(problem, part, is_force));
+        let plain = Self::without_data(problem, start, described(output));
+        Ok(Self { sign: -1.0, values, law, ..plain })
     }
 
     /// ζ·n that is given on a boundary edge.

@@ -1,7 +1,7 @@
 //! The bridge between the host's f64 and the kernel's scalar, and coordinates that suit a short one: the mesh in [−1, 1]²,
 //! wherever and however large it is.
 
-use signorini_kernel::{Libm, Math, Micromath, Real};
+use signorini_kernel::{Libm, Math, Micromath, Real, Tensor};
 
 /// A kernel scalar that the host can convert.
 pub trait Scalar: Real + Send + Sync {
@@ -51,6 +51,11 @@ impl Scalar for f32 {
     fn wide(self) -> f64 {
         f64::from(self)
     }
+}
+
+/// A tensor in another scalar.
+pub fn narrowed<R: Scalar>(a: &Tensor<f64>) -> Tensor<R> {
+    Tensor { xx: R::narrow(a.xx), xy: R::narrow(a.xy), yy: R::narrow(a.yy) }
 }
 
 /// The square around the mesh that becomes [−1, 1]².

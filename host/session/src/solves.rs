@@ -233,10 +233,8 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Solves<R, S> {
             answer: CertifiedFields::default(),
         };
         match &self.certifier {
-            None => without(NoBound::NotAsked),
-            Some(_) if status == Status::NotFinite => {
-                without(NoBound::Overflow { scalar: R::NAME })
-            }
+            None => without(NoBound::not_asked()),
+            Some(_) if status == Status::NotFinite => without(NoBound::overflow::<R>()),
             Some((certifier, data)) => Certified {
                 bound: self.certificate.as_ref().map(ErrorBound::new),
                 no_bound: certifier.no_bound(data),

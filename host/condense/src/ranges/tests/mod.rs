@@ -81,8 +81,7 @@ fn every_solution_lies_in_its_enclosure() {
             let load: Vec<f64> =
                 (0..n).map(|i| columns.iter().zip(&p).map(|(b, p)| b[i] * p).sum()).collect();
             let matrix = MatRef::from_row_major_slice(&entries, n, n);
-            let x = minimise_between(matrix, &[], &load, &[])
-                .expect("a positive definite matrix");
+            let x = minimise_between(matrix, &[], &load, &[]).expect("a positive definite matrix");
             for i in 0..n {
                 let row = &entries[i * n..][..n];
                 let reaction: f64 = row.iter().zip(&x).map(|(s, x)| s * x).sum::<f64>() - load[i];
