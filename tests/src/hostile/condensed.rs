@@ -1,9 +1,6 @@
 //! Condensed models: of any arrays, and of sound scenes with any inputs.
 
-use std::sync::OnceLock;
-
 use signorini_bake::condensed::{Baked, Controller, Work};
-use signorini_condense::{CondensedModel, condense};
 use signorini_contact::certificate::{Corner, Form, Vertex};
 use signorini_contact::dense::Iterate;
 use signorini_contact::dense::blocks::{Block, Blocks, SIDE, count, padded};
@@ -17,11 +14,10 @@ use signorini_contact::{Condensed, Memory};
 use signorini_kernel::Error;
 use signorini_kernel::limits::Deadline;
 use signorini_kernel::report::{Ended, Report};
-use signorini_problem::Problem;
 
 use super::bytes::{Bits, Bytes, bits, check_settled};
 use super::certified::is_bound;
-use super::scenes;
+use super::scenes::{self, Kept};
 
 /// Contact edges, at most.
 const MOST: usize = 18;
@@ -169,7 +165,7 @@ fn ticked<R: Bits>(
 /// A scene's controller, tick after tick, with inputs of any bits; a second one is never asked for what the first
 /// refuses, and a third begins anew for every ordinary tick.
 pub fn controlled<R: Bits + Kept>(bytes: &mut Bytes) {
-    let all = R::baked();
+    let all = R::condensed();
     let baked = &all[bytes.below(all.len())];
     let (mut controller, mut spared) = (Controller::new(baked), Controller::new(baked));
     for _ in 0..1 + bytes.below(6) {
@@ -223,44 +219,4 @@ fn ordinary<R: Bits>(
     }
     let said = format!("{inputs:?}: {:?} after {:?}", answer.1, expected);
     check_settled(&said, controller.x(), cold.x());
-}
-
-/// Scalars with models that are baked once.
-pub trait Kept: Sized + 'static {
-    /// The models of all scenes, with every method.
-    fn baked() -> &'static [Baked<Self>]
-    where
-        Self: signorini_problem::scalar::Scalar;
-}
-
-const WORKS: [Work; 3] = [
-    Work { pivots: Some(100), sweeps: 20 },
-    Work { pivots: Some(2), sweeps: 3 },
-    Work { pivots: None, sweeps: 6 },
-];
-
-fn bake<R: Bits>() -> Vec<Baked<R>> {
-    let condensed = |text: &str| -> Option<CondensedModel> {
-        let (scene, mesh) = scenes::of(text)?;
-        condense(&Problem::new(&scene, mesh).ok()?).ok()
-    };
-    let condensates = scenes::TEXTS.iter().map(|text| condensed(text).expect("a sound scene"));
-    let baked = |condensate: &CondensedModel| {
-        WORKS.map(|work| Baked::new(condensate, work, true).expect("numbers of ordinary size"))
-    };
-    condensates.flat_map(|condensate| baked(&condensate)).collect()
-}
-
-impl Kept for f64 {
-    fn baked() -> &'static [Baked<Self>] {
-        static BAKED: OnceLock<Vec<Baked<f64>>> = OnceLock::new();
-        BAKED.get_or_init(bake)
-    }
-}
-
-impl Kept for f32 {
-    fn baked() -> &'static [Baked<Self>] {
-        static BAKED: OnceLock<Vec<Baked<f32>>> = OnceLock::new();
-        BAKED.get_or_init(bake)
-    }
 }

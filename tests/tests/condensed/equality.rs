@@ -14,6 +14,7 @@ use signorini_bound::certificate::Verdict;
 use signorini_condense::{CondensedModel, Measure};
 use signorini_kernel::report::Ended;
 use signorini_problem::scalar::Scalar;
+use signorini_tests::cholesky::Envelope;
 use signorini_tests::random::Random;
 use signorini_tolerances::Tolerance;
 use signorini_tolerances::twins::{CONDENSED, CONDENSED_NARROW, SUM_OF_LENGTHS};
@@ -126,21 +127,12 @@ fn check<R: Scalar>(model: &Model, allowed: Tolerance, amount: f64, seed: u64) -
 /// 1/λ_min of S, by the inverse power method.
 fn condition(condensate: &CondensedModel) -> f64 {
     let n = condensate.contact;
-    let mut l: Vec<Vec<f64>> = condensate.matrix.chunks(n).map(<[f64]>::to_vec).collect();
-    for j in 0..n {
-        for i in j..n {
-            let rest = l[i][j] - (0..j).map(|k| l[i][k] * l[j][k]).sum::<f64>();
-            l[i][j] = if i == j { rest.sqrt() } else { rest / l[j][j] };
-        }
-    }
+    let entries = condensate.matrix.iter().enumerate().map(|(at, &s)| (at / n, at % n, s));
+    let entries: Vec<_> = entries.collect();
+    let factor = Envelope::new(n, &entries).factor().expect("a positive definite matrix");
     let (mut x, mut size) = (vec![1.0; n], 1.0);
     for _ in 0..50 {
-        for i in 0..n {
-            x[i] = (x[i] - (0..i).map(|k| l[i][k] * x[k]).sum::<f64>()) / l[i][i];
-        }
-        for i in (0..n).rev() {
-            x[i] = (x[i] - (i + 1..n).map(|k| l[k][i] * x[k]).sum::<f64>()) / l[i][i];
-        }
+        x = factor.solve(x);
         size = x.iter().map(|x| x * x).sum::<f64>().sqrt();
         x.iter_mut().for_each(|x| *x /= size);
     }

@@ -3,14 +3,12 @@
 //! Both must tell the same of every p of the box, at solutions and at any x within the limits of a tick. What can go
 //! wrong is measured by [`Off`]; wrong sides, put there on purpose, must show in it.
 
-mod agreement;
 mod bounds;
 mod largest;
 mod mutations;
 mod standard;
 mod ticks;
 mod unproved;
-mod worst;
 
 use signorini_condense::ranges::reduced::Reduced;
 use signorini_condense::ranges::sides::{EdgeSide, Sides};

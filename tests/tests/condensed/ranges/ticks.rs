@@ -1,8 +1,10 @@
-//! Controllers baked from reduced models: solved to the end, and cut off in every way.
+//! Controllers baked from reduced models: solved to the end, and cut off in every way; and the worst case that is proved, which
+//! no tick exceeds.
 
 use signorini_bake::condensed::{Baked, Controller, Work};
 use signorini_condense::{CondensedModel, Measure};
 use signorini_kernel::report::{Ended, Report};
+use signorini_problem::inputs::{self, InputSpace};
 use signorini_problem::scalar::Scalar;
 use signorini_tests::random::Random;
 use signorini_tolerances::Tolerance;
@@ -204,4 +206,36 @@ fn nothing_is_told_of_inputs_outside_their_ranges() {
             }
         }
     });
+}
+
+/// Ticks of a controller in search of its worst case.
+const MANY: usize = 1_000_000;
+
+/// The most exchanges of so many ticks, half of them at corners of the box; all end with the solution.
+fn most<R: Scalar>(pair: &Pair, ticks: usize) -> [u32; 2] {
+    let model = &pair.reduced.model;
+    let baked = Baked::<R>::new(model, EXACT, false).expect("in range");
+    let proved = baked.worst_exchanges().expect("all signs are right");
+    let ranges = model.defaults.iter().zip(&model.ranges).skip(1);
+    let spaces: Vec<_> = ranges.map(|(&default, &range)| InputSpace { default, range }).collect();
+    let mut controller = Controller::new(&baked);
+    let mut most = 0;
+    for inputs in inputs::drawn::<R>(&spaces, ticks) {
+        let (_, report) = controller.tick(&inputs).expect("a tick");
+        assert_eq!(report.ended, Ended::Exact, "{}: {inputs:?}", pair.what);
+        most = most.max(report.exchanges);
+    }
+    [most, proved]
+}
+
+#[test]
+fn no_tick_takes_more_exchanges_than_are_proved() {
+    for pair in &pairs()[..2] {
+        let (name, of_both) = (&pair.what, [most::<f32>(pair, MANY), most::<f64>(pair, MANY / 10)]);
+        for [most, proved] in of_both {
+            let n = pair.reduced.model.contact as u32;
+            assert!(proved == n + n / 2 && most <= proved, "{name}: {most} of {proved}");
+            assert!(4 * most >= proved, "{name}: inputs are easy, {most} of {proved}");
+        }
+    }
 }
