@@ -7,34 +7,23 @@
 //! The plain sum of σ·n − q, which a force is for the solution, is negative at some of these stops: a test in which
 //! it never is tests nothing.
 
-use std::path::Path;
-
 use signorini_bake::{condensed, full};
 use signorini_condense::{CondensedModel, Recovery, recoverable};
 use signorini_device::tick::Limits;
 use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
-use signorini_scene::mesh;
 use signorini_scene::scene::{Input, Quantity, Scene};
 use signorini_scene::setting::Setting;
 use signorini_solve::outputs::outputs;
-use signorini_solve::{Options, ScalarKind, SolverKind, solve};
+use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
 use signorini_tests::random::Random;
 use signorini_tolerances::Tolerance;
 use signorini_tolerances::twins::{
     FORCE_OF_CONDENSED, FORCE_OF_EDGES, FORCE_OF_EDGES_NARROW, LEFT_OPEN,
 };
 
-const SCENES: [&str; 5] = ["levee", "slab", "strip", "membrane", "pit"];
-
-fn of_name(name: &str) -> (Scene, Problem) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes/scenes");
-    let scene = Scene::read(&folder.join(format!("{name}.toml"))).expect("a scene");
-    let mesh = mesh::read(&scene.mesh.value).expect("a mesh");
-    let problem = Problem::new(&scene, mesh).expect("a problem");
-    (scene, problem)
-}
+use crate::standard::{SCENES, moved, standard};
 
 /// The first sweeps one by one, then some of the next hundreds.
 fn stops(random: &mut Random) -> Vec<u32> {
@@ -66,6 +55,12 @@ fn table(problem: &Problem, flux: &[f64], touches: impl Fn(usize) -> bool) -> Ta
     table
 }
 
+/// Sums of a solve's table.
+fn table_of(problem: &Problem, found: &Solution) -> Table {
+    let free = problem.topology.counts.free;
+    table(problem, &found.flux, |at| found.u[free + at] == found.gap(problem, at))
+}
+
 /// Outputs that must not be negative: forces, and fluxes out of the levee's face, where q = 0.
 fn signed<'s>(scene: &'s Scene, values: &'s [f64]) -> impl Iterator<Item = (&'s str, f64)> {
     let keeps = |quantity| matches!(quantity, Quantity::Force | Quantity::Flux);
@@ -80,13 +75,8 @@ fn inputs(scene: &Scene, random: &mut Random) -> Vec<f64> {
         "depth" => 0.1,
         _ => 0.2,
     };
-    let value = |input: &Input, random: &mut Random| {
-        let change = near(&input.name.value) * random.between(-2.0, 2.0);
-        let [there, mirrored] =
-            [change, -change].map(|change| f64::from((input.default + change) as f32));
-        if input.refusal(there).is_none() { there } else { mirrored }
-    };
-    scene.inputs.iter().map(|input| value(input, random)).collect()
+    let value = |input: &Input| moved(input, near(&input.name.value) * random.between(-2.0, 2.0));
+    scene.inputs.iter().map(value).collect()
 }
 
 /// The problem for these inputs.
@@ -99,15 +89,13 @@ fn solves_that_are_cut_off() {
     let mut random = Random::new(5);
     let mut pulled = 0;
     for name in SCENES {
-        let (scene, problem) = of_name(name);
-        let free = problem.topology.counts.free;
+        let (scene, problem) = standard(name);
         let kinds = [(ScalarKind::F64, FORCE_OF_EDGES), (ScalarKind::F32, FORCE_OF_EDGES_NARROW)];
         for (scalar, allowed) in kinds {
             for max_sweeps in stops(&mut random) {
                 let options = Options { scalar, max_sweeps, ..Options::default() };
                 let found = solve(&problem, &options).expect("an answer");
-                let touches = |at: usize| found.u[free + at] == found.gap(&problem, at);
-                let table = table(&problem, &found.flux, touches);
+                let table = table_of(&problem, &found);
                 let what = format!("{name}, {scalar:?}, {max_sweeps} sweeps");
                 let force = found.contact_force;
                 assert!(force >= 0.0, "{what}: {force} {table:?}");
@@ -129,13 +117,11 @@ fn solves_that_are_cut_off() {
 #[test]
 fn solutions_have_the_forces_of_the_plain_sum() {
     for name in SCENES {
-        let (_, problem) = of_name(name);
-        let free = problem.topology.counts.free;
+        let (_, problem) = standard(name);
         for solver in [SolverKind::Kernel, SolverKind::Direct] {
             let options = Options { solver, ..Options::default() };
             let found = solve(&problem, &options).expect("an answer");
-            let touches = |at: usize| found.u[free + at] == found.gap(&problem, at);
-            let table = table(&problem, &found.flux, touches);
+            let table = table_of(&problem, &found);
             let what = format!("{name}, {solver:?}");
             FORCE_OF_EDGES.check(&what, (found.contact_force - table.law) / table.size);
             // As much as the solver leaves of λ on open edges.
@@ -182,7 +168,7 @@ fn full_models<R: Scalar>(allowed: Tolerance) {
     let mut random = Random::new(7);
     let mut pulled = [0; 2];
     for name in SCENES.into_iter().filter(|name| *name != "membrane") {
-        let (_, problem) = of_name(name);
+        let (_, problem) = standard(name);
         for certificate in [false, true] {
             let setting = Some(Setting { certificate, ..Setting::default() });
             let problem = problem.with_setting(setting);
@@ -262,7 +248,7 @@ fn condensed_models_that_are_cut_off() {
     let mut random = Random::new(9);
     let mut pulled = [0; 2];
     for name in SCENES {
-        let (_, problem) = of_name(name);
+        let (_, problem) = standard(name);
         let (condensate, recovery) = recoverable(&problem).expect("a condensate");
         let condensed = (&condensate, &recovery);
         pulled[0] += condensed_ticks::<f64>(name, &problem, condensed, &mut random);

@@ -32,10 +32,12 @@ fn files(folder: &str, target: &str) -> Vec<PathBuf> {
     files
 }
 
-#[test]
-fn what_fuzzing_has_found_stays_mended() {
+/// Replays the files of a folder, of which there are at least so many for each target.
+fn replay(folder: &str, least: usize) {
     for (target, entry) in ENTRIES {
-        for file in files("found", target) {
+        let files = files(folder, target);
+        assert!(files.len() >= least, "{target}: {} files", files.len());
+        for file in files {
             println!("{}", file.display());
             entry(&fs::read(&file).expect("a file"));
         }
@@ -43,15 +45,13 @@ fn what_fuzzing_has_found_stays_mended() {
 }
 
 #[test]
+fn what_fuzzing_has_found_stays_mended() {
+    replay("found", 0);
+}
+
+#[test]
 fn corpora_are_replayed() {
-    for (target, entry) in ENTRIES {
-        let files = files("corpus", target);
-        assert!(files.len() >= 20, "{target}: {} files", files.len());
-        for file in files {
-            println!("{}", file.display());
-            entry(&fs::read(&file).expect("a file"));
-        }
-    }
+    replay("corpus", 20);
 }
 
 #[test]

@@ -12,6 +12,6 @@ mod forces;
 mod hostile;
 mod identities;
 mod mesh;
-mod naive;
 mod scene_data;
+mod standard;
 mod twins;

@@ -20,6 +20,7 @@ use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::system::Shifts;
 use signorini_kernel::system::System;
 use signorini_kernel::{Index, Libm, Real, Tensor, contact, flux, psor};
+use signorini_problem::scalar::Scalar as Number;
 use signorini_tests::cell::Cell;
 use signorini_tests::field::Scalar;
 use signorini_tests::grid::{Edge, edge};
@@ -37,29 +38,6 @@ struct Answer {
     force: f64,
 }
 
-trait Narrow: Real {
-    fn narrow(x: f64) -> Self;
-    fn wide(self) -> f64;
-}
-
-impl Narrow for f64 {
-    fn narrow(x: f64) -> Self {
-        x
-    }
-    fn wide(self) -> f64 {
-        self
-    }
-}
-
-impl Narrow for f32 {
-    fn narrow(x: f64) -> Self {
-        x as f32
-    }
-    fn wide(self) -> f64 {
-        f64::from(self)
-    }
-}
-
 /// Who solves.
 #[derive(Clone, Copy)]
 enum Method {
@@ -69,7 +47,7 @@ enum Method {
 }
 
 /// Solves `problem` with the kernel, in the scalar R, numbered by I.
-fn by_kernel<R: Narrow, I: Index>(problem: &Problem, method: Method) -> Answer {
+fn by_kernel<R: Number, I: Index>(problem: &Problem, method: Method) -> Answer {
     let grid = &problem.grid;
     let index = |vertex: u32| I::new(vertex as usize).expect("a small grid");
     let vertices: Vec<_> = grid.vertices.iter().map(|v| v.map(R::narrow)).collect();
@@ -186,7 +164,7 @@ fn shuffled<I: Index>(random: &mut Random, n: usize) -> Vec<I> {
 
 /// A sweep over rows from CSR, one over rows from the element matrices, bit for bit, and one written
 /// out with CSR, up to rounding.
-fn rows_agree<R: Narrow, I: Index, const WIDTH: usize>(
+fn rows_agree<R: Number, I: Index, const WIDTH: usize>(
     edges: &Edges<I>,
     stiffness: Stiffness<R>,
     diagonal: DiagonalTerms<R, I>,
@@ -223,7 +201,7 @@ fn rows_agree<R: Narrow, I: Index, const WIDTH: usize>(
     }
 }
 
-fn tensor<R: Narrow>(problem: &Problem, cell: usize) -> Tensor<R> {
+fn tensor<R: Number>(problem: &Problem, cell: usize) -> Tensor<R> {
     let [xx, xy, yy] = (problem.tensor)(cell, [0.0, 0.0]).map(R::narrow);
     Tensor { xx, xy, yy }
 }
@@ -238,7 +216,7 @@ struct Data<R, I> {
     loads: Vec<R>,
 }
 
-impl<R: Narrow, I: Index> Data<R, I> {
+impl<R: Number, I: Index> Data<R, I> {
     fn new(problem: &Problem, keys: &[Edge], edges: &Edges<I>) -> Self {
         let mut data = Self {
             neumann: Vec::new(),

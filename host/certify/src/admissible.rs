@@ -64,14 +64,14 @@ impl Admissible<'_> {
 
     /// S − L on cell `at`, triangles first: its part that the numbers give.
     pub fn chordal(&self, problem: &Problem, at: usize) -> Chordal {
-        let (mesh, topology) = (&problem.mesh, &problem.topology);
-        let quad = at.checked_sub(mesh.triangles.len());
-        let (vertices, edges): (&[u32], &[u32]) = match quad {
-            None => (&mesh.triangles[at], &[]),
-            Some(quad) => (&mesh.quads[quad], &topology.of_quads[quad]),
-        };
+        let is_quad = at >= problem.mesh.triangles.len();
+        let edges = if is_quad { problem.topology.edges_of(at) } else { &[] };
         Chordal {
-            vertices: vertices.iter().map(|&vertex| self.vertices[vertex as usize]).collect(),
+            vertices: problem
+                .vertices_of(at)
+                .iter()
+                .map(|&vertex| self.vertices[vertex as usize])
+                .collect(),
             bubbles: edges.iter().map(|&edge| self.bubbles[edge as usize]).collect(),
         }
     }

@@ -77,7 +77,7 @@ impl Certified {
         let mut certifier = Certifier::new(problem, parts, assembled)?;
         let certificate = certifier.certify(parts, assembled, data, u)?;
         let bound = certificate.as_ref().map(ErrorBound::new);
-        let no_bound = certifier.no_bound(problem, parts, data);
+        let no_bound = certifier.no_bound(data);
         Ok(Self { bound, no_bound, answer: certifier.answer() })
     }
 }

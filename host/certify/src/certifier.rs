@@ -8,7 +8,6 @@ use signorini_kernel::Error as KernelError;
 use signorini_kernel::mesh::components::Support;
 
 use super::admissible::{Admissible, Following};
-use super::cell::Cell;
 use super::data::Data;
 use super::forest::EquilibrationForest;
 use super::metric::Metric;
@@ -23,24 +22,14 @@ pub struct Certifier<R: Scalar> {
     ways: EquilibrationForest<R>,
     /// Where contact alone holds a part, its way out leads through edges that are active.
     follows_contact: bool,
+    /// Whether the last search has found ways.
+    found_ways: bool,
     vertices: Vec<R>,
     bubbles: Vec<R>,
     tau: Vec<R>,
     indicators: Vec<R>,
-    refusal: Option<Refusal>,
-}
-
-/// Why the last iterate has no bound, apart from its data.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Refusal {
-    /// A part without a way out, by a cell in it.
-    NothingActive(usize),
-    /// A part held by nothing.
-    HeldByNothing,
-    /// A contact edge that would be pulled at.
-    Pulled(usize),
-    Overflow,
-    NotAsked,
+    /// Why the last iterate has no bound, apart from its data.
+    refusal: Option<NoBound>,
 }
 
 /// The admissible pair of a certificate, in f64.
@@ -88,6 +77,7 @@ impl<R: Scalar> Certifier<R> {
             metric: Metric::new(problem),
             ways: EquilibrationForest::new(problem),
             follows_contact: parts.counts.contact > 0,
+            found_ways: false,
             vertices: vec![R::ZERO; vertices],
             bubbles: vec![R::ZERO; edges],
             tau: vec![R::ZERO; edges],
@@ -127,24 +117,16 @@ impl<R: Scalar> Certifier<R> {
             certificate::certify(&discretization, &data.given(assembled)?, iterate, buffers)?;
         self.refusal = match verdict {
             Verdict::Certified(_) => None,
-            Verdict::Pulled { edge } => Some(Refusal::Pulled(edge)),
-            Verdict::NotAsked => Some(Refusal::NotAsked),
-            _ => Some(Refusal::Overflow),
+            Verdict::Pulled { edge } => Some(NoBound::pulled(assembled.problem(), edge)),
+            Verdict::NotAsked => Some(NoBound::not_asked()),
+            _ => Some(NoBound::overflow::<R>()),
         };
         Ok(verdict.certificate().copied())
     }
 
     /// Why the last iterate has no bound, given these data.
-    pub fn no_bound(&self, problem: &Problem, parts: &Parts, data: &Data<R>) -> Option<NoBound> {
-        let middle = |cell| Cell::of(problem, cell).middle();
-        let refused = self.refusal.map(|refusal| match refusal {
-            Refusal::NothingActive(cell) => NoBound::NothingActive { at: middle(cell) },
-            Refusal::HeldByNothing => NoBound::HeldByNothing { at: middle(floating(parts)) },
-            Refusal::Pulled(edge) => NoBound::pulled(problem, edge),
-            Refusal::Overflow => NoBound::Overflow { scalar: R::NAME },
-            Refusal::NotAsked => NoBound::NotAsked,
-        });
-        data.no_bound().cloned().or(refused)
+    pub fn no_bound(&self, data: &Data<R>) -> Option<NoBound> {
+        data.no_bound().or(self.refusal.as_ref()).cloned()
     }
 
     /// The fields of the last certificate.
@@ -178,12 +160,13 @@ impl<R: Scalar> Certifier<R> {
         u: &[R],
     ) -> Result<bool, KernelError> {
         if parts.counts.floating > 0 {
-            self.refusal = Some(Refusal::HeldByNothing);
+            let cell = floating(parts);
+            self.refusal = Some(NoBound::held_by_nothing(assembled.problem(), cell));
             return Ok(false);
         }
         if !self.follows_contact {
             // Found once and for all.
-            return Ok(!matches!(self.refusal, Some(Refusal::NothingActive(_))));
+            return Ok(self.found_ways);
         }
         let edges = assembled.edges();
         let (free, law) = (edges.counts().free, assembled.law());
@@ -204,11 +187,12 @@ impl<R: Scalar> Certifier<R> {
         self.refusal = None;
         match self.ways.find(assembled, &self.metric, active) {
             Err(KernelError::NoWayOut { cell }) => {
-                self.refusal = Some(Refusal::NothingActive(cell));
-                Ok(false)
+                self.refusal = Some(NoBound::nothing_active(assembled.problem(), cell));
+                self.found_ways = false;
             }
-            found => found.map(|()| true),
+            found => found.map(|()| self.found_ways = true)?,
         }
+        Ok(self.found_ways)
     }
 
     /// s alone, for the picture of a solution without a bound.

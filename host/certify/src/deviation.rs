@@ -84,12 +84,7 @@ impl<'s> Deviations<'s> {
 
     /// Deviations of the sides of cell `at`, triangles first.
     pub fn of_cell(&self, problem: &Problem, at: usize) -> Vec<Option<&Deviation<'s>>> {
-        let topology = &problem.topology;
-        let edges: &[u32] = match topology.of_triangles.get(at) {
-            Some(edges) => edges,
-            None => &topology.of_quads[at - topology.of_triangles.len()],
-        };
-        edges.iter().map(|&edge| self.on(edge as usize)).collect()
+        problem.topology.edges_of(at).iter().map(|&edge| self.on(edge as usize)).collect()
     }
 }
 

@@ -53,10 +53,7 @@ impl<'s> CellEnergy<'s> {
         for of in samples {
             for &[eta, weight] in &away {
                 let local = self.cell.local(self.cell.side_point(side, of.t, eta));
-                let element = match self.cell {
-                    Cell::Triangle(_) => local.determinant * (1.0 - eta),
-                    Cell::Quad(_) => local.determinant,
-                };
+                let element = self.cell.area_element(&local, eta);
                 let v = local.sides[side].extension(of.w / unit, of.slope / unit).gradient;
                 let a = self.conductivity.at(local.x);
                 sum += of.weight * weight * element * product(&a, v, v);

@@ -14,7 +14,6 @@
 
 pub mod admissible;
 mod bound;
-pub mod cell;
 mod certifier;
 pub mod conductivity;
 pub mod curved;
@@ -24,19 +23,20 @@ pub mod ends;
 pub mod energy;
 pub mod exact;
 pub mod forest;
-#[cfg(test)]
-mod identity;
 pub mod metric;
 mod no_bound;
 pub mod oscillation;
 pub mod robin;
 pub mod sampled;
 pub mod term;
+#[cfg(test)]
+mod tests;
 pub mod weighed;
 
 pub use bound::{Certified, ErrorBound};
 pub use certifier::{CertifiedFields, Certifier};
 pub use conductivity::eigenvalues;
 pub use data::{Data, Evaluated};
-pub use no_bound::{NoBound, Spot};
+pub use no_bound::NoBound;
+pub use signorini_problem::cell;
 pub use term::TermData;

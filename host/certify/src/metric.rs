@@ -9,7 +9,7 @@ use signorini_kernel::{Real, Tensor};
 
 use super::conductivity::Conductivity;
 use signorini_problem::quadrature::{DATA_POINTS, on_quad, on_triangle};
-use signorini_problem::scalar::Scalar;
+use signorini_problem::scalar::{Scalar, narrowed};
 use signorini_problem::{Problem, QuadCoefficient};
 
 // A on quads is evaluated once, for element matrices and bound.
@@ -100,12 +100,7 @@ impl<R: Scalar> Metric<R> {
                 points.map(|(at, p)| of_quad(&here(p.reference), known.at(at))).collect()
             }
         };
-        let narrow = |b: &Tensor<f64>| Tensor {
-            xx: R::narrow(b.xx),
-            xy: R::narrow(b.xy),
-            yy: R::narrow(b.yy),
-        };
-        Some(std::array::from_fn(|point| narrow(&tensors[point])))
+        Some(std::array::from_fn(|point| narrowed(&tensors[point])))
     }
 }
 

@@ -61,10 +61,7 @@ fn of_source(problem: &Problem, at: usize, f: &Sum) -> Result<f64> {
     if let (Some(f), true) = (f.constant(), cell.is_affine()) {
         return Ok(of_bend(&cell, f) / alpha(problem, at).sqrt());
     }
-    let load = match cell {
-        Cell::Triangle(corners) => f.over_triangle(corners)?,
-        Cell::Quad(corners) => f.over_quad(corners)?,
-    };
+    let load = f.over(cell)?;
     // Squares of f may vanish or overflow where lengths are huge or tiny; those of f times a length do not.
     let unit = cell.diameter().log2().round().exp2();
     let (mut square, points) = (0.0, cell.points(&gauss(POINTS)));

@@ -32,10 +32,9 @@ pub fn robin(problem: &Problem, time: f64) -> Result<Vec<RobinPoints>> {
 }
 
 fn points(problem: &Problem, edge: usize, h: &Sum, ambient: &Sum) -> Result<RobinPoints> {
-    let [a, b] = problem.segment(edge);
     let mut values = RobinPoints::default();
     for (value, &[t, _]) in values.iter_mut().zip(f64::GAUSS[DATA_POINTS - 1]) {
-        let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
+        let [x, y] = problem.along(edge, t);
         let coefficient = h.finite(h.at(x, y), [x, y])?;
         *value = [problem.lengths[edge] * coefficient, ambient.finite(ambient.at(x, y), [x, y])?];
     }
@@ -64,10 +63,9 @@ pub fn missed(problem: &Problem, edge: usize, time: f64) -> Result<f64> {
     if h.constant().is_some() && ambient.constant().is_some() {
         return Ok(0.0);
     }
-    let [a, b] = problem.segment(edge);
     // √h u_ext
     let weighted = |t: f64| -> Result<f64> {
-        let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
+        let [x, y] = problem.along(edge, t);
         let h = h.finite(h.at(x, y), [x, y])?.max(0.0);
         Ok(h.sqrt() * ambient.finite(ambient.at(x, y), [x, y])?)
     };

@@ -173,8 +173,8 @@ fn at_all_corners(alone: &Problem) -> Result<Evaluated> {
     })
 }
 
-/// `scene` with the inputs of coefficients at all corners of their ranges.
-fn corners(scene: &Scene) -> impl Iterator<Item = Scene> {
+/// `scene` with the inputs of coefficients at all corners of their ranges: once where there are none.
+pub fn corners(scene: &Scene) -> impl Iterator<Item = Scene> {
     let inputs = scene.inputs.iter().filter(|input| changes_transfer(input)).count();
     (0..1_usize << inputs).map(|corner| {
         let mut scene = scene.clone();

@@ -1,5 +1,6 @@
-//! Answers that intervals are worked out from.
+//! Answers that intervals are worked out from, and the interval of an output.
 
+use serde::Serialize;
 use signorini_certify::{CertifiedFields, ErrorBound};
 use signorini_solve::{ScalarKind, Solution};
 
@@ -19,3 +20,40 @@ impl<'a> From<&'a Solution> for Answered<'a> {
         Self { certified, bound: *bound, scalar: *scalar }
     }
 }
+
+/// Where the value of an output lies for the exact solution.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OutputBound {
+    /// Its middle, in the unit of the output.
+    pub center: f64,
+    /// Half of its width: the exact value is not farther from the middle.
+    pub plus_minus: f64,
+    /// Words for the quantity.
+    pub of: String,
+    /// How far its value on this mesh is from that on the mesh refined once; no guarantee. None for large meshes.
+    pub estimate: Option<f64>,
+    /// The exact value, where the scene has an exact solution.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exact: Option<f64>,
+    /// By how much its quadrature is in doubt.
+    #[serde(skip)]
+    pub doubt: f64,
+}
+
+impl OutputBound {
+    /// Its ends.
+    pub fn ends(&self) -> [f64; 2] {
+        [self.center - self.plus_minus, self.center + self.plus_minus]
+    }
+
+    /// In other units.
+    pub(super) fn times(self, unit: f64) -> Self {
+        let Self { center, plus_minus, estimate, exact, doubt, .. } = self;
+        let [center, plus_minus, doubt] = [center, plus_minus, doubt].map(|x| x * unit);
+        let [estimate, exact] = [estimate, exact].map(|x| x.map(|x| x * unit));
+        Self { center, plus_minus, estimate, exact, doubt, ..self }
+    }
+}
+
+/// An interval, or why there is none.
+pub type Found = Result<OutputBound, String>;

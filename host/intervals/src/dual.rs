@@ -7,22 +7,15 @@ use std::sync::Arc;
 
 use super::contact::ContactEdge;
 use super::goal::Goal;
+use signorini_certify::CertifiedFields;
 use signorini_problem::{Loads, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::expression::Expression;
 use signorini_scene::scene::{Condition, Field, Located, Scene};
 use signorini_solve::SharedFactor;
 
-/// z and ζ; z is not yet within what contact asks of it.
-#[derive(Debug, Clone)]
-pub(super) struct Weights {
-    /// z at the vertices.
-    pub vertices: Vec<f64>,
-    /// The bubbles of z, one an edge.
-    pub bubbles: Vec<f64>,
-    /// ∫_E ζ·n along the direction of each edge.
-    pub flux: Vec<f64>,
-}
+/// z at the vertices and its bubbles, and ζ in the place of τ; z is not yet within what contact asks of it.
+pub(super) type Weights = CertifiedFields;
 
 /// The linear problem of a goal, but for how far ζ·n may go on contact edges.
 pub(super) struct Dual {
@@ -72,12 +65,7 @@ impl Dual {
         loads.contact_flux = bases;
         loads.spans = contact.iter().map(|of| 2.0 * part * of.room).collect();
         let solution = factor.solve(&self.problem).ok()??;
-        let certified = solution.certified;
-        solution.bound.is_some().then_some(Weights {
-            vertices: certified.vertices,
-            bubbles: certified.bubbles,
-            flux: certified.tau,
-        })
+        solution.bound.map(|_| solution.certified)
     }
 }
 

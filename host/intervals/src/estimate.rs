@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::output_bound::Found;
+use super::answer::Found;
 use signorini_problem::Problem;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::adapted::adapted;

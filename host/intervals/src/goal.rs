@@ -135,26 +135,24 @@ impl Goal {
     ) -> Result<Self> {
         let part = &Part::new(problem, output);
         let density = 1.0 / part.length();
-        let tables = 0..problem.scene.boundaries.len();
-        Ok(Self {
-            sign: 1.0,
-            start: values::mean(problem, answer, deviations, part)?,
-            values: vec![0.0; tables.len()],
-            densities: tables.map(|at| if part.has_table(at) { density } else { 0.0 }).collect(),
-            cell: None,
-            beside: 0.0,
-            law: EVERYTHING,
-            of: described(output),
-        })
+        let start = values::mean(problem, answer, deviations, part)?;
+        let own = |at: usize| if part.has_table(at) { density } else { 0.0 };
+        let densities = (0..problem.scene.boundaries.len()).map(own).collect();
+        Ok(Self { densities, ..Self::without_data(problem, start, described(output)) })
+    }
+
+    /// u at the start and no data: z and ζ are 0.
+    fn without_data(problem: &Problem, start: Value, of: String) -> Self {
+        let none = vec![0.0; problem.scene.boundaries.len()];
+        let (values, densities) = (none.clone(), none);
+        Self { sign: 1.0, start, values, densities, cell: None, beside: 0.0, law: EVERYTHING, of }
     }
 
     fn of_cell(problem: &Problem, cell: usize, start: Value) -> Self {
-        let none = vec![0.0; problem.scene.boundaries.len()];
         let [x, y] = Cell::of(problem, cell).middle();
         let of = format!("the mean of u over the cell around ({x}, {y})");
-        let (values, densities) = (none.clone(), none);
         let beside = beside(problem, cell);
-        Self { sign: 1.0, start, values, densities, cell: Some(cell), beside, law: EVERYTHING, of }
+        Self { cell: Some(cell), beside, ..Self::without_data(problem, start, of) }
     }
 
     fn of_flux(problem: &Problem, answer: &Answered, output: &Output) -> Result<Self> {
@@ -165,24 +163,21 @@ impl Goal {
             true => 1.0,
             false => 0.0,
         };
-        let values: Vec<f64> = (0..problem.scene.boundaries.len()).map(weight).collect();
-        let start = values::flux(problem, answer, part, is_force)?;
-        let of = described(output);
-        let densities = vec![0.0; values.len()];
-        let law = law(problem, part, is_force);
-        Ok(Self { sign: -1.0, start, values, densities, cell: None, beside: 0.0, law, of })
+        let values = (0..problem.scene.boundaries.len()).map(weight).collect();
+        let (start, law) =
+            (values::flux(problem, answer, part, is_force)?, law(problem, part, is_force));
+        let plain = Self::without_data(problem, start, described(output));
+        Ok(Self { sign: -1.0, values, law, ..plain })
     }
 
     /// ζ·n that is given on a boundary edge.
     pub fn density_on(&self, problem: &Problem, edge: usize) -> f64 {
-        let table = problem.binding.boundary(problem.ends[edge]);
-        table.map_or(0.0, |table| self.densities[table])
+        on(problem, edge, &self.densities)
     }
 
     /// z that is given there.
     pub fn value_on(&self, problem: &Problem, edge: usize) -> f64 {
-        let table = problem.binding.boundary(problem.ends[edge]);
-        table.map_or(0.0, |table| self.values[table])
+        on(problem, edge, &self.values)
     }
 
     /// The size of ∫ζ·n over the whole boundary, roughly: 1 for a mean, that of A where z goes from 0 to 1.
@@ -203,4 +198,9 @@ impl Goal {
         };
         values::given(problem, &part, field).map(Some)
     }
+}
+
+/// The number of the boundary that an edge lies on, of one for each table.
+fn on(problem: &Problem, edge: usize, numbers: &[f64]) -> f64 {
+    problem.binding.boundary(problem.ends[edge]).map_or(0.0, |table| numbers[table])
 }

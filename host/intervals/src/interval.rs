@@ -1,12 +1,11 @@
 //! The interval of one output: weights for more and more of what contact leaves, and the best ends of all.
 
-use super::answer::Answered;
+use super::answer::{Answered, Found, OutputBound};
 use super::contact::ContactEdge;
 use super::dual::{Dual, Weights};
 use super::exact;
 use super::goal::Goal;
 use super::kept::{keep, left};
-use super::output_bound::{Found, OutputBound};
 use super::products::{Products, Residual};
 use super::values::{INTEGRATED, Value};
 use signorini_certify::ErrorBound;

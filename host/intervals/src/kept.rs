@@ -68,7 +68,7 @@ pub(super) fn left(
         let value = goal.value_on(problem, of.edge);
         let z = problem.ends[of.edge].map(|vertex| weights.vertices[vertex as usize] - value);
         let density = problem.lengths[of.edge] * goal.density_on(problem, of.edge);
-        sum.add_flux(of, weights.flux[of.edge] - density);
+        sum.add_flux(of, weights.tau[of.edge] - density);
         match z.iter().zip(of.clear).any(|(&z, clear)| z != 0.0 && clear == 0.0) {
             true => sum.add_loose(of, z),
             false => sum.add_values(of, z),

@@ -23,7 +23,6 @@ mod exact;
 mod goal;
 mod interval;
 mod kept;
-mod output_bound;
 mod part;
 mod products;
 #[cfg(test)]
@@ -33,12 +32,11 @@ pub mod weights;
 
 use std::collections::BTreeMap;
 
-pub use answer::Answered;
+pub use answer::{Answered, Found, OutputBound};
 use contact::contact_edges;
 pub use estimate::estimate;
 pub use goal::described;
 use interval::Known;
-pub use output_bound::{Found, OutputBound};
 use products::Residual;
 use signorini_certify::curved::followed;
 use signorini_problem::Problem;
@@ -46,19 +44,19 @@ use signorini_problem::functional::wanted;
 use signorini_problem::threads::on_two_threads;
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Field, Input, Output};
-use signorini_solve::{SharedFactor, Solution, times};
+use signorini_solve::{SharedFactor, Solution};
 
 /// Beyond so many unknowns no intervals are worked out: each takes some solutions of a linear problem.
 pub const MOST_UNKNOWNS: usize = 200_000;
 
 /// Intervals of every output of a solution, with those that a scene without any has.
 pub fn of_outputs(problem: &Problem, solution: &Solution) -> BTreeMap<String, Found> {
-    let Some(scaled) = &solution.scaled else { return of_answer(problem, &solution.into()) };
-    // Squares of the scene's numbers may overflow or vanish; those of the solve's do not.
-    let units = solution.units;
-    let mut all = of_answer(scaled, &(&times(&units.inverse(), solution.clone())).into());
+    let Some((scaled, own)) = solution.in_its_units() else {
+        return of_answer(problem, &solution.into());
+    };
+    let mut all = of_answer(scaled, &(&own).into());
     for output in wanted(&problem.scene).iter() {
-        let unit = units.of_output(output.quantity);
+        let unit = solution.units.of_output(output.quantity);
         if let Some(Ok(found)) = all.get_mut(&output.name.value) {
             *found = found.clone().times(unit);
         }

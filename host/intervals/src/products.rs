@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::answer::Answered;
 use super::dual::Weights;
 use super::goal::Goal;
-use signorini_certify::admissible::{Admissible, Following};
+use signorini_certify::admissible::Admissible;
 use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::{Conductivity, apply, dot, inverse};
 use signorini_certify::curved;
@@ -138,9 +138,7 @@ impl<'p> Residual<'p> {
     /// # Errors
     /// Data that are not finite.
     pub fn with(&self, goal: &Goal, weights: &Weights) -> Result<Products> {
-        let following = Following::Except(Vec::new());
-        let Weights { vertices, bubbles, flux } = weights;
-        let z = Admissible { vertices, bubbles, tau: flux, following: &following };
+        let z = weights.admissible();
         let cells = in_portions(self.problem.cells(), |cells| {
             let mut sum = Products::default();
             for at in cells {
@@ -187,9 +185,7 @@ impl<'p> Residual<'p> {
         for (record, points) in problem.loads.robin.iter().zip(&transfer) {
             let edge = record.edge as usize;
             let length = problem.lengths[edge];
-            let table = problem.binding.boundary(problem.ends[edge]);
-            let [value, density] =
-                table.map_or([0.0; 2], |at| [goal.values[at], goal.densities[at]]);
+            let (value, density) = (goal.value_on(problem, edge), goal.density_on(problem, edge));
             for (&[t, weight], &[h, outside]) in f64::GAUSS[DATA_POINTS - 1].iter().zip(points) {
                 let h = h / length;
                 let s = self.s.on_edge(problem, edge, self.deviations.on(edge), t)?;

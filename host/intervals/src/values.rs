@@ -8,8 +8,7 @@ use signorini_certify::deviation::Deviations;
 use signorini_problem::field::CellField;
 use signorini_problem::functional::Functional;
 use signorini_problem::quadrature::bisected::{
-    graded_mean, graded_over_quad, mean_on_edge, over_quad, over_triangle, quad_and_doubt,
-    quarters_of_quad, quarters_of_triangle, triangle_and_doubt,
+    cell_and_doubt, graded_mean, graded_over_quad, mean_on_edge, over_cell, quarters,
 };
 use signorini_problem::quadrature::gauss;
 use signorini_problem::threads::in_portions;
@@ -105,20 +104,12 @@ pub(super) fn doubt_of_source(problem: &Problem) -> Result<f64> {
     let grades = grades && !f.is_smooth();
     let of_cell = |at_cell| {
         let cell = Cell::of(problem, at_cell);
-        let [load, doubt] = match cell {
-            Cell::Triangle(corners) => triangle_and_doubt(corners, &at),
-            Cell::Quad(corners) => quad_and_doubt(corners, &at),
-        };
+        let [load, doubt] = cell_and_doubt(cell, &at);
         let [finer, more] = match cell {
             _ if !looks => [load, 0.0],
             Cell::Triangle([a, b, c]) if grades => graded_over_quad([a, b, c, c], &at),
             Cell::Quad(corners) if grades => graded_over_quad(corners, &at),
-            Cell::Triangle(corners) => {
-                [quarters_of_triangle(&corners).map(|of| over_triangle(of, &at)).iter().sum(), 0.0]
-            }
-            Cell::Quad(corners) => {
-                [quarters_of_quad(&corners).map(|of| over_quad(of, &at)).iter().sum(), 0.0]
-            }
+            _ => [quarters(&cell).map(|of| over_cell(of, &at)).iter().sum(), 0.0],
         };
         INTEGRATED * load.abs() + doubt + more + (finer - load).abs()
     };

@@ -24,10 +24,11 @@ use super::products::Residual;
 use signorini_certify::CertifiedFields;
 use signorini_certify::conductivity::Conductivity;
 use signorini_certify::deviation::Deviations;
+use signorini_certify::term;
 use signorini_problem::functional::wanted;
 use signorini_problem::{EdgeKind, Parts, Problem, Sum};
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Field, Output, Quantity};
+use signorini_scene::scene::{Output, Quantity};
 use signorini_solve::energy_norm::nonconformity;
 use signorini_solve::{ScalarKind, SharedFactor};
 
@@ -92,19 +93,7 @@ fn weighed(problem: &Problem, answers: &Answers, outputs: &[Output]) -> Result<V
 
 /// The problem at all corners of the ranges of its transfer coefficients: norms of weights are convex in them.
 fn corners(problem: &Problem) -> Result<Vec<Problem>> {
-    let mut all = vec![problem.clone()];
-    for (at, input) in problem.scene.inputs.iter().enumerate() {
-        if let (Field::Coefficient, Some(range)) = (input.field.value, &input.range) {
-            let ends = [range.value.lo, range.value.hi];
-            let moved = all.iter().flat_map(|problem| ends.map(|end| (problem, end)));
-            let moved = moved.map(|(problem, end)| {
-                let mut problem = problem.clone();
-                problem.set(&[(at, end)], problem.time).map(|()| problem)
-            });
-            all = moved.collect::<Result<_>>()?;
-        }
-    }
-    Ok(all)
+    term::corners(&problem.scene).map(|scene| problem.with_loads_of(scene)).collect()
 }
 
 struct Weighing<'p> {
@@ -170,7 +159,7 @@ impl Weighing<'_> {
             for takes_least in [true, false] {
                 let mut weights = solved.clone();
                 // Nothing is asked of ζ.
-                weights.flux.fill(0.0);
+                weights.tau.fill(0.0);
                 let differ = keep(problem, goal, &contact, part, takes_least, &mut weights);
                 let rest = left(problem, goal, &contact, &weights);
                 let [total, _] = self.sizes(goal, &weights)?;

@@ -17,9 +17,8 @@ use signorini_kernel::system::System;
 use signorini_kernel::{Error, Tensor};
 
 use super::element_matrices::ElementMatrices;
-use super::unit_box::UnitBox;
 use super::{Loads, Parts, Problem, QuadCoefficient};
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, UnitBox, narrowed};
 
 /// Element matrices, CSR and loads in the scalar `R`; [`Assembled::system`] is the contact problem.
 ///
@@ -251,10 +250,6 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     }
 }
 
-fn narrow<R: Scalar>(a: &Tensor<f64>) -> Tensor<R> {
-    Tensor { xx: R::narrow(a.xx), xy: R::narrow(a.xy), yy: R::narrow(a.yy) }
-}
-
 /// A of every cell, triangles first; `None` where it varies inside a quad.
 fn tensors<R: Scalar>(problem: &Problem) -> Option<Vec<Tensor<R>>> {
     let triangles = problem.coefficients.triangles.iter().map(Some);
@@ -262,5 +257,5 @@ fn tensors<R: Scalar>(problem: &Problem) -> Option<Vec<Tensor<R>>> {
         QuadCoefficient::Constant(a) => Some(a),
         QuadCoefficient::AtPoints(_) => None,
     });
-    triangles.chain(quads).map(|a| a.map(narrow)).collect()
+    triangles.chain(quads).map(|a| a.map(narrowed)).collect()
 }

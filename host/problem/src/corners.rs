@@ -10,6 +10,10 @@ use signorini_scene::scene::Field;
 /// expression is −1.8e−16.
 const ROUNDING: f64 = 1e-9;
 
+const BELOW: &str = "where Dirichlet and contact boundary meet, value ≥ gap is needed";
+const ABOVE: &str =
+    "where u ≤ gap (flux = \"-inf\") meets a Dirichlet boundary, value ≤ gap is needed";
+
 /// Checks every vertex between a Dirichlet and a contact edge at the time of the problem.
 ///
 /// # Errors
@@ -31,23 +35,14 @@ pub(super) fn check(problem: &Problem) -> Result<()> {
             let (Some(given), Some(gap)) = (given, gap) else { continue };
             let (value, gap) = (given.at(x, y), gap.at(x, y));
             let span = problem.loads.spans.get(neighbour - counts.free);
-            let below = match span.copied().unwrap_or(f64::INFINITY) {
-                f64::INFINITY => gap - value,
-                f64::NEG_INFINITY => {
-                    if value - gap > ROUNDING * (high - low) {
-                        let message =
-                            format!("u_D = {value} at ({x}, {y}) lies above the gap ψ = {gap}");
-                        let hint = "where u ≤ gap (flux = \"-inf\") meets a Dirichlet boundary, value ≤ gap is needed";
-                        return Err(problem.scene.error(given.key(), message).hint(hint).into());
-                    }
-                    0.0
-                }
+            let (side, off, hint) = match span.copied().unwrap_or(f64::INFINITY) {
+                f64::INFINITY => ("below", gap - value, BELOW),
+                f64::NEG_INFINITY => ("above", value - gap, ABOVE),
                 // On either side there is a flux.
-                _ => 0.0,
+                _ => continue,
             };
-            if below > ROUNDING * (high - low) {
-                let message = format!("u_D = {value} at ({x}, {y}) lies below the gap ψ = {gap}");
-                let hint = "where Dirichlet and contact boundary meet, value ≥ gap is needed";
+            if off > ROUNDING * (high - low) {
+                let message = format!("u_D = {value} at ({x}, {y}) lies {side} the gap ψ = {gap}");
                 return Err(problem.scene.error(given.key(), message).hint(hint).into());
             }
         }

@@ -73,16 +73,12 @@ impl Functional {
 /// The sides of a cell, each with the value of its basis function at a point of that cell.
 pub fn basis_at(problem: &Problem, cell: usize, point: &Point) -> Vec<(usize, f64)> {
     let none = vec![0.0; problem.ends.len()];
-    let sides: &[u32] = match cell.checked_sub(problem.mesh.triangles.len()) {
-        None => &problem.topology.of_triangles[cell],
-        Some(quad) => &problem.topology.of_quads[quad],
-    };
     let weight = |&edge: &u32| {
         let mut unit = none.clone();
         unit[edge as usize] = 1.0;
         (edge as usize, CellField::new(problem, cell, &unit, &none).sample(point).u)
     };
-    sides.iter().map(weight).collect()
+    problem.topology.edges_of(cell).iter().map(weight).collect()
 }
 
 /// Lengths over their sum.
@@ -94,8 +90,7 @@ fn parts(lengths: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
 /// The boundary edges that an output is about.
 fn boundary_edges(problem: &Problem, output: &Output) -> impl Iterator<Item = usize> {
     (0..problem.ends.len()).filter(move |&edge| {
-        let boundary = problem.binding.boundary(problem.ends[edge]);
-        let name = boundary.map(|at| &problem.scene.boundaries[at].name.value);
+        let name = problem.boundary_of(edge).map(|boundary| &boundary.name.value);
         let wanted = output.of.as_ref().is_none_or(|of| Some(&of.value) == name);
         problem.kinds[edge] != EdgeKind::Interior && wanted
     })

@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 use signorini_kernel::{Error as KernelError, Real, Tensor};
 
 use super::{Binding, Problem};
+use crate::cell::Cell;
 use crate::quadrature::{DATA_POINTS, Point, TRIANGLE_POINTS, on_quad, on_triangle};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
@@ -89,9 +90,8 @@ impl Problem {
         match &quads[quad] {
             QuadCoefficient::Constant(tensor) => *tensor,
             QuadCoefficient::AtPoints(tensors) => {
-                let corners = self.mesh.quads[quad].map(|v| self.mesh.vertices[v as usize]);
-                let points = on_quad(corners, f64::GAUSS[DATA_POINTS - 1]);
-                average(points.zip(tensors).map(|(point, tensor)| (point.weight, *tensor)))
+                let points = Cell::of(self, cell).points(f64::GAUSS[DATA_POINTS - 1]);
+                average(points.iter().zip(tensors).map(|(point, tensor)| (point.weight, *tensor)))
             }
         }
     }

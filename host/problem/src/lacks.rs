@@ -14,8 +14,8 @@ use signorini_kernel::mesh::components::PartCounts;
 use super::property::{MOST_NUMBERS, Property};
 use super::{Parts, Problem};
 use signorini_scene::error::{Error, InputError, Result};
-use signorini_scene::scene::Field;
 use signorini_scene::scene::term::first_in_time;
+use signorini_scene::scene::{Field, Located};
 
 /// Ways to treat a problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -201,22 +201,24 @@ fn one_factor(problem: &Problem) -> InputError {
 }
 
 fn changes_matrix(problem: &Problem, message: &str) -> InputError {
-    let scene = &problem.scene;
-    match scene.transfer_input() {
-        Some(input) => scene.error(&input.field, message),
-        None => InputError::new(message).file(&scene.path),
+    let input = problem.scene.transfer_input();
+    refused_at(problem, input.map(|input| &input.field), message.to_owned())
+}
+
+/// A refusal at a place of the scene, where one is known.
+fn refused_at<T>(problem: &Problem, place: Option<&Located<T>>, message: String) -> InputError {
+    match place {
+        Some(place) => problem.scene.error(place, message),
+        None => InputError::new(message).file(&problem.scene.path),
     }
 }
 
 /// Contact with two sides.
 fn two_sides(problem: &Problem) -> InputError {
-    let scene = &problem.scene;
-    let message = "the flux of contact has a limit, which test data know nothing of";
-    let refusal = match scene.limited() {
-        Some(boundary) => scene.error(&boundary.name, message),
-        None => InputError::new(message).file(&scene.path),
-    };
-    refusal.hint("without `limit` and with a finite `flux`, u ≥ gap holds everywhere")
+    let message = "the flux of contact has a limit, which test data know nothing of".to_owned();
+    let place = problem.scene.limited().map(|boundary| &boundary.name);
+    refused_at(problem, place, message)
+        .hint("without `limit` and with a finite `flux`, u ≥ gap holds everywhere")
 }
 
 impl fmt::Display for Lack {

@@ -11,8 +11,8 @@
 
 mod assembled;
 mod binding;
+pub mod cell;
 mod corners;
-mod diagonal;
 mod element_matrices;
 pub mod field;
 pub mod fixtures;
@@ -20,15 +20,12 @@ pub mod functional;
 pub mod inputs;
 mod integrals;
 mod lacks;
-mod least_transfer;
-mod limit_ranges;
 mod limits;
 mod loads;
 pub mod pointwise;
 pub mod progress;
 mod property;
 pub mod quadrature;
-mod range_terms;
 mod restated;
 pub mod scalar;
 pub mod search;
@@ -39,32 +36,31 @@ mod tests;
 pub mod threads;
 mod topology;
 mod transfer;
-mod transfer_pattern;
-mod unit_box;
 mod warnings;
 
 pub use assembled::Assembled;
 pub use binding::Binding;
 pub use integrals::{Coefficients, QuadCoefficient};
 pub use lacks::{Approach, Lack};
-pub use limits::{Spread, spread};
+pub use limits::{RangeTerm, Spread, spread};
 pub use loads::Loads;
 pub use property::Property;
-pub use range_terms::RangeTerm;
 pub use solvability::Parts;
 pub use sum::Sum;
 pub use topology::{EdgeKind, Topology};
-pub use transfer_pattern::TransferPattern;
+pub use transfer::TransferPattern;
 
 use std::sync::Arc;
 
+use signorini_kernel::Real;
 use signorini_kernel::element::QuadElement;
 use signorini_kernel::mesh::Mesh as KernelMesh;
 
 use element_matrices::ElementMatrices;
+use quadrature::DATA_POINTS;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::{Mesh, shape};
-use signorini_scene::scene::Scene;
+use signorini_scene::scene::{Boundary, Field, Input, Scene};
 use topology::wrong_mesh;
 
 /// Everything that defines one discrete contact problem.
@@ -150,6 +146,35 @@ impl Problem {
     /// Coordinates of the ends of an edge.
     pub fn segment(&self, edge: usize) -> [[f64; 2]; 2] {
         self.ends[edge].map(|vertex| self.mesh.vertices[vertex as usize])
+    }
+
+    /// The point of an edge at the part t of its way.
+    pub fn along(&self, edge: usize, t: f64) -> [f64; 2] {
+        let [a, b] = self.segment(edge);
+        [0, 1].map(|k| a[k] + t * (b[k] - a[k]))
+    }
+
+    /// The points of the rule for edge data, and both ends of the edge.
+    fn looks(&self, edge: usize) -> impl Iterator<Item = [f64; 2]> {
+        let inside = f64::GAUSS[DATA_POINTS - 1].iter().map(|point| point[0]);
+        inside.chain([0.0, 1.0]).map(move |t| self.along(edge, t))
+    }
+
+    /// The boundary of the scene that an edge lies on.
+    pub fn boundary_of(&self, edge: usize) -> Option<&Boundary> {
+        self.binding.boundary(self.ends[edge]).map(|at| &self.scene.boundaries[at])
+    }
+
+    /// The inputs that add to one of these fields of a boundary.
+    fn inputs_of<'s>(
+        &'s self,
+        boundary: &'s Boundary,
+        fields: &'s [Field],
+    ) -> impl Iterator<Item = &'s Input> {
+        let is_own = |input: &&Input| {
+            fields.contains(&input.field.value) && input.of.value == boundary.name.value
+        };
+        self.scene.inputs.iter().filter(is_own)
     }
 
     /// The vertices of cell `at`, triangles first.

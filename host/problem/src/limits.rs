@@ -1,18 +1,27 @@
-//! The ends of a contact edge's flux: nowhere the wrong way round.
+//! The ends of a contact edge's flux: nowhere the wrong way round, as they stand and for whatever inputs are in their ranges.
 //!
 //! ```text
-//!   lo(x) = flux + Σ_j p_j π_j ≤ hi(x) = limit + Σ_j p_j π_j
+//!   lo(x) = flux + Σ_j p_j π_j ≤ hi(x) = limit + Σ_j p_j ϖ_j
+//!   min (hi − lo)(x) = hi₀ − lo₀ + Σ_j min(a_j c_j, b_j c_j),   c_j = ϖ_j − π_j at x,   a_j ≤ p_j ≤ b_j
 //! ```
-//! at the points of the rule for edge data and at the ends of every edge. Means of them are what the kernel has: the smaller
-//! one in size as the base of the range, and the way to the other as its span.
+//! at the points of the rule for edge data and at the ends of every edge. An input without a range counts at its default: what
+//! else it may be is refused tick by tick.
+//!
+//! Means of them are what the kernel has: the smaller one in size as the base of the range, and the way to the other as its
+//! span. Where inputs change either end, both are sums over these:
+//! ```text
+//!   ∫lo = Σ_j p_j ∫π_j,   ∫(hi − lo) = Σ_j p_j ∫(ϖ_j − π_j),   p_0 = 1 for what the scene states
+//! ```
+//! The base of a range is its lower end then, wherever that is finite, else the upper one: the smaller of both would depend on
+//! the inputs.
 
-use signorini_kernel::Real;
 use signorini_kernel::flux_range::settled;
 
 use super::{Problem, Sum};
-use crate::quadrature::{DATA_POINTS, gauss, on_panels};
+use crate::quadrature::{gauss, on_panels};
 use signorini_scene::error::Result;
-use signorini_scene::scene::Field;
+use signorini_scene::scene::term::Term;
+use signorini_scene::scene::{Boundary, Condition, Field};
 
 /// Gauss points a panel, and panels on an edge, at which the least and the largest span are looked for.
 const POINTS: usize = 8;
@@ -21,7 +30,7 @@ const PANELS: u32 = 4;
 const CONSTANT: f64 = 1e-12;
 
 /// Terms that an end counts for where rounding is told from an empty range: an expression has many, and so has a mean.
-pub(super) const TERMS: usize = 4500;
+const TERMS: usize = 4500;
 
 /// The means of both ends of a contact edge's flux; an infinite end is its own mean.
 pub(super) fn ends(problem: &Problem, edge: usize, time: f64) -> Result<[f64; 2]> {
@@ -60,13 +69,12 @@ pub fn spread(problem: &Problem, edge: usize, time: f64) -> Option<Spread> {
     if are_constant || is_infinite(&least) || is_infinite(&most) {
         return None;
     }
-    let [a, b] = problem.segment(edge);
     let inside = on_panels(PANELS, &gauss(POINTS));
     let along = inside.iter().map(|&[t, weight]| (t, weight)).chain([(0.0, 0.0), (1.0, 0.0)]);
     let (mut low, mut high, mut mean) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
     let mut terms: f64 = 0.0;
     for (t, weight) in along {
-        let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
+        let [x, y] = problem.along(edge, t);
         let span = most.at(x, y) - least.at(x, y);
         (low, high, mean) = (low.min(span), high.max(span), mean + weight * span);
         terms = terms.max(least.terms_at(x, y) + most.terms_at(x, y));
@@ -92,10 +100,7 @@ pub(super) fn check(problem: &Problem) -> Result<()> {
 fn check_edge(problem: &Problem, edge: usize) -> Result<()> {
     let end = |field| Sum::on_edge(problem, edge, field, problem.time);
     let (Some(least), Some(most)) = (end(Field::Flux), end(Field::Limit)) else { return Ok(()) };
-    let [a, b] = problem.segment(edge);
-    let inside = f64::GAUSS[DATA_POINTS - 1].iter().map(|point| point[0]);
-    for t in inside.chain([0.0, 1.0]) {
-        let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
+    for [x, y] in problem.looks(edge) {
         let (low, high) = (least.at(x, y), most.at(x, y));
         let terms = || least.terms_at(x, y) + most.terms_at(x, y);
         if low > high && settled(high - low, terms(), TERMS).is_none() {
@@ -107,4 +112,142 @@ fn check_edge(problem: &Problem, edge: usize) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// Fields of either end.
+const ENDS: [Field; 2] = [Field::Flux, Field::Limit];
+
+/// Contribution of one term of the loads to the ranges, with an entry for each contact edge.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct RangeTerm {
+    /// To the base: ∫lo, or ∫hi where lo = −∞.
+    pub fluxes: Vec<f64>,
+    /// To ∫(hi − lo), which has either sign; ±∞ stands in the first term alone.
+    pub spans: Vec<f64>,
+    /// Whether hi − lo varies along an edge.
+    pub varies: bool,
+}
+
+impl Problem {
+    /// Refuses ranges of inputs that leave a contact edge no flux, before a controller is written.
+    ///
+    /// # Errors
+    /// The first point with such a corner of the ranges, at the range of its first input.
+    pub fn check_limits_within_ranges(&self) -> Result<()> {
+        let counts = self.topology.counts;
+        (counts.free..counts.unknowns()).try_for_each(|edge| {
+            let Some(boundary) = self.boundary_of(edge) else { return Ok(()) };
+            if self.inputs_of(boundary, &ENDS).all(|input| input.range.is_none()) {
+                return Ok(());
+            }
+            self.looks(edge).try_for_each(|point| check_at(self, boundary, point))
+        })
+    }
+
+    /// Contribution of one unit of `term`, which is 0 for what the scene states.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn range_term(&self, term: Term) -> Result<RangeTerm> {
+        let alone = self.left_with(&[term])?;
+        let counts = self.topology.counts;
+        let mut all = RangeTerm::default();
+        for edge in counts.free..counts.unknowns() {
+            let ends = ends(&alone, edge, self.time)?;
+            let [base, span] = lower_and_span(ends, self.lengths[edge]);
+            all.fluxes.push(base);
+            all.spans.push(if term == 0 || span.is_finite() { span } else { 0.0 });
+            all.varies |= spread(&alone, edge, self.time).is_some();
+        }
+        Ok(all)
+    }
+}
+
+fn check_at(problem: &Problem, boundary: &Boundary, [x, y]: [f64; 2]) -> Result<()> {
+    let Condition::Contact { flux, limit, .. } = &boundary.condition else { return Ok(()) };
+    let at = |expression| Sum::alone(&problem.scene, expression, problem.time).at(x, y);
+    let [mut least, mut most] = [flux, limit].map(at);
+    if !(least.is_finite() && most.is_finite()) {
+        return Ok(());
+    }
+    let (mut size, mut worst) = (least.abs() + most.abs(), Vec::new());
+    for input in problem.inputs_of(boundary, &ENDS) {
+        let pattern = at(&input.pattern);
+        let is_limit = input.field.value == Field::Limit;
+        let opens = if is_limit { pattern } else { -pattern };
+        let value = match &input.range {
+            Some(range) if opens > 0.0 => range.value.lo,
+            Some(range) => range.value.hi,
+            None => input.default,
+        };
+        *(if is_limit { &mut most } else { &mut least }) += value * pattern;
+        size += (value * pattern).abs();
+        if opens != 0.0 {
+            worst.push((input, value));
+        }
+    }
+    if settled(most - least, size, TERMS).is_some() {
+        return Ok(());
+    }
+    let corner: Vec<_> =
+        worst.iter().map(|(input, value)| format!("{} = {value}", input.name.value)).collect();
+    let message = format!(
+        "with {} the limit of boundary.{} is {most} at ({x}, {y}), less than flux = {least} there",
+        corner.join(" and "),
+        boundary.name.value
+    );
+    let hint = "narrow the range: whatever inputs are within it, the flux must have room between both ends";
+    let culprit = worst.iter().find_map(|(input, _)| input.range.as_ref());
+    let refused = culprit.map_or_else(
+        || problem.scene.error(limit, &message),
+        |range| problem.scene.error(range, &message),
+    );
+    Err(refused.hint(hint).into())
+}
+
+/// The base that no input may change, and the way to the other end.
+fn lower_and_span([least, most]: [f64; 2], length: f64) -> [f64; 2] {
+    match least == f64::NEG_INFINITY {
+        true => [length * most, f64::NEG_INFINITY],
+        false => [length * least, length * (most - least)],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixtures::{PARABOLA, changed, on_grid};
+    use signorini_scene::mesh::structured::{Cells, grid};
+    use signorini_tolerances::solve::RANGE_TERMS;
+
+    /// PARABOLA's contact, with ends of its own and inputs of either.
+    fn scene() -> String {
+        let inputs = "
+input.weak = { of = \"contact\", field = \"limit\", pattern = \"1 + x\", default = 0.5 }
+input.leak = { of = \"contact\", field = \"flux\", pattern = \"-2\" }
+";
+        let limited = ("gap = \"-x^2\"", "gap = \"-x^2\", limit = \"4 - x^2\"");
+        changed(PARABOLA, &[limited]) + inputs
+    }
+
+    #[test]
+    fn terms_add_up_to_the_ranges_of_every_input() -> Result<()> {
+        let (_, problem) = on_grid(&scene(), grid(5, Cells::Triangles))?;
+        let terms: Vec<_> = (0..3).map(|term| problem.range_term(term)).collect::<Result<_>>()?;
+        for [weak, leak] in [[0.5, 0.0], [-1.0, 1.0], [3.0, -0.5]] {
+            let now = problem.with_inputs(&[weak, leak])?;
+            let sum = |of: fn(&RangeTerm) -> &Vec<f64>, at: usize| {
+                of(&terms[0])[at] + weak * of(&terms[1])[at] + leak * of(&terms[2])[at]
+            };
+            for at in 0..problem.topology.counts.contact {
+                let [least, most] = now.loads.flux_range(at).ends();
+                let base = sum(|term| &term.fluxes, at);
+                RANGE_TERMS.check(format_args!("lo, {at}"), base - least);
+                let span = sum(|term| &term.spans, at);
+                RANGE_TERMS.check(format_args!("hi, {at}"), base + span - most);
+            }
+        }
+        assert_eq!([0, 1, 2].map(|term: usize| terms[term].varies), [true, true, false]);
+        Ok(())
+    }
 }

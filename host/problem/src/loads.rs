@@ -8,6 +8,7 @@ use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::mesh::edges::Edges;
 
 use super::{EdgeKind, Problem, Sum, limits};
+use crate::cell::Cell;
 use crate::quadrature::mean_on_edge;
 use crate::scalar::Scalar;
 use signorini_scene::error::Result;
@@ -77,7 +78,10 @@ impl Loads {
         let source = Sum::source(&problem.scene, time);
         let mut loads = Self::default();
         if !source.is_zero() {
-            loads.integrate_source(&source, problem)?;
+            let triangles = problem.mesh.triangles.len();
+            let integral = |cell| source.over(Cell::of(problem, cell));
+            loads.triangles = (0..triangles).map(integral).collect::<Result<_>>()?;
+            loads.quads = (triangles..problem.cells()).map(integral).collect::<Result<_>>()?;
         }
         for edge in 0..problem.ends.len() {
             if problem.kinds[edge] != EdgeKind::Interior {
@@ -122,22 +126,9 @@ impl Loads {
         all.copied().nth(cell).unwrap_or(0.0)
     }
 
-    fn integrate_source(&mut self, f: &Sum, problem: &Problem) -> Result<()> {
-        let mesh = &problem.mesh;
-        let corner = |vertex: u32| mesh.vertices[vertex as usize];
-        for vertices in &mesh.triangles {
-            self.triangles.push(f.over_triangle(vertices.map(corner))?);
-        }
-        for vertices in &mesh.quads {
-            self.quads.push(f.over_quad(vertices.map(corner))?);
-        }
-        Ok(())
-    }
-
     /// Edges come in the order of the blocks, so contact and Dirichlet data line up by themselves.
     fn add_edge(&mut self, problem: &Problem, edge: usize, time: f64) -> Result<()> {
-        let Some(boundary) = problem.binding.boundary(problem.ends[edge]) else { return Ok(()) };
-        let boundary = &problem.scene.boundaries[boundary];
+        let Some(boundary) = problem.boundary_of(edge) else { return Ok(()) };
         let (segment, length) = (problem.segment(edge), problem.lengths[edge]);
         let name = &boundary.name.value;
         let mean = |field, base| Sum::new(&problem.scene, name, field, base, time).mean(segment);

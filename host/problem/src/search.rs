@@ -4,6 +4,7 @@
 //! boxes touch it, so that a point is tried in a handful of cells.
 
 use crate::Problem;
+use crate::cell::Cell;
 use crate::field::CellField;
 
 /// The cells of a mesh in a grid of squares.
@@ -78,12 +79,8 @@ impl<'p> Search<'p> {
     }
 
     fn enter(&mut self, cell: usize) {
-        let mesh = &self.problem.mesh;
-        let corners = match cell.checked_sub(mesh.triangles.len()) {
-            None => mesh.triangles[cell].as_slice(),
-            Some(quad) => mesh.quads[quad].as_slice(),
-        };
-        let lines = corners.iter().map(|&vertex| self.square(mesh.vertices[vertex as usize]));
+        let cell_of_mesh = Cell::of(self.problem, cell);
+        let lines = cell_of_mesh.corners().iter().map(|&corner| self.square(corner));
         let [mut first, mut last] = [[usize::MAX; 2], [0; 2]];
         for at in lines {
             first = [0, 1].map(|k| first[k].min(at[k]));
@@ -111,7 +108,7 @@ mod tests {
 
     use super::*;
     use crate::fixtures::{PARABOLA, on_grid};
-    use crate::quadrature::{Point, gauss, on_quad, on_triangle};
+    use crate::quadrature::gauss;
     use signorini_scene::mesh::structured::{Cells, grid};
 
     #[test]
@@ -124,19 +121,9 @@ mod tests {
             }
             let (_, problem) = on_grid(PARABOLA, mesh).unwrap();
             let search = Search::new(&problem);
-            let corner = |vertex: u32| problem.mesh.vertices[vertex as usize];
-            let rule = gauss(3);
-            let triangles = problem.mesh.triangles.len();
             let mut last = None;
             for cell in 0..problem.cells() {
-                let points: Vec<Point> = match cell.checked_sub(triangles) {
-                    None => {
-                        let corners = problem.mesh.triangles[cell].map(corner);
-                        on_triangle(corners, &rule).collect()
-                    }
-                    Some(quad) => on_quad(problem.mesh.quads[quad].map(corner), &rule).collect(),
-                };
-                for point in points {
+                for point in Cell::of(&problem, cell).points(&gauss(3)) {
                     let place = search.find(point.x).unwrap();
                     assert_eq!(place.cell as usize, cell);
                     let apart = place.reference.iter().zip(point.reference);

@@ -113,12 +113,7 @@ pub(super) fn floating(problem: &Problem) -> Option<String> {
 
 /// The part of a cell in words.
 fn near(problem: &Problem, cell: usize) -> String {
-    let mesh = &problem.mesh;
-    let vertex = match cell.checked_sub(mesh.triangles.len()) {
-        None => mesh.triangles[cell][0],
-        Some(quad) => mesh.quads[quad][0],
-    };
-    let [x, y] = mesh.vertices[vertex as usize];
+    let [x, y] = problem.mesh.vertices[problem.vertices_of(cell)[0] as usize];
     format!("the connected part of the mesh around ({x}, {y})")
 }
 

@@ -2,6 +2,7 @@
 //! it, the input's value times its pattern.
 
 use super::Problem;
+use crate::cell::Cell;
 use crate::quadrature::{bisected, mean_on_edge};
 use signorini_scene::error::Result;
 use signorini_scene::expression::Expression;
@@ -47,14 +48,14 @@ impl<'s> Sum<'s> {
 
     /// `field` of the boundary that an edge lies on, where its condition has such a field.
     pub fn on_edge(problem: &'s Problem, edge: usize, field: Field, time: f64) -> Option<Self> {
-        let boundary = &problem.scene.boundaries[problem.binding.boundary(problem.ends[edge])?];
+        let boundary = problem.boundary_of(edge)?;
         let base = boundary.condition.load(field)?;
         Some(Self::new(&problem.scene, &boundary.name.value, field, base, time))
     }
 
     /// The transfer coefficient of the boundary that an edge lies on, where its condition has one.
     pub fn transfer(problem: &'s Problem, edge: usize, time: f64) -> Option<Self> {
-        let boundary = &problem.scene.boundaries[problem.binding.boundary(problem.ends[edge])?];
+        let boundary = problem.boundary_of(edge)?;
         let (name, base) = (&boundary.name.value, boundary.condition.transfer()?);
         Some(Self::new(&problem.scene, name, Field::Coefficient, base, time))
     }
@@ -137,14 +138,9 @@ impl<'s> Sum<'s> {
         self.finite(mean, middle)
     }
 
-    /// The integral over a triangle, by the rule for its data, on parts of it where they are not smooth.
-    pub fn over_triangle(&self, corners: [[f64; 2]; 3]) -> Result<f64> {
-        self.finite(bisected::over_triangle(corners, &|x, y| self.at(x, y)), corners[0])
-    }
-
-    /// The integral over a quad, in the same way.
-    pub fn over_quad(&self, corners: [[f64; 2]; 4]) -> Result<f64> {
-        self.finite(bisected::over_quad(corners, &|x, y| self.at(x, y)), corners[0])
+    /// The integral over a cell, by the rule for its data, on parts of it where they are not smooth.
+    pub fn over(&self, cell: Cell) -> Result<f64> {
+        self.finite(bisected::over_cell(cell, &|x, y| self.at(x, y)), cell.corners()[0])
     }
 
     /// `value`, found near a point; an error at the field's place in the file if it is not finite.

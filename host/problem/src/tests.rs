@@ -1,7 +1,5 @@
 //! Curves inside the domain, slits, and tables that act nowhere.
 
-mod inside;
-
 use super::{Assembled, Problem};
 use crate::fixtures::{self, scene};
 use signorini_scene::error::Result;
@@ -57,6 +55,22 @@ fn a_condition_inside_is_refused_on_every_mesh_made_of_the_curve() -> Result<()>
         }
     }
     Ok(())
+}
+
+#[test]
+fn a_condition_inside_says_where_and_how_much_of_it() {
+    let said = error(&drain(), with_curve(grid(2, Cells::Quads), "drain", vec![[2, 7]]));
+    let expected = "test.toml:6: boundary.drain: the physical curve \"drain\" lies inside the domain, where no \
+         condition acts: 1 of its 1 edges have cells on both sides, the first (0, 0)–(0, 0.5)";
+    assert_eq!(said, expected);
+    // One edge of it lies on the boundary, in a curve without a table.
+    let text = fixtures::changed(&drain(), &[("boundary.contact = { kind = \"contact\" }\n", "")]);
+    let mesh = with_curve(grid(2, Cells::Quads), "drain", vec![[1, 2], [2, 7]]);
+    let partly = warnings(&text, mesh).expect_err("a part lies inside");
+    assert_eq!(partly.exit_status(), 2);
+    let said = partly.to_string();
+    assert!(said.contains("lies partly inside the domain"), "{said}");
+    assert!(said.contains("1 of its 2 edges"), "{said}");
 }
 
 #[test]

@@ -87,6 +87,14 @@ impl Topology {
         Edges::new(&self.of_triangles, &self.of_quads, &self.half_edges, self.counts)
     }
 
+    /// The edges of a cell's sides, triangles first.
+    pub fn edges_of(&self, cell: usize) -> &[u32] {
+        match self.of_triangles.get(cell) {
+            Some(edges) => edges,
+            None => &self.of_quads[cell - self.of_triangles.len()],
+        }
+    }
+
     /// The cell (triangles first) and the side of it that an edge is directed along; its normal
     /// points out of that cell.
     pub fn first_side(&self, edge: usize) -> (usize, usize) {

@@ -3,14 +3,28 @@
 //! ```text
 //!   h(x) = h_0(x) + Σ_j p_j π_j(x) ≥ h_0(x) + Σ_j min(lo_j π_j(x), hi_j π_j(x)) ≥ 0
 //! ```
-//! at the points of the rule for edge data and at the ends of every edge.
+//! at the points of the rule for edge data and at the ends of every edge. And the least transfer that they leave: what holds a
+//! part, or takes its surplus, does so for all of them then.
+//! ```text
+//!   min ∫h = ∫h_0 + Σ_j min(lo_j ∫π_j, hi_j ∫π_j)
+//! ```
+//! edge by edge. What is left where the terms cancel is rounding: nothing passes there. One unit of an input adds to the
+//! coefficient, and with it to the load, which has integrals over products of patterns:
+//! ```text
+//!   ∫h u_ext = ∫(h_0 + Σ_c p_c π_c)(u_0 + Σ_a p_a w_a)
+//! ```
 
 use signorini_kernel::Real;
 
-use super::{Problem, Sum};
-use crate::quadrature::DATA_POINTS;
+use super::{EdgeKind, Problem, Sum};
+use crate::quadrature::{DATA_POINTS, mean_on_edge};
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Field, Input};
+use signorini_scene::expression::Expression;
+use signorini_scene::scene::term::Term;
+use signorini_scene::scene::{Boundary, Field, Input, Located};
+
+/// The part of its terms below which a coefficient is 0. In f32 the rounding of three terms is less than this.
+const CANCELLED: f64 = 1e-6;
 
 /// Refuses a coefficient that is negative with the inputs as they are.
 ///
@@ -20,7 +34,7 @@ pub(super) fn check_now(problem: &Problem) -> Result<()> {
     for record in &problem.loads.robin {
         let edge = record.edge as usize;
         let Some(h) = Sum::transfer(problem, edge, problem.time) else { continue };
-        for [x, y] in points(problem.segment(edge)) {
+        for [x, y] in problem.looks(edge) {
             let value = h.at(x, y);
             if value < 0.0 {
                 let message = format!("the coefficient is {value} at ({x}, {y}), expected ≥ 0");
@@ -31,12 +45,6 @@ pub(super) fn check_now(problem: &Problem) -> Result<()> {
         }
     }
     Ok(())
-}
-
-/// The points of the rule for edge data, and both ends.
-fn points([a, b]: [[f64; 2]; 2]) -> impl Iterator<Item = [f64; 2]> {
-    let inside = f64::GAUSS[DATA_POINTS - 1].iter().map(|point| point[0]);
-    inside.chain([0.0, 1.0]).map(move |t| [0, 1].map(|k| a[k] + t * (b[k] - a[k])))
 }
 
 /// Refuses ranges within which a coefficient is negative.
@@ -53,15 +61,10 @@ pub(super) fn check(problem: &Problem) -> Result<()> {
 
 fn check_edge(problem: &Problem, edge: usize) -> Result<()> {
     let scene = &problem.scene;
-    let Some(at) = problem.binding.boundary(problem.ends[edge]) else { return Ok(()) };
-    let boundary = &scene.boundaries[at];
+    let Some(boundary) = problem.boundary_of(edge) else { return Ok(()) };
     let Some(base) = boundary.condition.transfer() else { return Ok(()) };
-    let acts = |input: &&Input| {
-        input.field.value == Field::Coefficient && input.of.value == boundary.name.value
-    };
-    let inputs: Vec<&Input> = scene.inputs.iter().filter(acts).collect();
-    for [x, y] in points(problem.segment(edge)) {
-        let parts = inputs.iter().map(|input| (input, least(input, x, y)));
+    for [x, y] in problem.looks(edge) {
+        let parts = inputs(problem, boundary).map(|input| (input, least(input, x, y)));
         let parts: Vec<_> = parts.collect();
         let total = parts.iter().fold(base.value.eval(x, y, 0.0), |sum, (_, part)| sum + part);
         // A NaN is told with the loads, at the inputs that make it.
@@ -83,6 +86,140 @@ fn least(input: &Input, x: f64, y: f64) -> f64 {
     let pattern = input.pattern.value.eval(x, y, 0.0);
     let ends = input.interval().map(|end| end * pattern);
     ends[0].min(ends[1])
+}
+
+impl Problem {
+    /// This problem with the least ∫h on every transfer edge; other loads stay.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn at_least_transfer(&self) -> Result<Self> {
+        let mut least = self.clone();
+        if self.scene.transfer_input().is_none() {
+            return Ok(least);
+        }
+        for record in &mut least.loads.robin {
+            if let Some(coefficient) = self.least_on(record.edge as usize)? {
+                record.coefficient = coefficient;
+            }
+        }
+        Ok(least)
+    }
+
+    /// The first input that can take all transfer from an edge.
+    pub(super) fn insulating_input(&self) -> Option<&Input> {
+        let least = self.at_least_transfer().ok()?;
+        let mut closed = least.loads.robin.iter().filter(|record| record.coefficient == 0.0);
+        closed.find_map(|record| {
+            let boundary = self.transfers_at(record.edge as usize)?;
+            inputs(self, boundary).next()
+        })
+    }
+
+    /// The least ∫h of an edge whose coefficient inputs change.
+    fn least_on(&self, edge: usize) -> Result<Option<f64>> {
+        let Some(boundary) = self.transfers_at(edge) else { return Ok(None) };
+        let Some(base) = boundary.condition.transfer() else { return Ok(None) };
+        if inputs(self, boundary).next().is_none() {
+            return Ok(None);
+        }
+        let (segment, length) = (self.segment(edge), self.lengths[edge]);
+        let integral = |of| Sum::alone(&self.scene, of, self.time).mean(segment);
+        let first = length * integral(base)?;
+        let (mut sum, mut terms) = (first, first.abs());
+        for input in inputs(self, boundary) {
+            let share = length * integral(&input.pattern)?;
+            let [a, b] = input.interval().map(|end| end * share);
+            sum += a.min(b);
+            terms += a.min(b).abs();
+        }
+        Ok(Some(if sum > CANCELLED * terms { sum } else { 0.0 }))
+    }
+
+    /// The boundary of an edge with a transfer law.
+    fn transfers_at(&self, edge: usize) -> Option<&Boundary> {
+        self.boundary_of(edge).filter(|_| self.kinds[edge] == EdgeKind::Robin)
+    }
+}
+
+/// The inputs that add to the coefficient of a boundary.
+fn inputs<'p>(problem: &'p Problem, boundary: &'p Boundary) -> impl Iterator<Item = &'p Input> {
+    problem.inputs_of(boundary, &[Field::Coefficient])
+}
+
+/// The pattern π of an input, with an entry for each record of `problem.loads.robin`: 0 where it does not act.
+#[derive(Debug, Clone)]
+pub struct TransferPattern {
+    /// ∫π
+    pub integrals: Vec<f64>,
+    /// ∫π u_0 of the base, ∫π w of each input that adds w to u_ext.
+    pub ambient: Vec<(Term, Vec<f64>)>,
+    /// |E|π at the 8 Gauss points of the edge, in its direction.
+    pub points: Vec<[f64; DATA_POINTS]>,
+}
+
+impl Problem {
+    /// Pattern of the input at this place in the scene, which adds to a coefficient.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn transfer_pattern(&self, input: usize) -> Result<TransferPattern> {
+        let of = &self.scene.inputs[input];
+        let pattern = &Sum::alone(&self.scene, &of.pattern, self.time);
+        let integral = |edge: usize| Ok(self.lengths[edge] * pattern.mean(self.segment(edge))?);
+        let ambient = self.ambient_terms(of).map(|(term, outside)| {
+            let outside = Sum::alone(&self.scene, outside, self.time);
+            let product = |edge: usize| {
+                let segment = self.segment(edge);
+                let both = mean_on_edge(segment, |x, y| pattern.at(x, y) * outside.at(x, y));
+                outside.finite(self.lengths[edge] * both, segment[0])
+            };
+            Ok((term, self.each_law(of, product)?))
+        });
+        Ok(TransferPattern {
+            integrals: self.each_law(of, integral)?,
+            ambient: ambient.collect::<Result<_>>()?,
+            points: self.each_law(of, |edge| self.pattern_at_points(pattern, edge))?,
+        })
+    }
+
+    fn pattern_at_points(&self, pattern: &Sum, edge: usize) -> Result<[f64; DATA_POINTS]> {
+        let mut values = [0.0; DATA_POINTS];
+        for (value, [t, _]) in values.iter_mut().zip(f64::GAUSS[DATA_POINTS - 1]) {
+            let [x, y] = self.along(edge, *t);
+            *value = pattern.finite(self.lengths[edge] * pattern.at(x, y), [x, y])?;
+        }
+        Ok(values)
+    }
+
+    /// Terms of u_ext on the boundary of an input: the base, and every input that adds to it.
+    fn ambient_terms<'s>(
+        &'s self,
+        of: &'s Input,
+    ) -> impl Iterator<Item = (Term, &'s Located<Expression>)> {
+        let scene = &self.scene;
+        let boundary = scene.boundaries.iter().find(|known| known.name.value == of.of.value);
+        let base = boundary.and_then(|known| known.condition.load(Field::Ambient));
+        let acts = |(_, other): &(Term, &Input)| {
+            other.field.value == Field::Ambient && other.of.value == of.of.value
+        };
+        let inputs = (1..).zip(&scene.inputs).filter(acts);
+        base.map(|base| (0, base)).into_iter().chain(inputs.map(|(at, of)| (at, &of.pattern)))
+    }
+
+    /// A number for each transfer law: `take` of its edge where `of` acts, else 0.
+    fn each_law<T: Default>(
+        &self,
+        of: &Input,
+        take: impl Fn(usize) -> Result<T>,
+    ) -> Result<Vec<T>> {
+        let records = self.loads.robin.iter().map(|record| record.edge as usize);
+        let entry = |edge: usize| {
+            let name = self.boundary_of(edge).map(|boundary| &boundary.name.value);
+            if name == Some(&of.of.value) { take(edge) } else { Ok(T::default()) }
+        };
+        records.map(entry).collect()
+    }
 }
 
 #[cfg(test)]

@@ -73,9 +73,8 @@ fn idle_loads(problem: &Problem) -> Vec<String> {
 
 /// Whether a boundary of the scene covers no edge; only a default can.
 fn is_idle(problem: &Problem, name: &str) -> bool {
-    let of = |edge: usize| problem.binding.boundary(problem.ends[edge]);
-    name == "default"
-        && !outer(problem).filter_map(of).any(|at| problem.scene.boundaries[at].name.value == name)
+    let of = |edge: usize| problem.boundary_of(edge);
+    name == "default" && !outer(problem).filter_map(of).any(|of| of.name.value == name)
 }
 
 /// The edges on the boundary.

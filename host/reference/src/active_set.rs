@@ -35,13 +35,6 @@ const PATIENCE: usize = 10;
 /// Rounding of one step, in multiples of the largest |d_i|.
 const NOISE: f64 = 64.0 * f64::EPSILON;
 
-/// Where an unknown that leaves ψ goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Side {
-    Above,
-    Below,
-}
-
 /// S, the present guess of the contact set, and the factor of S_II that belongs to it.
 pub(super) struct ActiveSet<'a> {
     schur: MatRef<'a, f64>,
@@ -150,24 +143,26 @@ impl<'a> ActiveSet<'a> {
         multiply_add(self.schur, d, &mut multiplier);
         let largest = d.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
         let noise = noise.max(NOISE * largest);
-        (0..d.len())
-            .filter(|&i| match (self.active[i], self.below[i]) {
-                (true, _) => self.is_torn(i, multiplier[i], noise).is_some(),
+        let wrong = |i: usize| {
+            let torn = self.torn(i, multiplier[i], noise);
+            let is_wrong = match (self.active[i], self.below[i]) {
+                (true, _) => torn.is_some(),
                 (false, false) => d[i] < lower[i] - noise,
                 (false, true) => d[i] > lower[i] + noise,
-            })
-            .map(|i| (i, self.is_torn(i, multiplier[i], noise) == Some(Side::Below)))
-            .collect()
+            };
+            is_wrong.then_some((i, torn == Some(true)))
+        };
+        (0..d.len()).filter_map(wrong).collect()
     }
 
-    /// The side that an active unknown with this λ goes to, if it leaves.
-    fn is_torn(&self, i: usize, multiplier: f64, noise: f64) -> Option<Side> {
+    /// Whether an active unknown with this λ goes below ψ, if it leaves.
+    fn torn(&self, i: usize, multiplier: f64, noise: f64) -> Option<bool> {
         let noise = noise * self.schur[(i, i)].abs();
         let [least, most] = self.ends(i);
         if multiplier < least - noise {
-            return Some(Side::Above);
+            return Some(false);
         }
-        (multiplier > most + noise).then_some(Side::Below)
+        (multiplier > most + noise).then_some(true)
     }
 
     /// Each of `wrong`, with whether it is to be below ψ if it leaves, goes to another side.

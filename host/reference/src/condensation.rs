@@ -17,11 +17,9 @@
 
 use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Accum, ColMut, ColRef, Mat, MatRef, Par};
 
 use super::ReferenceError;
-use super::ordering::contact_last;
 use super::problem::Matrix;
 use super::sparse_cholesky::SparseCholesky;
 
@@ -49,21 +47,18 @@ pub(super) struct CondensedLoad {
 
 impl Condensation {
     pub fn new(matrix: &Matrix) -> Result<Self, ReferenceError> {
-        let (n, contact) = (matrix.unknowns(), matrix.contact());
+        let contact = matrix.contact();
         if contact > MOST_CONTACTS {
             return Err(ReferenceError::TooManyContacts { contact, most: MOST_CONTACTS });
         }
         let mut values = matrix.values.clone();
         let mut springs = Vec::with_capacity(contact);
-        for unknown in matrix.free..n {
+        for unknown in matrix.free..matrix.unknowns() {
             let entry = matrix.diagonal(unknown)?;
             springs.push(values[entry]);
             values[entry] *= 2.0;
         }
-        let (col_ptr, row_idx) = (&matrix.row_ptr, &matrix.col_idx);
-        let pattern = SymbolicSparseColMatRef::new_unsorted_checked(n, n, col_ptr, None, row_idx);
-        let sprung = SparseColMatRef::new(pattern, &values);
-        let cholesky = SparseCholesky::new(sprung, contact_last(matrix)?.as_ref())?;
+        let cholesky = SparseCholesky::new(matrix, &values)?;
         check_pivots(&cholesky, matrix)?;
         let schur = schur_complement(&cholesky, &springs, matrix.free);
         let negative =

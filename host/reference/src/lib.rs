@@ -13,16 +13,14 @@
 //!
 //! Where λ_i may be at most s_i ≥ 0, u_i may fall below ψ_i where it is that; where s_i = −∞, u_i ≤ ψ_i and λ_i ≤ 0.
 //!
-//! The way there, a file each: `ordering` keeps C last and the fill low; `condensation` factors
-//! once (`sparse_cholesky`) and reads the Schur complement S on C from the trailing block of L;
+//! The way there, a file each: `sparse_cholesky` keeps C last and the fill low; `condensation` factors
+//! once by it and reads the Schur complement S on C from the trailing block of L;
 //! `active_set` solves the small dense problem on S exactly; `refinement` repeats the two with
 //! the remaining residual until u is right to its last digits.
 
 mod active_set;
-mod components;
 mod condensation;
 mod linear;
-mod ordering;
 mod problem;
 mod refinement;
 mod sparse_cholesky;
@@ -34,12 +32,11 @@ use faer::sparse::FaerError;
 use thiserror::Error;
 
 pub use linear::Linear;
-pub use ordering::minimum_degree;
 pub use problem::Problem;
 pub use refinement::Solution;
+pub use sparse_cholesky::minimum_degree;
 
 use active_set::ActiveSet;
-use components::floating_components;
 use condensation::Condensation;
 use problem::{Matrix, check_finite};
 
@@ -57,7 +54,7 @@ impl Factor {
         problem.check()?;
         let matrix = Matrix::of(problem);
         let condensation = Condensation::new(&matrix)?;
-        let floating = floating_components(&matrix, problem.floating);
+        let floating = matrix.floating_components(problem.floating);
         Ok(Self { matrix, condensation, floating })
     }
 
@@ -73,22 +70,11 @@ impl Factor {
 }
 
 /// The minimiser of ½ xᵀSx − bᵀx over x ≥ 0 for a dense S = `matrix` and b = `load`: 0 exactly where it
-/// touches. `floating` lists the unknowns of each block on which S is singular.
+/// touches. `floating` lists the unknowns of each block on which S is singular. Where Sx − b may be at most `spans`,
+/// as in [`Problem`], x is of any sign.
 ///
 /// # Errors
 /// A matrix that is not positive definite, loads that point away from contact.
-pub fn minimise(
-    matrix: MatRef<'_, f64>,
-    floating: &[Vec<usize>],
-    load: &[f64],
-) -> Result<Vec<f64>, ReferenceError> {
-    minimise_between(matrix, floating, load, &[])
-}
-
-/// Minimises where Sx − b may be at most `spans`, as in [`Problem`]: x of any sign then.
-///
-/// # Errors
-/// As for [`minimise`].
 pub fn minimise_between(
     matrix: MatRef<'_, f64>,
     floating: &[Vec<usize>],

@@ -1,9 +1,6 @@
 //! K x = b for many b at once, where nothing is in contact.
 
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-
 use super::condensation::check_pivots;
-use super::ordering::contact_last;
 use super::problem::{Matrix, check_finite};
 use super::sparse_cholesky::SparseCholesky;
 use super::{Problem, ReferenceError};
@@ -40,9 +37,7 @@ impl Linear<'_> {
             return Err(ReferenceError::Malformed("loads must hold whole columns"));
         }
         let matrix = Matrix::of(&problem);
-        let pattern = SymbolicSparseColMatRef::new_unsorted_checked(n, n, row_ptr, None, col_idx);
-        let order = contact_last(&matrix)?;
-        let cholesky = SparseCholesky::new(SparseColMatRef::new(pattern, values), order.as_ref())?;
+        let cholesky = SparseCholesky::new(&matrix, values)?;
         check_pivots(&cholesky, &matrix)?;
         let mut solutions = loads.to_vec();
         cholesky.solve_in_place(&mut solutions, n)?;

@@ -107,4 +107,33 @@ impl Matrix {
             .find(|&entry| self.col_idx[entry] as usize == row && self.values[entry] > 0.0)
             .ok_or(ReferenceError::NotPositiveDefinite { unknown: row })
     }
+
+    /// The contact unknowns (numbered within C) of each connected component of the matrix graph with a `floating` one:
+    /// nothing holds it but contact.
+    pub fn floating_components(&self, floating: &[bool]) -> Vec<Vec<usize>> {
+        let mut visited = vec![false; if floating.is_empty() { 0 } else { self.unknowns() }];
+        let seeds = floating.iter().enumerate().filter(|&(_, &floats)| floats);
+        seeds
+            .map(|(contact, _)| self.contact_reached_from(self.free + contact, &mut visited))
+            .filter(|component| !component.is_empty())
+            .collect()
+    }
+
+    /// The unvisited contact unknowns that a walk through the graph of K reaches.
+    fn contact_reached_from(&self, seed: usize, visited: &mut [bool]) -> Vec<usize> {
+        let (mut reached, mut pending) = (Vec::new(), Vec::new());
+        let mut visit = |unknown: usize, pending: &mut Vec<usize>| {
+            if !std::mem::replace(&mut visited[unknown], true) {
+                pending.push(unknown);
+            }
+        };
+        visit(seed, &mut pending);
+        while let Some(unknown) = pending.pop() {
+            reached.extend(unknown.checked_sub(self.free));
+            for &neighbour in self.columns(unknown) {
+                visit(neighbour as usize, &mut pending);
+            }
+        }
+        reached
+    }
 }

@@ -40,18 +40,8 @@ pub struct Solution {
 }
 
 impl Factor {
-    /// Minimises for the load b and the obstacle ψ = `lower`, starting from the contact set `guess`
-    /// (default: all in contact).
-    pub fn solve(
-        &self,
-        load: &[f64],
-        lower: &[f64],
-        guess: Option<&[bool]>,
-    ) -> Result<Solution, ReferenceError> {
-        self.solve_between(load, lower, &[], guess)
-    }
-
-    /// Solves with the most that λ may be, `spans` as in [`super::Problem`].
+    /// Minimises for the load b, the obstacle ψ = `lower` and the most that λ may be, `spans` as in [`super::Problem`],
+    /// starting from the contact set `guess` (default: all in contact).
     pub fn solve_between(
         &self,
         load: &[f64],

@@ -1,18 +1,23 @@
-//! K = L Lᵀ for a sparse K in a given order of elimination, by faer's supernodal factorisation.
+//! K = L Lᵀ for a sparse K by faer's supernodal factorisation, in a fill-reducing order of elimination that keeps the
+//! contact unknowns last.
+//!
+//! Approximate minimum degree orders the free block alone; the contact unknowns follow. The fill
+//! towards C is not seen by the ordering, which costs little as C is a curve.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{LltError, LltRegularization};
-use faer::perm::PermRef;
-use faer::sparse::linalg::SupernodalThreshold;
+use faer::perm::Perm;
 use faer::sparse::linalg::cholesky::supernodal::{SupernodalLltRef, SupernodeRef};
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
-use faer::sparse::{FaerError, SparseColMatRef};
+use faer::sparse::linalg::{SupernodalThreshold, amd};
+use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side, Spec};
 
 use super::ReferenceError;
+use super::problem::Matrix;
 
 /// L and the structure it is stored in.
 pub(super) struct SparseCholesky {
@@ -21,25 +26,25 @@ pub(super) struct SparseCholesky {
 }
 
 impl SparseCholesky {
-    /// Factors `matrix` (its lower triangle is read), eliminating in the order of `order`.
-    pub fn new(
-        matrix: SparseColMatRef<'_, u32, f64>,
-        order: PermRef<'_, u32>,
-    ) -> Result<Self, ReferenceError> {
+    /// Factors the matrix with the pattern of `matrix` and these `values` (their lower triangle is read), contact last.
+    pub fn new(matrix: &Matrix, values: &[f64]) -> Result<Self, ReferenceError> {
+        let (n, col_ptr, row_idx) = (matrix.unknowns(), &matrix.row_ptr, &matrix.col_idx);
+        let pattern = SymbolicSparseColMatRef::new_unsorted_checked(n, n, col_ptr, None, row_idx);
+        let order = contact_last(matrix)?;
         let symbolic = factorize_symbolic_cholesky(
-            matrix.symbolic(),
+            pattern,
             Side::Lower,
-            SymmetricOrdering::Custom(order),
+            SymmetricOrdering::Custom(order.as_ref()),
             CholeskySymbolicParams {
                 supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
                 ..Default::default()
             },
         )?;
-        let mut values = Vec::new();
-        values.try_reserve_exact(symbolic.len_val()).map_err(|_| FaerError::OutOfMemory)?;
-        values.resize(symbolic.len_val(), 0.0);
-        let mut cholesky = Self { symbolic, values };
-        cholesky.factorise(matrix)?;
+        let mut memory = Vec::new();
+        memory.try_reserve_exact(symbolic.len_val()).map_err(|_| FaerError::OutOfMemory)?;
+        memory.resize(symbolic.len_val(), 0.0);
+        let mut cholesky = Self { symbolic, values: memory };
+        cholesky.factorise(SparseColMatRef::new(pattern, values))?;
         Ok(cholesky)
     }
 
@@ -117,4 +122,39 @@ fn supernode_entries(
     };
     (0..width)
         .flat_map(move |j| (j..values.nrows()).map(move |i| (row_at(i), start + j, values[(i, j)])))
+}
+
+/// The order of elimination: position → unknown.
+fn contact_last(matrix: &Matrix) -> Result<Perm<u32>, FaerError> {
+    let (n, free) = (matrix.unknowns(), matrix.free);
+    let is_free = |column: &u32| (*column as usize) < free;
+    let columns = (0..free).map(|row| matrix.columns(row).iter().copied().filter(is_free));
+    let both = minimum_degree(columns)?.map(|mut order| {
+        order.extend(free as u32..n as u32);
+        order.into_boxed_slice()
+    });
+    let [order, position] = both;
+    Ok(Perm::new_checked(order, position, n))
+}
+
+/// Approximate minimum degree on a symmetric pattern, given column by column: the order (position → unknown) and its inverse.
+///
+/// # Errors
+/// A pattern beyond 32 bits, or too little memory.
+pub fn minimum_degree(
+    columns: impl Iterator<Item = impl Iterator<Item = u32>>,
+) -> Result<[Vec<u32>; 2], FaerError> {
+    let (mut col_ptr, mut row_idx) = (vec![0], Vec::new());
+    for column in columns {
+        row_idx.extend(column);
+        col_ptr.push(u32::try_from(row_idx.len()).map_err(|_| FaerError::IndexOverflow)?);
+    }
+    let n = col_ptr.len() - 1;
+    let pattern = SymbolicSparseColMatRef::new_unsorted_checked(n, n, &col_ptr, None, &row_idx);
+    let scratch = amd::order_maybe_unsorted_scratch::<u32>(n, row_idx.len());
+    let mut memory = MemBuffer::try_new(scratch).map_err(|_| FaerError::OutOfMemory)?;
+    let (control, stack) = (amd::Control::default(), MemStack::new(&mut memory));
+    let (mut order, mut position) = (vec![0; n], vec![0; n]);
+    amd::order_maybe_unsorted(&mut order, &mut position, pattern, control, stack)?;
+    Ok([order, position])
 }

@@ -73,7 +73,7 @@ impl<R: Scalar> Session for Condensed<'_, R> {
             *u = gap;
         }
         let certificate = report.certificate();
-        let data = || whole.certificate.as_ref().err().cloned().map(NoBound::Condensed);
+        let data = || whole.certificate.as_ref().err().cloned().map(NoBound::new);
         let certified = recovery.admissible(whole, at, &p, &x).filter(|_| certificate.is_some());
         let solution = Solution {
             scalar: crate::scalar_kind::<R>(),

@@ -226,20 +226,18 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Solves<R, S> {
     }
 
     /// The bound of the last tick, and the fields that it is about.
-    fn certified(&self, at: &Problem, status: Status) -> Certified {
+    fn certified(&self, status: Status) -> Certified {
         let without = |reason| Certified {
             bound: None,
             no_bound: Some(reason),
             answer: CertifiedFields::default(),
         };
         match &self.certifier {
-            None => without(NoBound::NotAsked),
-            Some(_) if status == Status::NotFinite => {
-                without(NoBound::Overflow { scalar: R::NAME })
-            }
+            None => without(NoBound::not_asked()),
+            Some(_) if status == Status::NotFinite => without(NoBound::overflow::<R>()),
             Some((certifier, data)) => Certified {
                 bound: self.certificate.as_ref().map(ErrorBound::new),
-                no_bound: certifier.no_bound(at, &self.parts, data),
+                no_bound: certifier.no_bound(data),
                 answer: certifier.answer(),
             },
         }
@@ -280,7 +278,7 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Session for Solves<R, S> {
     fn answer(&self, at: &Problem) -> Result<Solution> {
         let Some(outcome) = &self.outcome else { return Ok(Solution::default()) };
         let (assembled, u) = (self.swept.assembled(), [&self.u[..], &[]]);
-        let certified = self.certified(at, outcome.status);
+        let certified = self.certified(outcome.status);
         let read = read_off(at, &self.parts, assembled, outcome, u, certified);
         let read = read.map_err(unfit::<R>(&at.scene))?;
         Ok(Solution { scalar: scalar_kind::<R>(), ..read })

@@ -19,11 +19,11 @@ use signorini_kernel::rows;
 use signorini_kernel::solver::Status;
 
 use super::{
-    Clock, Ending, Ldlt, Options, Ran, Result, Solution, Solved, SolverKind, by_kernel, conclude,
-    direct, factored, started, unfit,
+    Attempt, Ending, Ldlt, Options, Ran, Result, ScalarKind, Solution, Solved, SolverKind,
+    by_kernel, direct, factored, unfit,
 };
 use signorini_problem::scalar::Scalar;
-use signorini_problem::{Approach, Assembled, Parts, Problem};
+use signorini_problem::{Approach, Parts, Problem};
 
 /// Sweeps per √N, from below: a problem that needs more is only solved sooner by the factor.
 const SWEEPS: f64 = 10.0;
@@ -42,56 +42,33 @@ pub fn prefers_factor(problem: &Problem) -> bool {
     factored < swept
 }
 
-/// The kernel's factor or the direct solver where a factor is less work, and sweeps where it is not or where
-/// neither has an answer.
-pub(super) fn in_f64(
+/// The kernel's factor or the direct solver (which works in f64) where a factor is less work, and sweeps where it is not
+/// or where neither has an answer.
+pub(super) fn chosen<R: Scalar>(
     problem: &Problem,
     parts: &Parts,
     options: &Options,
     start: &[f64],
 ) -> Result<Solution> {
     if options.solver == SolverKind::Factor || prefers_factor(problem) {
-        if let Some(found) = by_factor::<f64>(problem, parts, options, start)? {
+        if let Some(found) = by_factor::<R>(problem, parts, options, start, None)? {
             return Ok(found);
         }
         // Who has no answer leaves it to the kernel to say why.
-        if let Ok(found) = direct::directly(problem, parts, options)
+        if ScalarKind::of::<R>() == ScalarKind::F64
+            && let Ok(found) = direct::directly(problem, parts, options)
             && found.status == Ending::Solve(Status::Converged)
         {
             return Ok(found);
         }
     }
-    by_kernel::<f64>(problem, parts, options, start)
+    by_kernel::<R>(problem, parts, options, start)
 }
 
-/// Chooses without the direct solver, which works in f64.
-pub(super) fn in_f32(
-    problem: &Problem,
-    parts: &Parts,
-    options: &Options,
-    start: &[f64],
-) -> Result<Solution> {
-    if (options.solver == SolverKind::Factor || prefers_factor(problem))
-        && let Some(found) = by_factor::<f32>(problem, parts, options, start)?
-    {
-        return Ok(found);
-    }
-    by_kernel::<f32>(problem, parts, options, start)
-}
-
-/// The answer of the kernel's factor alone: [`by_known_factor`] of a new one.
+/// The answer of the kernel's factor alone, of the one that is known or else of a new one. Nothing where it cannot treat the
+/// problem, where a part is held by nothing, which leaves the matrix singular, where the factor would be too large, or where
+/// it leaves digits open.
 pub(super) fn by_factor<R: Scalar>(
-    problem: &Problem,
-    parts: &Parts,
-    options: &Options,
-    start: &[f64],
-) -> Result<Option<Solution>> {
-    by_known_factor::<R>(problem, parts, options, start, None)
-}
-
-/// The answer of a factor alone, of the one that is known. Nothing where it cannot treat the problem, where a part is held by
-/// nothing, which leaves the matrix singular, where the factor would be too large, or where it leaves digits open.
-pub(super) fn by_known_factor<R: Scalar>(
     problem: &Problem,
     parts: &Parts,
     options: &Options,
@@ -102,13 +79,11 @@ pub(super) fn by_known_factor<R: Scalar>(
         return Ok(None);
     }
     let unfit = unfit::<R>(&problem.scene);
-    let mut clock = Clock::start();
-    let mut assembled = Assembled::<R>::new(problem).map_err(&unfit)?;
-    assembled.set_parts(parts);
-    let system = assembled.system().map_err(&unfit)?;
-    let diagonal = assembled.diagonal().map_err(&unfit)?;
-    let assembly = clock.lap();
-    let mut u = started(&assembled, start);
+    let mut attempt = Attempt::<R>::new(problem, parts)?;
+    attempt.assembled.set_parts(parts);
+    let system = attempt.assembled.system().map_err(&unfit)?;
+    let diagonal = attempt.assembled.diagonal().map_err(&unfit)?;
+    let mut u = attempt.started(start);
     let mut low = vec![R::ZERO; u.len()];
     let settings = options.settings::<R>();
     let found = factored::solve(&system, diagonal, &settings, &mut u, &mut low, known);
@@ -116,7 +91,6 @@ pub(super) fn by_known_factor<R: Scalar>(
     if !matches!(outcome.status, Status::Converged | Status::RoundingLimit) {
         return Ok(None);
     }
-    let (ran, factored, scalar) = (Ran::Factor, Some(factored), options.scalar);
-    let solved = Solved { outcome, ran, factored, u, low, scalar, assembly, clock };
-    conclude(problem, parts, &assembled, solved).map(Some)
+    let factored = Some(factored);
+    attempt.conclude(Solved { outcome, ran: Ran::Factor, factored, u, low }).map(Some)
 }

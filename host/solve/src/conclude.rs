@@ -1,4 +1,4 @@
-//! From an iterate to a solution: fluxes, the bound, and what is read off.
+//! From a problem to an iterate and on to a solution: assembly, then fluxes, the bound, and what is read off.
 
 use std::time::Instant;
 
@@ -14,7 +14,18 @@ use signorini_problem::scalar::Scalar;
 use signorini_problem::{Assembled, Parts, Problem};
 use signorini_scene::error::Result;
 
-/// An iterate, and the time up to its assembly.
+/// A problem in the hands of a solver: assembled in its scalar.
+pub(super) struct Attempt<'p, R: Scalar> {
+    pub problem: &'p Problem,
+    pub parts: &'p Parts,
+    pub assembled: Assembled<'p, R>,
+    /// Seconds that it took.
+    pub assembly: f64,
+    /// Started after the assembly.
+    pub clock: Clock,
+}
+
+/// An iterate, and how it was found.
 pub(super) struct Solved<R> {
     pub outcome: Outcome<R>,
     pub ran: Ran,
@@ -22,33 +33,43 @@ pub(super) struct Solved<R> {
     pub u: Vec<R>,
     /// The low part of u, or nothing.
     pub low: Vec<R>,
-    pub scalar: ScalarKind,
-    pub assembly: f64,
-    /// Started after the assembly.
-    pub clock: Clock,
 }
 
-/// Fluxes, certificate and what is read off.
-pub(super) fn conclude<R: Scalar>(
-    problem: &Problem,
-    parts: &Parts,
-    assembled: &Assembled<R>,
-    solved: Solved<R>,
-) -> Result<Solution> {
-    let unfit = unfit::<R>(&problem.scene);
-    let Solved { outcome, ran, factored, u, low, scalar, assembly, mut clock } = solved;
-    if outcome.status == Status::NotFinite {
-        return Err(overflow::<R>(&problem.scene));
+impl<'p, R: Scalar> Attempt<'p, R> {
+    /// Assembles `problem`.
+    pub fn new(problem: &'p Problem, parts: &'p Parts) -> Result<Self> {
+        let mut clock = Clock::start();
+        let assembled = Assembled::new(problem).map_err(unfit::<R>(&problem.scene))?;
+        let assembly = clock.lap();
+        Ok(Self { problem, parts, assembled, assembly, clock })
     }
-    let solve = clock.lap();
-    stage("fluxes and error bound");
-    let data = Data::new(problem)?;
-    let certified = Certified::new(problem, parts, assembled, &data, &u).map_err(&unfit)?;
-    let certificate = clock.lap();
-    let iterate = [&u[..], &low];
-    let read = read_off(problem, parts, assembled, &outcome, iterate, certified).map_err(&unfit)?;
-    let seconds = Seconds { assembly, solve, flux: clock.lap(), certificate };
-    Ok(Solution { scalar, ran, factored, seconds, ..read })
+
+    /// u to begin with: what Dirichlet data and `start` say, and 0.
+    pub fn started(&self, start: &[f64]) -> Vec<R> {
+        let unknowns = self.assembled.edges().counts().unknowns();
+        let mut u = self.assembled.start();
+        u.iter_mut().take(unknowns).zip(start).for_each(|(u, &start)| *u = R::narrow(start));
+        u
+    }
+
+    /// Fluxes, certificate and what is read off.
+    pub fn conclude(self, solved: Solved<R>) -> Result<Solution> {
+        let Self { problem, parts, assembled, assembly, mut clock } = self;
+        let unfit = unfit::<R>(&problem.scene);
+        let Solved { outcome, ran, factored, u, low } = solved;
+        if outcome.status == Status::NotFinite {
+            return Err(overflow::<R>(&problem.scene));
+        }
+        let solve = clock.lap();
+        stage("fluxes and error bound");
+        let data = Data::new(problem)?;
+        let certified = Certified::new(problem, parts, &assembled, &data, &u).map_err(&unfit)?;
+        let certificate = clock.lap();
+        let read = read_off(problem, parts, &assembled, &outcome, [&u, &low], certified);
+        let read = read.map_err(&unfit)?;
+        let seconds = Seconds { assembly, solve, flux: clock.lap(), certificate };
+        Ok(Solution { scalar: ScalarKind::of::<R>(), ran, factored, seconds, ..read })
+    }
 }
 
 /// Everything that is read off the iterate `u` with the low part `low` (may be empty): fluxes, force, active edges.
@@ -63,8 +84,11 @@ pub fn read_off<R: Scalar>(
     [u, low]: [&[R]; 2],
     certified: Certified,
 ) -> std::result::Result<Solution, KernelError> {
-    let Fluxes { flux, mismatch, force } = Fluxes::recover(assembled, u, low)?;
     let (counts, law) = (problem.topology.counts, assembled.law());
+    let mut flux = vec![R::ZERO; u.len()];
+    let found = assembled.recover(u, low, &mut flux)?;
+    let force = contact::force(counts, &assembled.boundary()?, law, u, &flux).wide();
+    let mismatch = found.mismatch.wide() / found.largest.wide().max(f64::TINY);
     let mut solution = Solution {
         status: Ending::Solve(outcome.status),
         sweeps: outcome.sweeps,
@@ -87,28 +111,6 @@ pub fn read_off<R: Scalar>(
         centre_floating(problem, parts, u, vertices);
     }
     Ok(solution)
-}
-
-struct Fluxes<R> {
-    flux: Vec<R>,
-    mismatch: f64,
-    force: f64,
-}
-
-impl<R: Scalar> Fluxes<R> {
-    fn recover(
-        assembled: &Assembled<R>,
-        u: &[R],
-        low: &[R],
-    ) -> std::result::Result<Self, KernelError> {
-        let edges = assembled.edges();
-        let mut flux = vec![R::ZERO; u.len()];
-        let found = assembled.recover(u, low, &mut flux)?;
-        let (boundary, law) = (assembled.boundary()?, assembled.law());
-        let force = contact::force(edges.counts(), &boundary, law, u, &flux).wide();
-        let mismatch = found.mismatch.wide() / found.largest.wide().max(f64::TINY);
-        Ok(Self { flux, mismatch, force })
-    }
 }
 
 /// Seconds from lap to lap.

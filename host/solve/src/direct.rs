@@ -6,7 +6,7 @@ use signorini_kernel::Error as KernelError;
 use signorini_kernel::mesh::components::Support;
 use signorini_kernel::solver::{Outcome, Status};
 
-use super::{Clock, Factored, Options, Ran, ScalarKind, Solution, Solved, conclude, unfit};
+use super::{Attempt, Factored, Options, Ran, Solution, Solved, unfit};
 use signorini_problem::progress::stage;
 use signorini_problem::{Assembled, Parts, Problem};
 use signorini_reference::{Factor, ReferenceError};
@@ -14,16 +14,15 @@ use signorini_scene::error::{InputError, Result};
 
 pub(super) fn directly(problem: &Problem, parts: &Parts, options: &Options) -> Result<Solution> {
     let unfit = unfit::<f64>(&problem.scene);
-    let mut clock = Clock::start();
-    let assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
+    let attempt = Attempt::<f64>::new(problem, parts)?;
+    let assembled = &attempt.assembled;
     let system = assembled.system().map_err(&unfit)?;
-    let assembly = clock.lap();
     let failed = |error: ReferenceError| {
         InputError::new(format!("the direct solver found no solution: {error}"))
             .file(&problem.scene.path)
     };
     let mut u = assembled.start();
-    let reduced = Reduced::new(problem, parts, &assembled, &u).map_err(&unfit)?;
+    let reduced = Reduced::new(problem, parts, assembled, &u).map_err(&unfit)?;
     stage("a sparse Cholesky factor");
     let (lower, spans) = (system.law().lower(), system.law().spans().lengths());
     let factor = Factor::new(&reduced.problem(lower, spans)).map_err(failed)?;
@@ -37,11 +36,9 @@ pub(super) fn directly(problem: &Problem, parts: &Parts, options: &Options) -> R
         _ => Status::Converged,
     };
     let outcome = Outcome { status, sweeps: 0, conjugate: 0, residual, omega: 0.0 };
-    let (ran, scalar) = (Ran::Direct, ScalarKind::F64);
     let (exchanges, rounds) = (found.steps as u32, found.passes as u32);
     let factored = Some(Factored { entries: factor.entries(), exchanges, rounds });
-    let solved = Solved { outcome, ran, factored, u, low: Vec::new(), scalar, assembly, clock };
-    conclude(problem, parts, &assembled, solved)
+    attempt.conclude(Solved { outcome, ran: Ran::Direct, factored, u, low: Vec::new() })
 }
 
 /// K and b with the Dirichlet columns moved to the right: what the reference takes.

@@ -27,14 +27,10 @@ pub fn of_solution(problem: &Problem, solution: &crate::Solution) -> Result<Opti
     if solution.bound.is_none() {
         return Ok(None);
     }
-    let Some(problem) = &solution.scaled else {
-        return norm(problem, &solution.certified.admissible()).map(Some);
-    };
-    // Squares of the scene's numbers may overflow or vanish; those of the solve's do not.
-    let units = solution.units;
-    let solution = crate::times(&units.inverse(), solution.clone());
-    let norm = norm(problem, &solution.certified.admissible())?;
-    Ok(Some(norm * units.energy()))
+    if let Some((problem, own)) = solution.in_its_units() {
+        return Ok(of_solution(problem, &own)?.map(|norm| norm * solution.units.energy()));
+    }
+    norm(problem, &solution.certified.admissible()).map(Some)
 }
 
 /// (‖A^½∇S‖² + ∫_R h S²)^½ at the time of the problem.

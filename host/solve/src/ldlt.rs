@@ -86,15 +86,10 @@ impl<R: Scalar> Ldlt<R> {
 /// The free unknowns in the order of their elimination, or nothing where memory is short.
 fn order<R: Scalar>(system: &System<R, u32>) -> Option<Vec<u32>> {
     let free = system.counts().free;
-    let (mut col_ptr, mut row_idx) = (vec![0], Vec::new());
-    for row in system.matrix().iter().take(free) {
-        let columns = row.entries().map(|(column, _)| column).filter(|&column| column < free);
-        row_idx.extend(columns.map(|column| column as u32));
-        col_ptr.push(u32::try_from(row_idx.len()).ok()?);
-    }
-    let mut order = vec![0; free];
-    minimum_degree(&col_ptr, &row_idx, [&mut order, &mut vec![0; free]]).ok()?;
-    Some(order)
+    let rows = system.matrix().iter().take(free).map(|row| {
+        row.entries().map(|(column, _)| column as u32).filter(|&column| (column as usize) < free)
+    });
+    minimum_degree(rows).ok().map(|[order, _]| order)
 }
 
 /// The kernel's memory for exchanges on S.

@@ -10,7 +10,7 @@
 
 use signorini_kernel::mesh::components::Support;
 
-use super::{ScalarKind, Solution, unfit};
+use super::{Solution, unfit};
 use signorini_problem::{Parts, Problem};
 use signorini_scene::error::Result;
 
@@ -66,11 +66,7 @@ fn free_level(
     let counts = problem.topology.counts;
     let edges = problem.topology.edges().map_err(unfit::<f64>(&problem.scene))?;
     let own = (0..counts.contact).filter(|&at| parts.of_edge(&edges, counts.free + at) == part);
-    let epsilon = match solution.scalar {
-        ScalarKind::F64 => f64::EPSILON,
-        ScalarKind::F32 => f64::from(f32::EPSILON),
-    };
-    let rounding = ROUNDINGS * epsilon + 10.0 * solution.algebraic_residual;
+    let rounding = ROUNDINGS * solution.scalar.epsilon() + 10.0 * solution.algebraic_residual;
     let flux_rounding = rounding * solution.largest_flux();
     let (mut by, mut largest, mut near) = ([f64::INFINITY; 2], 0.0_f64, [0.0; 2]);
     for at in own {

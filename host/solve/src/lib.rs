@@ -21,8 +21,6 @@ mod mixed;
 pub mod norms;
 mod options;
 pub mod outputs;
-mod ran;
-mod shared;
 mod solution;
 #[cfg(test)]
 mod tests;
@@ -30,13 +28,11 @@ mod tuned;
 mod units;
 
 pub use auto::prefers_factor;
-pub use ending::{Ending, status_name};
-pub use factored::Factored;
+pub use ending::{Ending, Ran, status_name};
+pub use factored::{Factored, SharedFactor};
 pub use level::{FreeLevel, free_levels};
 pub use mixed::{Corrected, Mixed, mixed};
 pub use options::{Options, ScalarKind, SolverKind};
-pub use ran::Ran;
-pub use shared::SharedFactor;
 pub use solution::{Seconds, Solution};
 pub use tuned::{Trials, tuned_omega};
 pub use units::{Scaled, choose as choose_units, choose_for_inputs, times};
@@ -51,12 +47,12 @@ use signorini_kernel::system::System;
 use signorini_kernel::{Error as KernelError, Libm};
 
 pub use conclude::read_off;
-use conclude::{Clock, Solved, conclude};
+use conclude::{Attempt, Clock, Solved};
 pub use direct::Reduced;
 pub use ldlt::{Exchanges, Ldlt, exchanges};
 use signorini_problem::progress::stage;
 use signorini_problem::scalar::Scalar;
-use signorini_problem::{Approach, Assembled, Parts, Problem};
+use signorini_problem::{Approach, Parts, Problem};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::scene::Scene;
 pub use solution::centre_floating;
@@ -87,46 +83,41 @@ pub fn solve_from(problem: &Problem, options: &Options, start: &[f64]) -> Result
 fn solve_in_its_units(problem: &Problem, options: &Options, start: &[f64]) -> Result<Solution> {
     let parts = Parts::examine(problem)?;
     match (options.solver, options.scalar) {
-        (SolverKind::Auto | SolverKind::Factor, ScalarKind::F64) => {
-            auto::in_f64(problem, &parts, options, start)
-        }
-        (SolverKind::Auto | SolverKind::Factor, ScalarKind::F32) => {
-            auto::in_f32(problem, &parts, options, start)
-        }
-        (SolverKind::Kernel, ScalarKind::F64) => by_kernel::<f64>(problem, &parts, options, start),
-        (SolverKind::Kernel, ScalarKind::F32) => by_kernel::<f32>(problem, &parts, options, start),
         (SolverKind::Direct, ScalarKind::F64) => direct::directly(problem, &parts, options),
         (SolverKind::Direct, ScalarKind::F32) => {
             Err(InputError::new("--solver direct works in f64, --scalar f32 was asked for")
                 .hint("leave out --scalar, or use --solver auto")
                 .into())
         }
+        (_, ScalarKind::F64) => in_scalar::<f64>(problem, &parts, options, start),
+        (_, ScalarKind::F32) => in_scalar::<f32>(problem, &parts, options, start),
+    }
+}
+
+fn in_scalar<R: Scalar>(
+    problem: &Problem,
+    parts: &Parts,
+    options: &Options,
+    start: &[f64],
+) -> Result<Solution> {
+    match options.solver {
+        SolverKind::Kernel => by_kernel::<R>(problem, parts, options, start),
+        _ => auto::chosen::<R>(problem, parts, options, start),
     }
 }
 
 /// The kernel's refusal, in the scene's words.
 pub fn unfit<R: Scalar>(scene: &Scene) -> impl Fn(KernelError) -> Error + '_ {
-    move |error| {
-        InputError::new(format!("the scene does not fit {}: {error}", R::NAME))
-            .file(&scene.path)
-            .hint("scale the data so that they are neither tiny nor huge, or use --scalar f64")
-            .into()
-    }
+    |error| beyond(scene, format!("the scene does not fit {}: {error}", R::NAME))
 }
 
 fn overflow<R: Scalar>(scene: &Scene) -> Error {
-    InputError::new(format!("not-finite: the solution overflows {}", R::NAME))
-        .file(&scene.path)
-        .hint("scale the data so that they are neither tiny nor huge, or use --scalar f64")
-        .into()
+    beyond(scene, format!("not-finite: the solution overflows {}", R::NAME))
 }
 
-/// u to begin with: what Dirichlet data and `start` say, and 0.
-fn started<R: Scalar>(assembled: &Assembled<R>, start: &[f64]) -> Vec<R> {
-    let unknowns = assembled.edges().counts().unknowns();
-    let mut u = assembled.start();
-    u.iter_mut().take(unknowns).zip(start).for_each(|(u, &start)| *u = R::narrow(start));
-    u
+fn beyond(scene: &Scene, message: String) -> Error {
+    let hint = "scale the data so that they are neither tiny nor huge, or use --scalar f64";
+    InputError::new(message).file(&scene.path).hint(hint).into()
 }
 
 fn by_kernel<R: Scalar>(
@@ -136,14 +127,11 @@ fn by_kernel<R: Scalar>(
     start: &[f64],
 ) -> Result<Solution> {
     let unfit = unfit::<R>(&problem.scene);
-    let mut clock = Clock::start();
-    let mut assembled = Assembled::<R>::new(problem).map_err(&unfit)?;
-    assembled.set_parts(parts);
-    let system = assembled.system().map_err(&unfit)?;
-    let diagonal = assembled.diagonal().map_err(&unfit)?;
-    let assembly = clock.lap();
-
-    let mut u = started(&assembled, start);
+    let mut attempt = Attempt::<R>::new(problem, parts)?;
+    attempt.assembled.set_parts(parts);
+    let system = attempt.assembled.system().map_err(&unfit)?;
+    let diagonal = attempt.assembled.diagonal().map_err(&unfit)?;
+    let mut u = attempt.started(start);
     let mut low = vec![R::ZERO; u.len()];
     let iterate = if problem.mesh.quads.is_empty() {
         iterate::<R, { rows::TRIANGLES }>
@@ -151,12 +139,11 @@ fn by_kernel<R: Scalar>(
         iterate::<R, { rows::QUADS }>
     };
     let may_factor = Approach::Factor.lack_with(problem, parts.counts).is_none();
-    let edges = assembled.edges();
+    let edges = attempt.assembled.edges();
     let found = iterate(&system, diagonal, edges, options, may_factor, &mut u, &mut low);
-    let ((outcome, factored), scalar) = (found.map_err(&unfit)?, options.scalar);
+    let (outcome, factored) = found.map_err(&unfit)?;
     let ran = if factored.is_some() { Ran::Factor } else { Ran::Sweeps };
-    let solved = Solved { outcome, ran, factored, u, low, scalar, assembly, clock };
-    conclude(problem, parts, &assembled, solved)
+    attempt.conclude(Solved { outcome, ran, factored, u, low })
 }
 
 /// Sweeps with rows of `WIDTH` entries and refines, and where that does not end takes the factor, if it may; `low`
@@ -170,11 +157,22 @@ fn iterate<R: Scalar, const WIDTH: usize>(
     u: &mut [R],
     low: &mut [R],
 ) -> std::result::Result<(Outcome<R>, Option<Factored>), KernelError> {
-    let settings = options.settings::<R>();
-    let patience = Settings { max_sweeps: options.max_sweeps.min(refinement::PLAIN), ..settings };
+    let (counts, rounds, settings) = (edges.counts(), options.rounds(), options.settings::<R>());
     let sweep = |settings, u: &mut [R], low: &mut [R]| {
-        sweep::<R, WIDTH>(system, diagonal, edges, settings, options.rounds(), u, low)
+        let mut rows = vec![Row::<R, u32, WIDTH>::EMPTY; counts.unknowns()];
+        let buffers = RefinementBuffers {
+            rows: Rows::new(edges, &mut rows)?,
+            low,
+            defect: &mut vec![R::ZERO; counts.unknowns()],
+            lower: &mut vec![R::ZERO; counts.contact],
+            conjugate: ConjugateBuffers {
+                direction: &mut vec![R::ZERO; counts.edges()],
+                residual: &mut vec![R::ZERO; counts.unknowns()],
+            },
+        };
+        refinement::run::<R, u32, Libm, WIDTH>(system, diagonal, settings, rounds, u, buffers)
     };
+    let patience = Settings { max_sweeps: options.max_sweeps.min(refinement::PLAIN), ..settings };
     stage(&format!("at most {} sweeps", patience.max_sweeps));
     let swept = sweep(patience, u, low)?;
     let ended = !matches!(swept.status, Status::OutOfSweeps | Status::Stalled);
@@ -191,28 +189,4 @@ fn iterate<R: Scalar, const WIDTH: usize>(
     let mut found = sweep(Settings { max_sweeps: left, ..settings }, u, low)?;
     found.sweeps = found.sweeps.saturating_add(swept.sweeps);
     Ok((found, None))
-}
-
-fn sweep<R: Scalar, const WIDTH: usize>(
-    system: &System<R, u32>,
-    diagonal: DiagonalTerms<R, u32>,
-    edges: &Edges<u32>,
-    settings: Settings<R>,
-    rounds: u32,
-    u: &mut [R],
-    low: &mut [R],
-) -> std::result::Result<Outcome<R>, KernelError> {
-    let counts = edges.counts();
-    let mut rows = vec![Row::<R, u32, WIDTH>::EMPTY; counts.unknowns()];
-    let buffers = RefinementBuffers {
-        rows: Rows::new(edges, &mut rows)?,
-        low,
-        defect: &mut vec![R::ZERO; counts.unknowns()],
-        lower: &mut vec![R::ZERO; counts.contact],
-        conjugate: ConjugateBuffers {
-            direction: &mut vec![R::ZERO; counts.edges()],
-            residual: &mut vec![R::ZERO; counts.unknowns()],
-        },
-    };
-    refinement::run::<R, u32, Libm, WIDTH>(system, diagonal, settings, rounds, u, buffers)
 }

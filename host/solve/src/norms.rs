@@ -46,13 +46,8 @@ pub struct Errors {
 /// An exact solution that is not finite at a quadrature point.
 pub fn of_solution(problem: &Problem, solution: &crate::Solution) -> Result<Option<Errors>> {
     let Some(exact) = &problem.scene.exact else { return Ok(None) };
-    if let Some(problem) = &solution.scaled {
-        // Squares of the scene's numbers may overflow or vanish; those of the solve's do not.
-        let units = solution.units;
-        let solution = crate::times(&units.inverse(), solution.clone());
-        let solution = crate::Solution { scaled: None, ..solution };
-        let errors = of_solution(problem, &solution)?;
-        return Ok(errors.map(|errors| errors.times(&units)));
+    if let Some((problem, own)) = solution.in_its_units() {
+        return Ok(of_solution(problem, &own)?.map(|errors| errors.times(&solution.units)));
     }
     let errors = errors(exact, problem, &solution.u, &solution.flux)?;
     if solution.bound.is_none() {

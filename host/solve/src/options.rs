@@ -19,6 +19,11 @@ pub enum ScalarKind {
 }
 
 impl ScalarKind {
+    /// The kind of a scalar.
+    pub(super) fn of<R: Scalar>() -> Self {
+        if R::NAME == f64::NAME { Self::F64 } else { Self::F32 }
+    }
+
     /// The nearest number of this type.
     pub fn round(self, x: f64) -> f64 {
         match self {

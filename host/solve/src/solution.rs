@@ -8,7 +8,7 @@ use signorini_kernel::Real;
 use signorini_kernel::mesh::components::{PartCounts, Support};
 use signorini_kernel::mesh::geometry::{quad_area, triangle_area};
 
-use super::{Ending, Factored, Ran, ScalarKind};
+use super::{Ending, Factored, Ran, ScalarKind, times};
 use signorini_certify::{CertifiedFields, ErrorBound, NoBound};
 use signorini_problem::field::CellField;
 use signorini_problem::{Parts, Problem};
@@ -81,6 +81,14 @@ impl Solution {
     /// The solve reached its tolerance, or all that rounding allows.
     pub fn converged(&self) -> bool {
         self.status.is_success()
+    }
+
+    /// This solution with its problem, both in the units of the solve; nothing where these are the scene's. Squares of the
+    /// scene's numbers may overflow or vanish; those of the solve's do not.
+    pub fn in_its_units(&self) -> Option<(&Problem, Self)> {
+        let problem = self.scaled.as_deref()?;
+        let own = times(&self.units.inverse(), self.clone());
+        Some((problem, Self { scaled: None, ..own }))
     }
 
     /// With these contact edges active, one flag each.

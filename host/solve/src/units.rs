@@ -20,6 +20,9 @@ pub fn choose(problem: &Problem) -> Result<Units> {
     // An even power, whose root is a power of two as well.
     let conductivity = conductivity & !1;
     let units = Units { u: exp2(u), conductivity: exp2(conductivity) };
+    let refused = |message: String, hint: &str| {
+        Err(InputError::new(message).file(problem.scene.file()).hint(hint).into())
+    };
     // Energies go with U²α, sums of them with the number of cells.
     if 2 * u + conductivity > 960 || u + conductivity > 960 {
         let message = format!(
@@ -34,16 +37,13 @@ pub fn choose(problem: &Problem) -> Result<Units> {
                 "choose other units; an end of the flux that nothing reaches is \"inf\" or \"-inf\""
             }
         };
-        return Err(InputError::new(message).file(problem.scene.file()).hint(hint).into());
+        return refused(message, hint);
     }
     // Normal numbers begin at 2^−1022, and fluxes are smaller than u.
     if u < -960 {
         let message =
             format!("u of about 1e{:.0} is too small for f64 to hold its digits", units.u.log10());
-        return Err(InputError::new(message)
-            .file(problem.scene.file())
-            .hint("choose other units")
-            .into());
+        return refused(message, "choose other units");
     }
     let is_near = |exponent: i32| exponent.abs() <= NEAR;
     let all = [u, conductivity, u + conductivity].into_iter().all(is_near);

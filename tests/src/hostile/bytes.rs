@@ -4,6 +4,7 @@
 //! fuzzer that changes one byte changes one value.
 
 use signorini_problem::scalar::Scalar;
+use signorini_tolerances::twins::AFTER_EXTREMES;
 
 /// Bytes that have not been read yet.
 #[derive(Debug, Clone)]
@@ -127,6 +128,19 @@ impl<'a> Bytes<'a> {
         let tame = |x: R| if wild || x.finite() { x } else { R::ONE };
         (0..count).map(|_| tame(self.real())).collect()
     }
+}
+
+/// The bits of numbers, which tell −0 from 0 and one NaN from another.
+pub fn bits<R: Scalar>(numbers: &[R]) -> Vec<u64> {
+    numbers.iter().map(|x| x.wide().to_bits()).collect()
+}
+
+/// Asserts that an answer after extreme ticks is that of a cold start.
+pub fn check_settled<R: Scalar>(what: &str, found: &[R], cold: &[R]) {
+    let size = cold.iter().fold(R::ONE, |most, x| most.or_larger(x.magnitude()));
+    let off = found.iter().zip(cold);
+    let off = off.fold(R::ZERO, |most, (&x, &cold)| most.or_larger((x - cold).magnitude()));
+    AFTER_EXTREMES.check(what, off.wide() / size.wide() * f64::EPSILON / R::EPSILON.wide());
 }
 
 #[cfg(test)]

@@ -1,9 +1,6 @@
 //! Condensed models: of any arrays, and of sound scenes with any inputs.
 
-use std::sync::OnceLock;
-
 use signorini_bake::condensed::{Baked, Controller, Work};
-use signorini_condense::{CondensedModel, condense};
 use signorini_contact::certificate::{Corner, Form, Vertex};
 use signorini_contact::dense::Iterate;
 use signorini_contact::dense::blocks::{Block, Blocks, SIDE, count, padded};
@@ -17,12 +14,10 @@ use signorini_contact::{Condensed, Memory};
 use signorini_kernel::Error;
 use signorini_kernel::limits::Deadline;
 use signorini_kernel::report::{Ended, Report};
-use signorini_problem::Problem;
 
-use super::bytes::{Bits, Bytes};
+use super::bytes::{Bits, Bytes, bits, check_settled};
 use super::certified::is_bound;
-use super::scenes;
-use signorini_tolerances::twins::AFTER_EXTREMES;
+use super::scenes::{self, Kept};
 
 /// Contact edges, at most.
 const MOST: usize = 18;
@@ -170,7 +165,7 @@ fn ticked<R: Bits>(
 /// A scene's controller, tick after tick, with inputs of any bits; a second one is never asked for what the first
 /// refuses, and a third begins anew for every ordinary tick.
 pub fn controlled<R: Bits + Kept>(bytes: &mut Bytes) {
-    let all = R::baked();
+    let all = R::condensed();
     let baked = &all[bytes.below(all.len())];
     let (mut controller, mut spared) = (Controller::new(baked), Controller::new(baked));
     for _ in 0..1 + bytes.below(6) {
@@ -192,10 +187,6 @@ pub fn controlled<R: Bits + Kept>(bytes: &mut Bytes) {
 
 /// Outputs, and the report beside them.
 type Answer<R> = (Vec<R>, Report<R>);
-
-fn bits<R: Bits>(numbers: &[R]) -> Vec<u64> {
-    numbers.iter().map(|x| x.wide().to_bits()).collect()
-}
 
 fn answered<R: Bits>(inputs: &[R], (values, report): &Answer<R>, x: &[R]) {
     let [values @ .., bound] = &values[..] else { return };
@@ -226,50 +217,6 @@ fn ordinary<R: Bits>(
     if [answer.1.ended, expected.ended].contains(&Ended::OutOfSweeps) {
         return;
     }
-    let size = cold.x().iter().fold(R::ONE, |most, x| most.or_larger(*x));
-    let off = controller.x().iter().zip(cold.x());
-    let off = off.fold(R::ZERO, |most, (&x, &cold)| most.or_larger((x - cold).magnitude()));
-    let (off, size) = (off.wide(), size.wide());
     let said = format!("{inputs:?}: {:?} after {:?}", answer.1, expected);
-    AFTER_EXTREMES.check(&said, off / size * f64::EPSILON / R::EPSILON.wide());
-}
-
-/// Scalars with models that are baked once.
-pub trait Kept: Sized + 'static {
-    /// The models of all scenes, with every method.
-    fn baked() -> &'static [Baked<Self>]
-    where
-        Self: signorini_problem::scalar::Scalar;
-}
-
-const WORKS: [Work; 3] = [
-    Work { pivots: Some(100), sweeps: 20 },
-    Work { pivots: Some(2), sweeps: 3 },
-    Work { pivots: None, sweeps: 6 },
-];
-
-fn bake<R: Bits>() -> Vec<Baked<R>> {
-    let condensed = |text: &str| -> Option<CondensedModel> {
-        let (scene, mesh) = scenes::of(text)?;
-        condense(&Problem::new(&scene, mesh).ok()?).ok()
-    };
-    let condensates = scenes::TEXTS.iter().map(|text| condensed(text).expect("a sound scene"));
-    let baked = |condensate: &CondensedModel| {
-        WORKS.map(|work| Baked::new(condensate, work, true).expect("numbers of ordinary size"))
-    };
-    condensates.flat_map(|condensate| baked(&condensate)).collect()
-}
-
-impl Kept for f64 {
-    fn baked() -> &'static [Baked<Self>] {
-        static BAKED: OnceLock<Vec<Baked<f64>>> = OnceLock::new();
-        BAKED.get_or_init(bake)
-    }
-}
-
-impl Kept for f32 {
-    fn baked() -> &'static [Baked<Self>] {
-        static BAKED: OnceLock<Vec<Baked<f32>>> = OnceLock::new();
-        BAKED.get_or_init(bake)
-    }
+    check_settled(&said, controller.x(), cold.x());
 }

@@ -37,8 +37,8 @@ pub fn constructors(data: &[u8]) {
 fn construct<R: Bits>(which: u8, bytes: &mut Bytes) -> Result<(), Error> {
     match which % 8 {
         0 => of_mesh::<R>(bytes),
-        1 => of_numbering::<R>(bytes),
-        2 => unchecked::<R>(bytes),
+        1 => of_numbering::<R>(bytes, true),
+        2 => of_numbering::<R>(bytes, false),
         3 => of_matrix::<R>(bytes),
         4 => in_a_workspace::<R>(bytes),
         5 => small_ones::<R>(bytes),
@@ -125,31 +125,19 @@ fn corners<R: Bits>(bytes: &mut Bytes, numbering: &Numbering) -> Corners<R> {
     (bytes.groups(vertices), triangles, quads)
 }
 
-/// A numbering that [`Edges::new`] takes, with corners that nobody has checked.
-fn of_numbering<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
+/// A numbering that [`Edges::new`] takes, or one that nobody has checked, with corners that nobody has checked either: wrong
+/// answers and nothing worse.
+fn of_numbering<R: Bits>(bytes: &mut Bytes, is_checked: bool) -> Result<(), Error> {
     let numbering = Numbering::joined(bytes).damaged(bytes);
     let Numbering { of_triangles, of_quads, half_edges, counts } = &numbering;
-    let edges = Edges::new(of_triangles, of_quads, half_edges, *counts)?;
-    on_any_corners::<R>(bytes, &numbering, &edges)
-}
-
-/// A numbering that nobody has checked: wrong answers and nothing worse.
-fn unchecked<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
-    let numbering = Numbering::joined(bytes).damaged(bytes);
-    let Numbering { of_triangles, of_quads, half_edges, counts } = &numbering;
-    let edges = Edges::baked(of_triangles, of_quads, half_edges, *counts);
-    on_any_corners::<R>(bytes, &numbering, &edges)
-}
-
-fn on_any_corners<R: Bits>(
-    bytes: &mut Bytes,
-    numbering: &Numbering,
-    edges: &Edges<u16>,
-) -> Result<(), Error> {
-    let (vertices, triangles, quads) = corners(bytes, numbering);
+    let edges = match is_checked {
+        true => Edges::new(of_triangles, of_quads, half_edges, *counts)?,
+        false => Edges::baked(of_triangles, of_quads, half_edges, *counts),
+    };
+    let (vertices, triangles, quads) = corners(bytes, &numbering);
     let mesh = Mesh::<R, u16>::baked(&vertices, &triangles, &quads);
     let matrices = (bytes.groups(triangles.len()), bytes.groups(quads.len()));
-    stages::all(bytes, &mesh, edges, matrices)
+    stages::all(bytes, &mesh, &edges, matrices)
 }
 
 /// Any rows, swept if they are taken.

@@ -19,7 +19,6 @@ mod constructors;
 mod expression;
 mod mesh;
 mod plate;
-mod refusal;
 mod scene;
 mod scenes;
 mod solved;

@@ -8,8 +8,8 @@ use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{Curve, Mesh, Surface};
 use signorini_scene::scene::Scene;
 
-use super::refusal::refused;
-use super::{bytes, solved};
+use super::bytes;
+use super::solved::{self, refused};
 
 /// The text of a scene file.
 pub fn scene(data: &[u8]) {

@@ -5,14 +5,12 @@ use signorini_condense::condense;
 use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
-use signorini_scene::error::Result;
+use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::Scene;
 use signorini_session::tick::{Budget, TickRecord, play, schedule};
 use signorini_solve::outputs::outputs;
 use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
-
-use super::refusal::refused;
 
 /// Sweeps of a solve: enough for some looks at the residual.
 const SWEEPS: u32 = 40;
@@ -35,6 +33,13 @@ pub(super) fn answer(scene: &Scene, mesh: Mesh, way: u8) {
         4 => judge(baked_full::<f32>(&problem), |()| {}),
         _ => judge(baked_condensed::<f32>(&problem), |()| {}),
     }
+}
+
+/// Wrong input says so in a few words.
+pub(super) fn refused(error: &Error) {
+    assert_eq!(error.exit_status(), 2, "{error}");
+    let message = error.to_string();
+    assert!(!message.is_empty() && message.len() < 20_000, "{message}");
 }
 
 fn judge<T>(found: Result<T>, accepted: impl FnOnce(T)) {

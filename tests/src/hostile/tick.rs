@@ -1,7 +1,6 @@
 //! A control loop: sound meshes and models, with data, inputs, limits and deadlines of any bits.
 
 use std::cell::Cell;
-use std::sync::OnceLock;
 
 use signorini_bake::full::{Baked, Controller};
 use signorini_device::tick::{
@@ -11,14 +10,12 @@ use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::stiffness::{self, Coefficient};
 use signorini_kernel::{Error, Libm, Tensor};
-use signorini_problem::Problem;
 
-use super::bytes::{Bits, Bytes};
+use super::bytes::{Bits, Bytes, bits, check_settled};
 use super::certified::{Conditions, Foundation, Loads, is_bound};
-use super::condensed::{self, Kept};
+use super::condensed;
 use super::plate::Plate;
-use super::scenes;
-use signorini_tolerances::twins::AFTER_EXTREMES;
+use super::scenes::{self, Kept};
 
 /// The first byte chooses the loop and the scalar; the rest is what it is told.
 pub fn tick(data: &[u8]) {
@@ -27,7 +24,7 @@ pub fn tick(data: &[u8]) {
     if which & 0x80 == 0 { run::<f32>(which, &mut bytes) } else { run::<f64>(which, &mut bytes) }
 }
 
-fn run<R: Bits + Kept + Driven>(which: u8, bytes: &mut Bytes) {
+fn run<R: Bits + Kept>(which: u8, bytes: &mut Bytes) {
     match which % 4 {
         0 => condensed::controlled::<R>(bytes),
         1 => driven::<R>(bytes),
@@ -127,8 +124,8 @@ fn answered<R: Bits>(report: &Report<R>) {
 }
 
 /// A scene's full model, tick after tick, with inputs and limits of any bits.
-fn driven<R: Bits + Driven>(bytes: &mut Bytes) {
-    let all = R::baked();
+fn driven<R: Bits + Kept>(bytes: &mut Bytes) {
+    let all = R::full();
     let baked = &all[bytes.below(all.len())];
     if baked.has_quads() { on::<R, QUADS>(bytes, baked) } else { on::<R, TRIANGLES>(bytes, baked) }
 }
@@ -165,10 +162,6 @@ fn on<R: Bits, const WIDTH: usize>(bytes: &mut Bytes, baked: &Baked<R>) {
     ordinary(bytes, baked, &mut controller);
 }
 
-fn bits<R: Bits>(numbers: &[R]) -> Vec<u64> {
-    numbers.iter().map(|x| x.wide().to_bits()).collect()
-}
-
 /// Inputs of ordinary size: the answer is that of a cold start, whatever came before.
 fn ordinary<R: Bits, const WIDTH: usize>(
     bytes: &mut Bytes,
@@ -185,49 +178,5 @@ fn ordinary<R: Bits, const WIDTH: usize>(
     let said = format!("{inputs:?}: {report:?} instead of {expected:?}");
     let is_settled = |ended| matches!(ended, Ended::Settled | Ended::Exact);
     assert!(is_settled(report.ended) && is_settled(expected.ended), "{said}");
-    let size = cold.u().iter().fold(R::ONE, |most, u| most.or_larger(u.magnitude()));
-    let off = controller.u().iter().zip(cold.u());
-    let off = off.fold(R::ZERO, |most, (&u, &cold)| most.or_larger((u - cold).magnitude()));
-    let epsilons = f64::EPSILON / R::EPSILON.wide();
-    AFTER_EXTREMES.check(&said, off.wide() / size.wide() * epsilons);
-}
-
-/// Scalars with full models that are baked once.
-pub trait Driven: Sized + 'static {
-    /// The models of all scenes.
-    fn baked() -> &'static [Baked<Self>]
-    where
-        Self: signorini_problem::scalar::Scalar;
-}
-
-/// Sweeps or a factor, with a bound and without.
-const WAYS: [&str; 4] = [
-    "setting = { model = \"full\", solver = \"sweeps\" }\n",
-    "setting = { model = \"full\", solver = \"sweeps\", certificate = false }\n",
-    "setting = { model = \"full\", solver = \"factor\" }\n",
-    "setting = { model = \"full\", solver = \"factor\", certificate = false }\n",
-];
-
-fn bake<R: Bits>() -> Vec<Baked<R>> {
-    let baked = |text: &str| {
-        let (scene, mesh) = scenes::of(text).expect("a sound scene");
-        Baked::new(&Problem::new(&scene, mesh)?)
-    };
-    let all = scenes::TEXTS.iter().chain(&scenes::LIMITED);
-    let texts = all.flat_map(|text| WAYS.map(|way| format!("{text}{way}")));
-    texts.map(|text| baked(&text).expect("a model")).collect()
-}
-
-impl Driven for f64 {
-    fn baked() -> &'static [Baked<Self>] {
-        static BAKED: OnceLock<Vec<Baked<f64>>> = OnceLock::new();
-        BAKED.get_or_init(bake)
-    }
-}
-
-impl Driven for f32 {
-    fn baked() -> &'static [Baked<Self>] {
-        static BAKED: OnceLock<Vec<Baked<f32>>> = OnceLock::new();
-        BAKED.get_or_init(bake)
-    }
+    check_settled(&said, controller.u(), cold.u());
 }

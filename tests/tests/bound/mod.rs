@@ -4,9 +4,7 @@
 //! integrated from an exact solution by code that shares nothing with the kernel's bound.
 
 mod catalogue;
-mod invariance;
 mod nonparametric;
-mod of_u;
 mod property;
 mod run;
 mod supports;

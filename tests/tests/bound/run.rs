@@ -35,11 +35,17 @@ pub fn options(scalar: ScalarKind, sweeps: Option<u32>) -> Options {
     Options { scalar, max_sweeps, ..Options::default() }
 }
 
-/// Solves a scene that has a solution.
-pub fn run(text: &str, mesh: Mesh, options: &Options) -> Run {
+/// A scene on its mesh.
+pub fn posed(text: &str, mesh: Mesh) -> (Scene, Problem) {
     let read = Scene::parse(text, Path::new("test.toml"));
     let scene = read.unwrap_or_else(|error| panic!("{error}\n{text}"));
     let problem = Problem::new(&scene, mesh).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    (scene, problem)
+}
+
+/// Solves a scene that has a solution.
+pub fn run(text: &str, mesh: Mesh, options: &Options) -> Run {
+    let (scene, problem) = posed(text, mesh);
     let solution = solve(&problem, options).unwrap_or_else(|error| panic!("{error}"));
     Run { scene, problem, solution }
 }

@@ -1,20 +1,17 @@
 //! Parts that only contact holds, and parts that nothing holds.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use serde_json::Value;
 use signorini_files::summary::Summary;
-use signorini_problem::Problem;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::structured::Cells;
-use signorini_scene::scene::Scene;
 use signorini_solve::{Options, ScalarKind, SolverKind, solve};
 use signorini_tests::random::Random;
 use signorini_tests::written::{Contact, Side, Smooth, TwoMaterials, Units, Written};
 use signorini_tolerances::twins::{GUARANTEE, IDENTITY};
 
-use super::run::{Run, options, run};
+use super::run::{Run, options, posed, run};
 use crate::mesh::{KINDS, regular, scattered, split};
 
 fn draw(random: &mut Random) -> Written {
@@ -91,8 +88,7 @@ boundary.default = { kind = "neumann", flux = 0 }
 "#;
 
 fn summary(text: &str, mesh: Mesh) -> Value {
-    let scene = Scene::parse(text, Path::new("test.toml")).expect("a valid scene");
-    let problem = Problem::new(&scene, mesh).expect("scene and mesh fit");
+    let (_, problem) = posed(text, mesh);
     let solution = solve(&problem, &Options::default()).expect("loads in balance");
     assert!(solution.converged() && solution.bound.is_none());
     let summary = Summary::new(

@@ -9,21 +9,18 @@
 //! f32 holds S to 6e−8, which its smallest eigenvalue λ magnifies whatever solves the problem: 1e−4 of the
 //! terms is asked for as far as λ ≥ 1e−3, in proportion beyond.
 
-use std::path::Path;
-
 use signorini_bake::condensed::{Baked, Controller};
 use signorini_bound::certificate::Verdict;
 use signorini_condense::{CondensedModel, Measure};
 use signorini_kernel::report::Ended;
-use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
-use signorini_scene::mesh;
-use signorini_scene::scene::{Input, Scene};
+use signorini_tests::cholesky::Envelope;
 use signorini_tests::random::Random;
 use signorini_tolerances::Tolerance;
 use signorini_tolerances::twins::{CONDENSED, CONDENSED_NARROW, SUM_OF_LENGTHS};
 
 use super::scenes::{EXACT, Model};
+use crate::standard::{moved, standard};
 
 /// Ticks of each controller.
 const TICKS: usize = 6;
@@ -42,12 +39,7 @@ struct Output {
 
 /// Values of the inputs that f32 holds exactly, on the other side of the default where they would leave their range.
 fn inputs(model: &Model, amount: f64, random: &mut Random) -> Vec<f64> {
-    let near = |input: &Input| {
-        let change = amount * (f64::from(random.below(256)) / 64.0 - 2.0);
-        let [there, mirrored] =
-            [change, -change].map(|change| f64::from((input.default + change) as f32));
-        if input.refusal(there).is_none() { there } else { mirrored }
-    };
+    let near = |input| moved(input, amount * (f64::from(random.below(256)) / 64.0 - 2.0));
     model.scene.inputs.iter().map(near).collect()
 }
 
@@ -135,21 +127,12 @@ fn check<R: Scalar>(model: &Model, allowed: Tolerance, amount: f64, seed: u64) -
 /// 1/λ_min of S, by the inverse power method.
 fn condition(condensate: &CondensedModel) -> f64 {
     let n = condensate.contact;
-    let mut l: Vec<Vec<f64>> = condensate.matrix.chunks(n).map(<[f64]>::to_vec).collect();
-    for j in 0..n {
-        for i in j..n {
-            let rest = l[i][j] - (0..j).map(|k| l[i][k] * l[j][k]).sum::<f64>();
-            l[i][j] = if i == j { rest.sqrt() } else { rest / l[j][j] };
-        }
-    }
+    let entries = condensate.matrix.iter().enumerate().map(|(at, &s)| (at / n, at % n, s));
+    let entries: Vec<_> = entries.collect();
+    let factor = Envelope::new(n, &entries).factor().expect("a positive definite matrix");
     let (mut x, mut size) = (vec![1.0; n], 1.0);
     for _ in 0..50 {
-        for i in 0..n {
-            x[i] = (x[i] - (0..i).map(|k| l[i][k] * x[k]).sum::<f64>()) / l[i][i];
-        }
-        for i in (0..n).rev() {
-            x[i] = (x[i] - (i + 1..n).map(|k| l[k][i] * x[k]).sum::<f64>()) / l[i][i];
-        }
+        x = factor.solve(x);
         size = x.iter().map(|x| x * x).sum::<f64>().sqrt();
         x.iter_mut().for_each(|x| *x /= size);
     }
@@ -172,13 +155,10 @@ fn random_scenes_have_the_outputs_of_the_full_model() {
 /// With inputs about as large as in use.
 #[test]
 fn the_standard_scenes_have_the_outputs_of_the_full_model() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes/scenes");
     for (name, amount) in
         [("levee", 0.2), ("slab", 2.0), ("strip", 0.1), ("membrane", 0.0), ("pit", 0.0)]
     {
-        let scene = Scene::read(&folder.join(format!("{name}.toml"))).expect("a scene");
-        let mesh = mesh::read(&scene.mesh.value).expect("a mesh");
-        let problem = Problem::new(&scene, mesh).expect("a problem");
+        let (scene, problem) = standard(name);
         let model = Model::new(name.to_owned(), scene, problem).expect("a model");
         check::<f64>(&model, CONDENSED, amount, 1);
         check::<f32>(&model, CONDENSED_NARROW, amount, 1);

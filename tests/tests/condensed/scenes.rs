@@ -8,8 +8,8 @@ use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::Scene;
-use signorini_solve::outputs::outputs;
-use signorini_solve::{Options, Solution, SolverKind, solve};
+use signorini_solve::Solution;
+use signorini_solve::fixtures::full_at;
 use signorini_tests::random::{Random, tensor};
 
 use crate::mesh::{KINDS, regular, scattered};
@@ -62,17 +62,8 @@ impl Model {
     /// The full problem at these inputs, solved directly: its outputs in the order of the condensed ones.
     /// `None` where u_D lies below ψ.
     pub fn full(&self, inputs: &[f64]) -> Option<(Problem, Solution, Vec<Option<f64>>)> {
-        let problem = self.problem.with_inputs(inputs).ok()?;
-        let options = Options { solver: SolverKind::Direct, ..Options::default() };
-        let solution = solve(&problem, &options);
-        let solution = solution.unwrap_or_else(|error| panic!("{}: {error}", self.what));
-        let values = outputs(&problem, &solution).expect("probes inside");
-        let declared: Vec<_> =
-            problem.scene.outputs.iter().map(|o| o.name.value.as_str()).collect();
-        let undeclared = ["contact_force", "contact_length"];
-        let names = if declared.is_empty() { &undeclared[..] } else { &declared };
-        let values = names.iter().map(|name| values[*name]).collect();
-        Some((problem, solution, values))
+        let p: Vec<f64> = std::iter::once(1.0).chain(inputs.iter().copied()).collect();
+        full_at(&self.problem, &p).ok()
     }
 }
 

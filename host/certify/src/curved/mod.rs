@@ -11,7 +11,6 @@
 mod cleared;
 mod cross;
 mod inside;
-mod missed;
 mod panels;
 mod singular;
 #[cfg(test)]
@@ -40,7 +39,7 @@ pub const POINTS: usize = 8;
 pub const FINE: u32 = 2 * PANELS;
 
 /// The extension v of one edge's deviation w = data − chord into the edge's cell T.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Curved {
     /// A contact or Dirichlet edge.
     pub edge: u32,
@@ -152,16 +151,7 @@ impl<'d, 's> Extension<'d, 's> {
     /// The record, cross terms still missing.
     fn integrate(&self) -> Result<Curved> {
         let (edge, rough) = (self.deviation.edge as u32, self.panels.rough);
-        let (zero, peak) = (0.0, f64::INFINITY);
-        let mut record = Curved {
-            edge,
-            mean: zero,
-            peak,
-            energy: zero,
-            coupling: [zero; 8],
-            rough,
-            missed: zero,
-        };
+        let mut record = Curved { edge, peak: f64::INFINITY, rough, ..Curved::default() };
         let away = self.rule_away();
         for [t, weight] in self.panels.rule() {
             let [w, slope] = self.sample(t)?;
@@ -169,7 +159,7 @@ impl<'d, 's> Extension<'d, 's> {
             for &[eta, weight_away] in &away {
                 let local = self.cell.local(self.cell.side_point(self.side, t, eta));
                 let gradient = local.sides[self.side].extension(w, slope).gradient;
-                let weight = weight * weight_away * self.area_element(&local, eta);
+                let weight = weight * weight_away * self.cell.area_element(&local, eta);
                 self.add(&mut record, &local, gradient, weight);
             }
         }
@@ -192,14 +182,6 @@ impl<'d, 's> Extension<'d, 's> {
         match self.cell {
             Cell::Triangle(_) if self.conductivity.is_constant() => gauss(1),
             _ => gauss(POINTS),
-        }
-    }
-
-    /// dx dy per dt dη
-    fn area_element(&self, local: &Local, eta: f64) -> f64 {
-        match self.cell {
-            Cell::Triangle(_) => local.determinant * (1.0 - eta),
-            Cell::Quad(_) => local.determinant,
         }
     }
 

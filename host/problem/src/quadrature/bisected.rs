@@ -4,11 +4,12 @@
 //! has no mean, sees it; a part that is held weakly moves by what is missed over what holds it. A kink or a jump inside is
 //! cut off level by level; smooth data are integrated by the rule alone, with its bits.
 
-use std::cell::Cell;
+use std::cell::Cell as Count;
 
 use signorini_kernel::Real;
 
-use super::{DATA_POINTS, Point, TRIANGLE_POINTS, on_panels, on_quad, on_triangle};
+use super::{DATA_POINTS, Point, TRIANGLE_POINTS, on_panels};
+use crate::cell::Cell;
 
 /// Two rules that differ by less than this part of ∫|f| agree.
 const AGREE: f64 = 1e-9;
@@ -70,38 +71,36 @@ pub fn graded_mean([a, b]: [[f64; 2]; 2], f: Function) -> [f64; 2] {
     [mean, doubt + own + (whole - mean).abs()]
 }
 
-/// ∫f over a triangle.
-pub fn over_triangle(corners: [[f64; 2]; 3], f: Function) -> f64 {
-    triangle_and_doubt(corners, f)[0]
+/// ∫f over a cell; the quarters of a quad, in the bilinear coordinates, are quads again.
+pub fn over_cell(cell: Cell, f: Function) -> f64 {
+    cell_and_doubt(cell, f)[0]
 }
 
-/// Integral over a triangle, and by how much rules still differ on parts that are cut no further.
-pub fn triangle_and_doubt(corners: [[f64; 2]; 3], f: Function) -> [f64; 2] {
-    let rules = |corners: &[[f64; 2]; 3]| {
-        [TRIANGLE_POINTS, TRIANGLE_POINTS - FEWER]
-            .map(|points| integral(f, on_triangle(*corners, f64::GAUSS[points - 1])))
+/// Integral over a cell, and by how much rules still differ on parts that are cut no further.
+pub fn cell_and_doubt(cell: Cell, f: Function) -> [f64; 2] {
+    let rules = |cell: &Cell| {
+        let most = match cell {
+            Cell::Triangle(_) => TRIANGLE_POINTS,
+            Cell::Quad(_) => DATA_POINTS,
+        };
+        [most, most - FEWER].map(|points| integral(f, &cell.points(f64::GAUSS[points - 1])))
     };
-    over(corners, LEVELS[1], 1.0, &rules, &quarters_of_triangle)
+    over(cell, LEVELS[1], 1.0, &rules, &quarters)
 }
 
-/// The quarters of a triangle.
-pub fn quarters_of_triangle(&[a, b, c]: &[[f64; 2]; 3]) -> [[[f64; 2]; 3]; 4] {
-    let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
-    [[a, ab, ca], [ab, b, bc], [ca, bc, c], [bc, ca, ab]]
-}
-
-/// ∫f over a quad; its quarters, in the bilinear coordinates, are quads again.
-pub fn over_quad(corners: [[f64; 2]; 4], f: Function) -> f64 {
-    quad_and_doubt(corners, f)[0]
-}
-
-/// Integral over a quad, and by how much rules still differ on parts that are cut no further.
-pub fn quad_and_doubt(corners: [[f64; 2]; 4], f: Function) -> [f64; 2] {
-    let rules = |corners: &[[f64; 2]; 4]| {
-        [DATA_POINTS, DATA_POINTS - FEWER]
-            .map(|points| integral(f, on_quad(*corners, f64::GAUSS[points - 1])))
-    };
-    over(corners, LEVELS[1], 1.0, &rules, &quarters_of_quad)
+/// The quarters of a cell, of a quad in its bilinear coordinates.
+pub fn quarters(cell: &Cell) -> [Cell; 4] {
+    match *cell {
+        Cell::Triangle([a, b, c]) => {
+            let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
+            [[a, ab, ca], [ab, b, bc], [ca, bc, c], [bc, ca, ab]].map(Cell::Triangle)
+        }
+        Cell::Quad([a, b, c, d]) => {
+            let [ab, bc, cd, da] = [middle(a, b), middle(b, c), middle(c, d), middle(d, a)];
+            let o = middle(ab, cd);
+            [[a, ab, o, da], [ab, b, bc, o], [o, bc, c, cd], [da, o, cd, d]].map(Cell::Quad)
+        }
+    }
 }
 
 /// ∫f over parts of a quad that are the thinner the nearer they are to a side, and by how much rules still differ. A triangle is
@@ -113,15 +112,8 @@ pub fn graded_over_quad([a, b, c, d]: [[f64; 2]; 4], f: Function) -> [f64; 2] {
     let pairs = || ENDS.windows(2).map(|part| [part[0], part[1]]);
     let parts =
         pairs().flat_map(|[s, e]| pairs().map(move |[t, u]| [[s, t], [e, t], [e, u], [s, u]]));
-    let sums = parts.map(|corners| quad_and_doubt(corners.map(|[s, t]| at(s, t)), f));
+    let sums = parts.map(|corners| cell_and_doubt(Cell::Quad(corners.map(|[s, t]| at(s, t))), f));
     sums.fold([0.0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]])
-}
-
-/// The quarters of a quad, in its bilinear coordinates.
-pub fn quarters_of_quad(&[a, b, c, d]: &[[f64; 2]; 4]) -> [[[f64; 2]; 4]; 4] {
-    let [ab, bc, cd, da] = [middle(a, b), middle(b, c), middle(c, d), middle(d, a)];
-    let centre = middle(ab, cd);
-    [[a, ab, centre, da], [ab, b, bc, centre], [centre, bc, c, cd], [da, centre, cd, d]]
 }
 
 fn middle(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
@@ -129,8 +121,8 @@ fn middle(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 }
 
 /// ∫f and ∫|f|.
-fn integral(f: Function, points: impl Iterator<Item = Point>) -> [f64; 2] {
-    points.fold([0.0; 2], |[sum, size], point| {
+fn integral(f: Function, points: &[Point]) -> [f64; 2] {
+    points.iter().fold([0.0; 2], |[sum, size], point| {
         let value = point.weight * f(point.x[0], point.x[1]);
         [sum + value, size + value.abs()]
     })
@@ -149,7 +141,7 @@ fn over<C: Copy, const PARTS: usize>(
     if (value - other).abs() <= tolerance || !value.is_finite() {
         return [value, 0.0];
     }
-    cut(&cell, levels, share, tolerance, rules, parts, &Cell::new(MOST))
+    cut(&cell, levels, share, tolerance, rules, parts, &Count::new(MOST))
 }
 
 /// The tolerance is halved from level to level, as fast as the part of a cell beside a line through it grows in number.
@@ -160,7 +152,7 @@ fn cut<C: Copy, const PARTS: usize>(
     tolerance: f64,
     rules: &dyn Fn(&C) -> [[f64; 2]; 2],
     parts: &dyn Fn(&C) -> [C; PARTS],
-    left: &Cell<u32>,
+    left: &Count<u32>,
 ) -> [f64; 2] {
     left.set(left.get().saturating_sub(1));
     let sums = parts(cell).iter().fold([0.0; 2], |[sum, doubt], part| {
@@ -192,11 +184,11 @@ mod tests {
         BISECTED.check("a jump", jump - (1.0 - a));
         let kink = mean_on_edge(edge, &|x, _| (x - a).abs());
         BISECTED_KINK.check("a kink", kink - 0.5 * (a * a + (1.0 - a).powi(2)));
-        let over_square = over_quad(SQUARE, &|x, _| (x - a).abs());
+        let over_square = over_cell(Cell::Quad(SQUARE), &|x, _| (x - a).abs());
         BISECTED_LINE.check("over a square", over_square - 0.5 * (a * a + (2.0 - a).powi(2)));
         let halves = [[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0]], [[0.0, 0.0], [2.0, 1.0], [0.0, 1.0]]];
         let of_halves: f64 =
-            halves.map(|half| over_triangle(half, &|x, _| (x - a).abs())).iter().sum();
+            halves.map(|half| over_cell(Cell::Triangle(half), &|x, _| (x - a).abs())).iter().sum();
         BISECTED_LINE.check("over its halves", of_halves - over_square);
     }
 
@@ -217,12 +209,13 @@ mod tests {
     #[test]
     fn smooth_data_keep_the_bits_of_the_rule() {
         let f = |x: f64, y: f64| 1.0 + x * y - x.powi(3);
-        let points = on_quad(SQUARE, f64::GAUSS[DATA_POINTS - 1]);
-        assert_eq!(over_quad(SQUARE, &f), integral(&f, points)[0]);
+        let square = Cell::Quad(SQUARE);
+        let points = square.points(f64::GAUSS[DATA_POINTS - 1]);
+        assert_eq!(over_cell(square, &f), integral(&f, &points)[0]);
     }
 
     #[test]
     fn what_is_not_finite_stays_so() {
-        assert!(!over_quad(SQUARE, &|x, _| 1.0 / (x - x)).is_finite());
+        assert!(!over_cell(Cell::Quad(SQUARE), &|x, _| 1.0 / (x - x)).is_finite());
     }
 }

@@ -110,7 +110,7 @@ fn agrees_with_enumeration(make: fn(usize, &mut Random) -> Dense) {
         let factor = Factor::new(&stencil.problem()).expect("definite");
         let starts = [None, Some(vec![false; contact])];
         for start in starts {
-            let found = factor.solve(&stencil.load, &stencil.lower, start.as_deref());
+            let found = stencil.solve(&factor, start.as_deref());
             let found = found.expect("solvable");
             let scale = expected.iter().fold(1.0, |scale: f64, u| scale.max(u.abs()));
             let difference = largest_difference(&found.u, &expected);
@@ -137,7 +137,7 @@ fn matrix_on_which_newton_alone_cycles() {
     let expected = enumerate(&matrix.to_vec(), &load, &lower);
     let stencil = sparse(&matrix.to_vec(), load, lower);
     let factor = Factor::new(&stencil.problem()).expect("definite");
-    let found = factor.solve(&stencil.load, &stencil.lower, None).expect("solvable");
+    let found = stencil.solve(&factor, None).expect("solvable");
     ENUMERATED.check("u", largest_difference(&found.u, &expected));
     assert!(found.steps > 8, "{} steps only: no cycle was met", found.steps);
 }

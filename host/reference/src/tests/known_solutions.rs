@@ -17,7 +17,7 @@ fn chain(springs: &[f64], load: Vec<f64>, lower: Vec<f64>) -> Stencil {
 }
 
 fn solve(stencil: &Stencil) -> Result<Solution, ReferenceError> {
-    Factor::new(&stencil.problem())?.solve(&stencil.load, &stencil.lower, None)
+    stencil.solve(&Factor::new(&stencil.problem())?, None)
 }
 
 /// A string under the load −1 over a flat floor at −26.25, held at both ends: it touches from
@@ -99,7 +99,7 @@ fn floating_components_rest_where_the_load_presses() {
     let stencil = floating_chains([-1.0, -1.0, 0.0, 0.0, 3.0, -3.0]);
     for start in [None, Some(&[false; 4][..]), Some(&[false, true, true, false][..])] {
         let factor = Factor::new(&stencil.problem()).expect("K_FF is definite");
-        let solution = factor.solve(&stencil.load, &stencil.lower, start).expect("solvable");
+        let solution = stencil.solve(&factor, start).expect("solvable");
         assert_eq!(solution.active, [true, true, false, true]);
         let expected = [-0.5, 2.0, 0.0, 0.0, 5.0, 0.0];
         KNOWN.check_each("u", &solution.u, &expected);

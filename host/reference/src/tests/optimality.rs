@@ -56,7 +56,7 @@ fn assert_optimal(stencil: &Stencil, solution: &Solution) {
 fn check(sides: [Side; 4], jump: f64, mean_load: f64) {
     let stencil = distorted(sides, jump, mean_load);
     let factor = Factor::new(&stencil.problem()).expect("definite");
-    let solve = |guess| factor.solve(&stencil.load, &stencil.lower, guess).expect("solvable");
+    let solve = |guess| stencil.solve(&factor, guess).expect("solvable");
     let cold = solve(None);
     assert_optimal(&stencil, &cold);
     let contacts = cold.active.iter().filter(|&&active| active).count();

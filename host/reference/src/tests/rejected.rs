@@ -10,7 +10,7 @@ fn two_by_two(off_diagonal: f64) -> Stencil {
 
 fn refusal(problem: &Problem) -> ReferenceError {
     let outcome = Factor::new(problem)
-        .and_then(|factor| factor.solve(problem.load, problem.lower, None).map(drop));
+        .and_then(|factor| factor.solve_between(problem.load, problem.lower, &[], None).map(drop));
     outcome.expect_err("must be refused")
 }
 
@@ -34,7 +34,7 @@ fn arrays_that_do_not_fit() {
     let factor = Factor::new(&good).expect("definite");
     for (load, lower, guess) in [(1, 1, 1), (2, 2, 1), (2, 1, 0)] {
         let guess = vec![true; guess];
-        let outcome = factor.solve(&vec![1.0; load], &vec![0.0; lower], Some(&guess));
+        let outcome = factor.solve_between(&vec![1.0; load], &vec![0.0; lower], &[], Some(&guess));
         assert!(matches!(outcome, Err(ReferenceError::Malformed(_))));
     }
 }

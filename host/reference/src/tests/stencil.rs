@@ -1,6 +1,6 @@
 //! Crouzeix–Raviart matrices on a square of m × m cells, each cut into two triangles.
 
-use crate::Problem;
+use crate::{Factor, Problem, ReferenceError, Solution};
 
 /// The condition on a side of the square.
 #[derive(Clone, Copy, PartialEq)]
@@ -31,6 +31,14 @@ impl Stencil {
             spans: &[],
             floating: &self.floating,
         }
+    }
+
+    pub fn solve(
+        &self,
+        factor: &Factor,
+        guess: Option<&[bool]>,
+    ) -> Result<Solution, ReferenceError> {
+        factor.solve_between(&self.load, &self.lower, &[], guess)
     }
 
     /// From rows of (column, value) with the diagonal first, a load and ψ.

@@ -14,8 +14,8 @@ mod tests;
 
 use std::time::Instant;
 
-use super::history::History;
-use super::promise::{Allowed, MeshOfScene, Promise, Promised, Refining};
+use super::marking::History;
+use super::{Allowed, MeshOfScene, Promise, Promised, Refining};
 use super::{Level, MOST_UNKNOWNS, Stall, Stop, carry, indicators, marking};
 use crate::{Options, SolverKind};
 use signorini_problem::Problem;

@@ -8,23 +8,20 @@
 
 mod carry;
 mod for_inputs;
-mod history;
 pub mod indicators;
 mod marking;
-mod promise;
 mod stop;
 #[cfg(test)]
 mod tests;
 
 pub use for_inputs::{mesh_for_scene, mesh_of_scene, promised_mesh};
-pub use promise::{Allowed, MeshOfScene, Promise, Promised, Refining};
-pub use stop::{Stall, Stop, Term};
+pub use stop::{Allowed, MeshOfScene, Promise, Promised, Refining, Stall, Stop, Term};
 
 use std::time::Instant;
 
 use crate::energy_norm;
 use crate::{Options, Solution, SolverKind, solve_from};
-use history::History;
+use marking::History;
 use signorini_problem::Problem;
 use signorini_problem::progress::stage;
 use signorini_scene::error::Result;
@@ -86,10 +83,13 @@ pub fn refined_until(
 ) -> Result<(Level, Stop)> {
     let mut hierarchy = Hierarchy::new(mesh)?;
     let (mut start, mut number, mut history) = (Vec::new(), 0, History::default());
-    let mut posed = Posed::new(scene, &hierarchy)?;
+    let pose = |hierarchy: &Hierarchy| Problem::new(scene, hierarchy.mesh().clone());
+    let mut clock = Instant::now();
+    let mut problem = pose(&hierarchy)?;
     let wanted = wanted.by_factor();
     loop {
-        let level = posed.solved(number, &wanted, &start)?;
+        stage(&format!("level {number}, {} unknowns", problem.topology.counts.unknowns()));
+        let level = Level::solved(number, problem, clock, &wanted.options, &start)?;
         let goes_on = look(&level)?;
         let bound = level.solution.bound.map_or(f64::NAN, |bound| bound.total);
         history.push(level.unknowns(), bound);
@@ -106,13 +106,14 @@ pub fn refined_until(
             Ok(carried) => carried,
             Err(why) => return Ok((level, Stop::Finest(why.to_string()))),
         };
-        posed = Posed::new(scene, &hierarchy)?;
-        let unknowns = posed.problem.topology.counts.unknowns();
+        clock = Instant::now();
+        problem = pose(&hierarchy)?;
+        let unknowns = problem.topology.counts.unknowns();
         let most = wanted.most_unknowns;
         if unknowns > most {
             return Ok((level, Stop::TooLarge { unknowns, most }));
         }
-        start = carry::start(&level, &posed.problem, &carried);
+        start = carry::start(&level, &problem, &carried);
         number += 1;
     }
 }
@@ -152,23 +153,5 @@ impl Level {
             Some(_) if history.is_stalled() => Some(Stop::Stalled(Stall::of(self)?)),
             Some(_) => None,
         })
-    }
-}
-
-/// The scene on a mesh, before it is solved.
-struct Posed {
-    problem: Problem,
-    clock: Instant,
-}
-
-impl Posed {
-    fn new(scene: &Scene, hierarchy: &Hierarchy) -> Result<Self> {
-        let clock = Instant::now();
-        Ok(Self { problem: Problem::new(scene, hierarchy.mesh().clone())?, clock })
-    }
-
-    fn solved(self, number: usize, wanted: &Wanted, start: &[f64]) -> Result<Level> {
-        stage(&format!("level {number}, {} unknowns", self.problem.topology.counts.unknowns()));
-        Level::solved(number, self.problem, self.clock, &wanted.options, start)
     }
 }

@@ -163,17 +163,19 @@ fn a_start_is_the_old_solution_on_the_new_mesh() {
     for cells in KINDS {
         let mut hierarchy =
             Hierarchy::new(with_four_sides(distorted(grid(3, cells)))).expect("one");
-        let mut posed = Posed::new(&scene, &hierarchy).expect("a problem");
-        let goal = wanted(Goal::Energy(1e-9));
+        let pose = |hierarchy: &Hierarchy| Problem::new(&scene, hierarchy.mesh().clone());
+        let mut problem = pose(&hierarchy).expect("a problem");
+        let options = wanted(Goal::Energy(1e-9)).options;
         for number in 0..4 {
-            let level = posed.solved(number, &goal, &[]).expect("a solution");
+            let level = Level::solved(number, problem, Instant::now(), &options, &[]);
+            let level = level.expect("a solution");
             let marked: Vec<bool> =
                 (0..level.problem.cells()).map(|cell| cell % 7 == number).collect();
             let carried = hierarchy.refine(&marked).expect("finer");
-            posed = Posed::new(&scene, &hierarchy).expect("a problem");
-            let start = carry::start(&level, &posed.problem, &carried);
+            problem = pose(&hierarchy).expect("a problem");
+            let start = carry::start(&level, &problem, &carried);
             for (edge, start) in start.iter().enumerate() {
-                let [a, b] = posed.problem.segment(edge);
+                let [a, b] = problem.segment(edge);
                 let exact = 1.0 + (a[0] + b[0]) - 0.5 * (a[1] + b[1]);
                 CARRIED.check(format_args!("{cells:?}, edge {edge}"), start - exact);
             }

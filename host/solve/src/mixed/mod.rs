@@ -20,7 +20,7 @@ use signorini_kernel::Error as KernelError;
 use signorini_kernel::rows::{self, Row, Rows};
 use signorini_kernel::solver::{Outcome, Settings};
 
-use super::{Clock, Options, Ran, ScalarKind, Solution, Solved, conclude, unfit};
+use super::{Attempt, Clock, Options, Ran, ScalarKind, Solution, Solved, unfit};
 use correction::Correction;
 use rounds::Rounds;
 use signorini_problem::{Assembled, Parts, Problem};
@@ -105,15 +105,13 @@ impl<'p> Mixed<'p> {
 /// No solution, numbers that f32 cannot hold.
 pub fn mixed(problem: &Problem, options: &Options) -> Result<Solution> {
     let unfit = unfit::<f32>(&problem.scene);
-    let options = Options { scalar: ScalarKind::F64, ..*options };
+    let settings = Options { scalar: ScalarKind::F64, ..*options }.settings();
     let parts = Parts::examine(problem)?;
     let mut clock = Clock::start();
     let mut mixed = Mixed::new(problem, &parts).map_err(&unfit)?;
     let assembly = clock.lap();
     let mut u = mixed.wide.start();
-    let Corrected { outcome, .. } = mixed.run(options.settings(), &mut u).map_err(&unfit)?;
-    let (low, scalar) = (Vec::new(), options.scalar);
-    let (ran, factored) = (Ran::Sweeps, None);
-    let solved = Solved { outcome, ran, factored, u, low, scalar, assembly, clock };
-    conclude(problem, &parts, &mixed.wide, solved)
+    let Corrected { outcome, .. } = mixed.run(settings, &mut u).map_err(&unfit)?;
+    let attempt = Attempt { problem, parts: &parts, assembled: mixed.wide, assembly, clock };
+    attempt.conclude(Solved { outcome, ran: Ran::Sweeps, factored: None, u, low: Vec::new() })
 }

@@ -50,10 +50,10 @@ fn the_factor_alone_answers_like_the_kernel_on_every_standard_scene() -> Result<
         let name = path.file_stem().unwrap().to_string_lossy();
         let parts = Parts::examine(&problem)?;
         let kernel = solve(&problem, &Options::default())?;
-        let found = by_factor::<f64>(&problem, &parts, &AUTO, &[])?.expect("a factor");
+        let found = by_factor::<f64>(&problem, &parts, &AUTO, &[], None)?.expect("a factor");
         same(&name, &found, &kernel, [AGREEMENT, BOUND_OF_FACTOR]);
         let single = Options { scalar: ScalarKind::F32, ..AUTO };
-        let found = by_factor::<f32>(&problem, &parts, &single, &[])?.expect("a factor");
+        let found = by_factor::<f32>(&problem, &parts, &single, &[], None)?.expect("a factor");
         assert!(found.converged() && found.ran == Ran::Factor, "{name}");
         let far = distance(&found.u, &kernel.u);
         FACTOR_NARROW.check(&name, far);

@@ -1,8 +1,8 @@
 //! Every standard scene stands on its mesh refined, paired and cut, and the errors are the catalogue's.
 
 use signorini_tolerances::solve::CATALOGUE;
-use std::path::{Path, PathBuf};
 
+use super::{meshes, standard_scenes};
 use crate::norms::of_solution;
 use crate::{Options, solve};
 use signorini_problem::Problem;
@@ -11,20 +11,10 @@ use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::{CellKind, Setting};
 
-/// The scenes in a folder of standard scenes, in the order of their names.
-fn scenes(folder: &str) -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes").join(folder);
-    let entries = std::fs::read_dir(&folder).expect("a folder");
-    let mut files: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
-    files.retain(|path| path.extension().is_some_and(|found| found == "toml"));
-    files.sort();
-    files
-}
-
 #[test]
 fn every_standard_scene_takes_every_setting_of_the_mesh() {
     let mut count = 0;
-    for path in ["catalogue", "scenes"].into_iter().flat_map(scenes) {
+    for path in standard_scenes() {
         let mut scene = Scene::read(&path).expect("a scene");
         for (cells, refine) in
             [(None, 1), (Some(CellKind::Triangles), 0), (Some(CellKind::Quads), 0)]
@@ -46,8 +36,7 @@ fn every_standard_scene_takes_every_setting_of_the_mesh() {
 /// |u − u_h|₁, ‖u − u_h‖, ∫λ of H(0.55) for n = 16, as independent programs have them.
 #[test]
 fn the_refined_grid_has_the_errors_of_the_finer_one() {
-    let path = scenes("catalogue").into_iter().find(|path| path.ends_with("h-tri.toml"));
-    let scene = Scene::read(&path.expect("the scene")).expect("a scene");
+    let scene = Scene::read(&meshes("catalogue").join("h-tri.toml")).expect("a scene");
     for (cells, expected) in [
         (CellKind::Triangles, [9.74473e-2, 1.97915e-3, 0.952483]),
         (CellKind::Quads, [2.41546e-2, 3.49377e-4, 0.950322]),

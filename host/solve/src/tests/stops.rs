@@ -4,9 +4,10 @@ use super::limits::meshes;
 use super::{Options, SolverKind, solve};
 use crate::ScalarKind;
 use signorini_certify::exact::distance as distance_to_exact;
-use signorini_problem::fixtures::limited::two_transitions;
+use signorini_problem::fixtures::limited::{three_states, two_transitions};
 use signorini_problem::fixtures::{SMOOTH, on_grid};
 use signorini_scene::error::Result;
+use signorini_scene::mesh::Mesh;
 
 /// Sweeps after which a solve is stopped, and as many as it takes.
 const STOPS: [u32; 5] = [0, 1, 5, 20, 1_000_000];
@@ -81,32 +82,54 @@ fn all() -> Vec<(String, String)> {
     transitions.into_iter().chain(smooth).collect()
 }
 
+/// Asserts the bound of a scene on a mesh where the kernel stops after so many sweeps, in either scalar; whether it
+/// `is_identity` too.
+fn holds(what: &str, text: &str, mesh: Mesh, stops: &[u32], is_identity: bool) -> Result<()> {
+    let (scene, problem) = on_grid(text, mesh)?;
+    let exact = scene.exact.as_ref().expect("an exact solution");
+    for (at, scalar) in [ScalarKind::F64, ScalarKind::F32].into_iter().enumerate() {
+        for &max_sweeps in stops {
+            let solver = SolverKind::Kernel;
+            let options = Options { solver, scalar, max_sweeps, ..Options::default() };
+            let found = solve(&problem, &options)?;
+            let what = format!("{what}, {scalar:?} after {max_sweeps}");
+            // Where hi − lo varies along an edge by more than half there is none, and the reason says so.
+            let Some(bound) = found.bound else {
+                let reason = found.no_bound.as_ref().expect("a reason").to_string();
+                assert!(reason.contains("limit") && !is_identity, "{what}: {reason}");
+                continue;
+            };
+            let of = distance_to_exact(exact, &problem, &found.certified.admissible())?;
+            assert!(bound.total >= of.combined, "{what}: {} {of:?}", bound.total);
+            let identity = bound.duality_gap / of.identity;
+            let is_same = (1.0 - 1e-3..1.0 + 1e-3).contains(&identity);
+            assert!(is_same || !is_identity, "{what}: gap/identity = {identity}");
+            if found.converged() && of.combined > ROUNDING[at] && !is_identity {
+                let ratio = bound.duality_gap / of.combined;
+                assert!(ratio < SHARP, "{what}: {ratio} {of:?}");
+            }
+        }
+    }
+    Ok(())
+}
+
 #[test]
 fn the_bound_holds_at_any_stop_for_all_signs_of_both_ends() -> Result<()> {
     for (ends, text) in all() {
         for (name, mesh) in meshes(4).into_iter().take(2) {
-            let (scene, problem) = on_grid(&text, mesh)?;
-            let exact = scene.exact.as_ref().expect("an exact solution");
-            for (at, scalar) in [ScalarKind::F64, ScalarKind::F32].into_iter().enumerate() {
-                for max_sweeps in STOPS {
-                    let solver = SolverKind::Kernel;
-                    let options = Options { solver, scalar, max_sweeps, ..Options::default() };
-                    let found = solve(&problem, &options)?;
-                    let what = format!("{ends}, {name}, {scalar:?} after {max_sweeps}");
-                    // Where hi − lo varies along an edge by more than half there is none, and the reason says so.
-                    let Some(bound) = found.bound else {
-                        let reason = found.no_bound.expect("a reason").to_string();
-                        assert!(reason.contains("limit"), "{what}: {reason}");
-                        continue;
-                    };
-                    let of = distance_to_exact(exact, &problem, &found.certified.admissible())?;
-                    assert!(bound.total >= of.combined, "{what}: {} {of:?}", bound.total);
-                    if found.converged() && of.combined > ROUNDING[at] {
-                        let ratio = bound.duality_gap / of.combined;
-                        assert!(ratio < SHARP, "{what}: {ratio} {of:?}");
-                    }
-                }
-            }
+            holds(&format!("{ends}, {name}"), &text, mesh, &STOPS, false)?;
+        }
+    }
+    Ok(())
+}
+
+/// Wherever sweeps end, the bound is the identity too; so it is for limits that hardly let anything through, and for huge ones.
+#[test]
+fn the_bound_is_the_identity_at_any_stop() -> Result<()> {
+    let units = [1.0, 1e-12, 1e12].map(|unit| [0.0, 1.5 * unit]);
+    for (name, mesh) in meshes(6) {
+        for text in [three_states()].into_iter().chain(units.map(two_transitions)) {
+            holds(name, &text, mesh.clone(), &[0, 2, 30], true)?;
         }
     }
     Ok(())

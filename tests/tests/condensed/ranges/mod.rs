@@ -3,14 +3,12 @@
 //! Both must tell the same of every p of the box, at solutions and at any x within the limits of a tick. What can go
 //! wrong is measured by [`Off`]; wrong sides, put there on purpose, must show in it.
 
-mod agreement;
 mod bounds;
 mod largest;
 mod mutations;
 mod standard;
 mod ticks;
 mod unproved;
-mod worst;
 
 use signorini_condense::ranges::reduced::Reduced;
 use signorini_condense::ranges::sides::{EdgeSide, Sides};
@@ -81,8 +79,8 @@ impl Pair {
         Self::new(&model.what, &whole)
     }
 
-    /// At the solution of p, each model's own.
-    pub fn at_solution(&self, p: &[f64], off: &mut Off) {
+    /// At the solution of p, each model's own; that of the whole model.
+    pub fn at_solution(&self, p: &[f64], off: &mut Off) -> Vec<f64> {
         let Self { whole, reduced, .. } = self;
         let x = whole.solve(p).expect("a solution");
         let own = reduced.model.solve(p).expect("a solution");
@@ -93,6 +91,18 @@ impl Pair {
         }
         off.on_wrong_side += self.misplaced(&x, size);
         self.outputs_and_bound(p, &own, [&expanded, &x], off);
+        x
+    }
+
+    /// At so many inputs of the box, as a solution and otherwise.
+    pub fn sampled(&self, samples: usize, random: &mut Random) -> Off {
+        let mut off = Off::default();
+        for _ in 0..samples {
+            let p = drawn(&self.whole, random);
+            self.at_solution(&p, &mut off);
+            self.at(&p, &self.within(random), &mut off);
+        }
+        off
     }
 
     /// At any x of the reduced model, solution or not.

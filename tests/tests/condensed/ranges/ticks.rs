@@ -1,8 +1,10 @@
-//! Controllers baked from reduced models: solved to the end, and cut off in every way.
+//! Controllers baked from reduced models: solved to the end, and cut off in every way; and the worst case that is proved, which
+//! no tick exceeds.
 
 use signorini_bake::condensed::{Baked, Controller, Work};
 use signorini_condense::{CondensedModel, Measure};
 use signorini_kernel::report::{Ended, Report};
+use signorini_problem::inputs::{self, InputSpace};
 use signorini_problem::scalar::Scalar;
 use signorini_tests::random::Random;
 use signorini_tolerances::Tolerance;
@@ -10,7 +12,7 @@ use signorini_tolerances::twins::{
     REDUCED_TICK, REDUCED_TICK_NARROW, REDUCED_VALUES, REDUCED_VALUES_NARROW,
 };
 
-use super::standard::standard;
+use super::standard::pairs;
 use super::{Pair, drawn, over, terms};
 use crate::condensed::scenes::EXACT;
 
@@ -124,24 +126,24 @@ fn solved<R: Scalar>(pair: &Pair, ticks: usize, allowed: Tolerance) -> [f64; 2] 
 
 /// Ticks cut off, from one corner of the box to another.
 fn cut_off<R: Scalar>(pair: &Pair, ticks: usize) -> usize {
-    let mut unfinished = 0;
+    let (mut unfinished, mut solutions) = (0, Vec::new());
     for work in CUT_OFF {
         let baked = Baked::<R>::new(&pair.reduced.model, work, true).expect("in range");
         let (mut controller, random) = (Controller::new(&baked), &mut Random::new(6));
-        for _ in 0..ticks {
+        for at in 0..ticks {
             let tick = Tick::new(pair, &mut controller, random);
-            let solution = pair.whole.solve(&tick.p).expect("a solution");
-            tick.check(pair, &solution);
+            // Every way has the same inputs.
+            if at == solutions.len() {
+                let solution = pair.whole.solve(&tick.p).expect("a solution");
+                solutions.push((tick.p.clone(), solution));
+            }
+            let (p, solution) = &solutions[at];
+            assert_eq!(*p, tick.p);
+            tick.check(pair, solution);
             unfinished += usize::from(tick.report.ended != Ended::Exact);
         }
     }
     unfinished
-}
-
-fn of_standard(then: impl Fn(&Pair)) {
-    for name in ["levee", "slab", "strip"] {
-        then(&Pair::new(name, &standard(name)).expect("edges to take out"));
-    }
 }
 
 fn of_random(count: u64, mut then: impl FnMut(&Pair)) {
@@ -151,7 +153,7 @@ fn of_random(count: u64, mut then: impl FnMut(&Pair)) {
 /// The matrix of f32 is that of f64 to 6e−8, which small eigenvalues magnify.
 #[test]
 fn controllers_of_standard_scenes_tell_what_the_whole_model_tells() {
-    of_standard(|pair| {
+    pairs().iter().for_each(|pair| {
         let wide = solved::<f64>(pair, TICKS / 10, REDUCED_TICK);
         let narrow = solved::<f32>(pair, TICKS, REDUCED_TICK_NARROW);
         REDUCED_VALUES.check(&pair.what, wide[1]);
@@ -170,7 +172,7 @@ fn controllers_of_random_scenes_tell_what_the_whole_model_tells() {
 
 #[test]
 fn ticks_of_standard_scenes_may_be_cut_off() {
-    of_standard(|pair| {
+    pairs().iter().for_each(|pair| {
         let unfinished = [cut_off::<f32>(pair, 300), cut_off::<f64>(pair, 300)];
         assert!(unfinished.iter().all(|&count| count > 300), "{}: {unfinished:?}", pair.what);
     });
@@ -186,7 +188,7 @@ fn ticks_of_random_scenes_may_be_cut_off() {
 /// Outside the box a controller refuses, and keeps its last answer.
 #[test]
 fn nothing_is_told_of_inputs_outside_their_ranges() {
-    of_standard(|pair| {
+    pairs().iter().for_each(|pair| {
         let model: &CondensedModel = &pair.reduced.model;
         let baked = Baked::<f32>::new(model, EXACT, true).expect("in range");
         let mut controller = Controller::new(&baked);
@@ -204,4 +206,36 @@ fn nothing_is_told_of_inputs_outside_their_ranges() {
             }
         }
     });
+}
+
+/// Ticks of a controller in search of its worst case.
+const MANY: usize = 1_000_000;
+
+/// The most exchanges of so many ticks, half of them at corners of the box; all end with the solution.
+fn most<R: Scalar>(pair: &Pair, ticks: usize) -> [u32; 2] {
+    let model = &pair.reduced.model;
+    let baked = Baked::<R>::new(model, EXACT, false).expect("in range");
+    let proved = baked.worst_exchanges().expect("all signs are right");
+    let ranges = model.defaults.iter().zip(&model.ranges).skip(1);
+    let spaces: Vec<_> = ranges.map(|(&default, &range)| InputSpace { default, range }).collect();
+    let mut controller = Controller::new(&baked);
+    let mut most = 0;
+    for inputs in inputs::drawn::<R>(&spaces, ticks) {
+        let (_, report) = controller.tick(&inputs).expect("a tick");
+        assert_eq!(report.ended, Ended::Exact, "{}: {inputs:?}", pair.what);
+        most = most.max(report.exchanges);
+    }
+    [most, proved]
+}
+
+#[test]
+fn no_tick_takes_more_exchanges_than_are_proved() {
+    for pair in &pairs()[..2] {
+        let (name, of_both) = (&pair.what, [most::<f32>(pair, MANY), most::<f64>(pair, MANY / 10)]);
+        for [most, proved] in of_both {
+            let n = pair.reduced.model.contact as u32;
+            assert!(proved == n + n / 2 && most <= proved, "{name}: {most} of {proved}");
+            assert!(4 * most >= proved, "{name}: inputs are easy, {most} of {proved}");
+        }
+    }
 }

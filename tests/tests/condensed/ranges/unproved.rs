@@ -1,4 +1,4 @@
-//! Where nothing is proved, nothing is taken out.
+//! Random scenes whose inputs have random ranges agree; where nothing is proved, nothing is taken out.
 
 use signorini_condense::CondensedModel;
 use signorini_condense::ranges::reduced::Reduced;
@@ -6,7 +6,7 @@ use signorini_condense::ranges::sides::{EdgeSide, Sides};
 use signorini_tests::random::Random;
 
 use super::standard::standard;
-use super::{Off, Pair, drawn, limit};
+use super::{Pair, limit};
 use crate::condensed::scenes::Model;
 
 fn keeps_all(what: &str, whole: &CondensedModel) {
@@ -71,14 +71,26 @@ fn positive_entries_are_counted_or_refused() {
             refused += 1;
             continue;
         };
-        let mut off = Off::default();
-        for _ in 0..20 {
-            let p = drawn(&whole, random);
-            pair.at_solution(&p, &mut off);
-            pair.at(&p, &pair.within(random), &mut off);
-        }
-        off.check(&model.what);
+        pair.sampled(20, random).check(&model.what);
         proved += 1;
     }
     assert!(refused > 10 && proved > 10, "{refused} {proved}");
+}
+
+/// Scenes to draw.
+const SEEDS: u64 = 400;
+/// Samples of each that has edges to take out, solutions and others each.
+const SAMPLES: usize = 40;
+
+#[test]
+fn random_scenes_agree() {
+    let (mut pairs, mut empty) = (0, 0);
+    let count = std::env::var("SEEDS").ok().and_then(|n| n.parse().ok()).unwrap_or(SEEDS);
+    for seed in 0..count {
+        let Some(pair) = Pair::random(seed) else { continue };
+        pairs += 1;
+        empty += u64::from(pair.reduced.model.contact == 0);
+        pair.sampled(SAMPLES, &mut Random::new(seed)).check(&pair.what);
+    }
+    assert!(pairs > count / 3 && empty > count / 40, "{pairs} {empty}");
 }

@@ -12,7 +12,6 @@ use super::enclosure::{Enclosure, EndBox, LoadBox};
 use super::interval::Interval;
 use super::sides::{EdgeSide, Sides};
 use super::split::Split;
-use crate::{CondensedModel, Measure};
 use signorini_reference::minimise_between;
 
 mod outputs;
@@ -147,8 +146,8 @@ fn every_solution_lies_in_its_enclosure() {
             let p = drawn(&ranges, &mut random);
             let load: Vec<f64> =
                 (0..n).map(|i| columns.iter().zip(&p).map(|(b, p)| b[i] * p).sum()).collect();
-            let x = minimise_between(MatRef::from_row_major_slice(&entries, n, n), &[], &load, &[])
-                .expect("a positive definite matrix");
+            let matrix = MatRef::from_row_major_slice(&entries, n, n);
+            let x = minimise_between(matrix, &[], &load, &[]).expect("a positive definite matrix");
             for i in 0..n {
                 let row = &entries[i * n..][..n];
                 let reaction: f64 = row.iter().zip(&x).map(|(s, x)| s * x).sum::<f64>() - load[i];

@@ -6,7 +6,8 @@
 use signorini_kernel::mesh::geometry::scaled_normal;
 use signorini_tolerances::solve::{IDENTITY, IDENTITY_SINGULAR};
 
-use super::admissible::{Admissible, Following};
+use super::CertifiedFields;
+use super::admissible::Following;
 use super::cell::Cell;
 use super::conductivity::{Conductivity, apply, dot, inverse, product};
 use super::curved;
@@ -22,27 +23,13 @@ use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::{Condition, Field, Scene};
 
-/// S and τ, owned.
-struct Numbers {
-    vertices: Vec<f64>,
-    bubbles: Vec<f64>,
-    tau: Vec<f64>,
-}
-
-impl Numbers {
-    fn borrowed(&self) -> Admissible<'_> {
-        let following = &Following::WhereNeeded;
-        Admissible { vertices: &self.vertices, bubbles: &self.bubbles, tau: &self.tau, following }
-    }
-}
-
-/// Numbers in (−1, 1) without a pattern.
+/// CertifiedFields in (−1, 1) without a pattern.
 fn scatter(at: usize) -> f64 {
     (at as f64 * 12.9898 + 0.3).sin()
 }
 
 /// u at the vertices and the exact fluxes, moved by `amount`.
-fn by_hand(problem: &Problem, amount: f64) -> Result<Numbers> {
+fn by_hand(problem: &Problem, amount: f64) -> Result<CertifiedFields> {
     let exact = problem.scene.exact.as_ref().expect("an exact solution");
     let mesh = &problem.mesh;
     let mut fixed = vec![[false; 2]; mesh.vertices.len()];
@@ -67,7 +54,13 @@ fn by_hand(problem: &Problem, amount: f64) -> Result<Numbers> {
         tau.push(exact_flux(problem, edge)? + stream(ends[1]) - stream(ends[0]));
     }
     let bubbles = (0..problem.ends.len()).map(|edge| bubble(problem, edge, amount)).collect();
-    Ok(Numbers { vertices, bubbles, tau })
+    Ok(CertifiedFields {
+        vertices,
+        bubbles,
+        tau,
+        following: Following::WhereNeeded,
+        indicators: Vec::new(),
+    })
 }
 
 fn bubble(problem: &Problem, edge: usize, amount: f64) -> f64 {
@@ -92,8 +85,8 @@ fn exact_flux(problem: &Problem, edge: usize) -> Result<f64> {
 }
 
 /// ‖A^½∇S − A^{−½}τ‖² + 2∫_C (τ·n − q̄)(S − ψ) + ∫_R (τ·n + h(S − u_ext))²/h, by quadrature.
-fn bound_squared(problem: &Problem, numbers: &Numbers) -> Result<f64> {
-    let admissible = numbers.borrowed();
+fn bound_squared(problem: &Problem, numbers: &CertifiedFields) -> Result<f64> {
+    let admissible = numbers.admissible();
     let deviations = curved::followed(problem, &admissible)?;
     let mut bound = 0.0;
     for at in 0..problem.mesh.triangles.len() + problem.mesh.quads.len() {
@@ -117,7 +110,7 @@ fn bound_squared(problem: &Problem, numbers: &Numbers) -> Result<f64> {
 fn edge_term(
     problem: &Problem,
     edge: usize,
-    numbers: &Numbers,
+    numbers: &CertifiedFields,
     deviations: &Deviations,
 ) -> Result<f64> {
     let (EdgeKind::Contact | EdgeKind::Robin) = problem.kinds[edge] else { return Ok(0.0) };
@@ -127,7 +120,7 @@ fn edge_term(
     let segment @ [a, b] = problem.segment(edge);
     on_panels(8, &gauss(8)).into_iter().try_fold(0.0, |sum, [t, weight]| {
         let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
-        let s = numbers.borrowed().on_edge(problem, edge, deviations.on(edge), t)?;
+        let s = numbers.admissible().on_edge(problem, edge, deviations.on(edge), t)?;
         let value = match &problem.scene.boundaries[at].condition {
             Condition::Contact { gap, flux, .. } => {
                 let mean = Sum::alone(&problem.scene, flux, 0.0).mean(segment)?;
@@ -147,7 +140,7 @@ fn edge_term(
 fn gap(problem: &Problem, amount: f64) -> Result<f64> {
     let numbers = by_hand(problem, amount)?;
     let exact = problem.scene.exact.as_ref().expect("an exact solution");
-    let found = distance(exact, problem, &numbers.borrowed())?;
+    let found = distance(exact, problem, &numbers.admissible())?;
     let bound = bound_squared(problem, &numbers)?;
     assert!(found.combined > 0.0 && bound > 0.0);
     let gap = (bound / found.identity.powi(2) - 1.0).abs();

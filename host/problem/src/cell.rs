@@ -18,8 +18,8 @@
 use signorini_kernel::element::rannacher_turek;
 use signorini_kernel::mesh::geometry::{doubled_area, scaled_normal};
 
-use signorini_problem::Problem;
-use signorini_problem::quadrature::{Point, on_quad, on_triangle};
+use crate::Problem;
+use crate::quadrature::{Point, on_quad, on_triangle};
 use signorini_scene::mesh::shape::edge_length;
 
 /// A value and its gradient at a point.
@@ -165,6 +165,14 @@ impl Cell {
             (_, 1) => [1.0 - eta, t, 0.0],
             (_, 2) => [1.0 - t, 1.0 - eta, 0.0],
             _ => [eta, 1.0 - t, 0.0],
+        }
+    }
+
+    /// dx dy per dt dη at a point of a side's coordinates.
+    pub fn area_element(&self, local: &Local, eta: f64) -> f64 {
+        match self {
+            Self::Triangle(_) => local.determinant * (1.0 - eta),
+            Self::Quad(_) => local.determinant,
         }
     }
 
