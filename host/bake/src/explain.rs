@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use super::choice::{Candidate, Choice, Model};
 use super::costs::{CYCLES, Costs};
 use super::ranges;
-use super::table::table;
+use super::text::table;
 use super::worst;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{EdgeKind, Problem, QuadCoefficient};

@@ -12,9 +12,9 @@ use signorini_kernel::{Error, error::Array};
 use super::bound::{Bound, Ends};
 use super::modes::{Modes, Scaled};
 use super::output::Output;
-use super::padding::{filled_up, matrix};
 use super::relaxation::best_omega;
 use super::start::InitialState;
+use crate::narrow::{filled_up, matrix, pairs};
 use signorini_condense::ranges::split::Split;
 use signorini_condense::{CondensedModel, ModalModel};
 use signorini_image::chosen::WorstCase;
@@ -106,7 +106,7 @@ impl<R: Scalar> Baked<R> {
             matrix: matrix(condensate),
             start: InitialState::new(condensate, n > 0 && work.pivots.is_some())?,
             load: condensate.load.iter().flat_map(|column| filled_up(column)).collect(),
-            limits: condensate.limits.iter().map(|pair| pair.map(R::narrow)).collect(),
+            limits: pairs(&condensate.limits),
             spans: spans(condensate)?,
             ranges: ranges(condensate.ranges.get(1..).unwrap_or_default()),
             outputs: condensate.outputs.iter().map(Output::new).collect(),

@@ -2,7 +2,7 @@
 
 use signorini_contact::outputs::Measure;
 
-use super::padding::narrow;
+use crate::narrow::narrow;
 use signorini_problem::scalar::Scalar;
 
 /// An output with its arrays.

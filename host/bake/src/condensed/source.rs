@@ -8,8 +8,8 @@ use super::arrays::{Baked, Solver};
 use super::sizes::sizes;
 use super::statics::data;
 use crate::controller::{self, Parts};
-use crate::imports::imports;
 use crate::module_api::{About, ModuleApi};
+use crate::text::imports;
 use signorini_problem::scalar::Scalar;
 
 /// The module.
@@ -35,19 +35,12 @@ pub fn source<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
     text + &own + &data(face.outputs(), baked)
 }
 
-/// Names that the module may use, with their place in the kernel.
-const NAMES: &[(&str, &str)] = &[
-    ("ControllerStorage", "condensed::ControllerStorage"),
-    ("Exchanges", "condensed::Exchanges"),
-    ("Phased", "condensed::Phased"),
-    ("Effort", "condensed::Effort"),
-    ("Swept", "condensed::Swept"),
-    ("Linear", "contact::method::Linear"),
-    ("Sweeps", "contact::method::Sweeps"),
-    ("ArrayModalStorage", "contact::modes::ArrayModalStorage"),
-    ("ArrayStorage", "contact::storage::ArrayStorage"),
-    ("ArrayTableauStorage", "contact::storage::ArrayTableauStorage"),
-];
+/// Items of the kernel that the module may use.
+const NAMES: &str = "\
+    condensed::ControllerStorage condensed::Exchanges condensed::Phased condensed::Effort \
+    condensed::Swept contact::method::Linear contact::method::Sweeps \
+    contact::modes::ArrayModalStorage contact::storage::ArrayStorage \
+    contact::storage::ArrayTableauStorage";
 
 fn constants<R: Scalar>(baked: &Baked<R>) -> String {
     let (contact, sweeps) = (baked.contact, baked.sweeps);

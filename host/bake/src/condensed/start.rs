@@ -4,7 +4,7 @@ use signorini_contact::dense::blocks::{Block, SIDE, count, padded};
 use signorini_contact::dense::tableau::{self, Tableau};
 use signorini_kernel::Error;
 
-use super::padding::{filled_up, matrix};
+use crate::narrow::{filled_up, matrix};
 use signorini_condense::CondensedModel;
 use signorini_problem::scalar::Scalar;
 

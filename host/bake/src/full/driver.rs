@@ -4,23 +4,14 @@ use signorini_kernel::limits::Limits;
 
 use super::arrays::{Baked, TickOptions};
 use crate::controller::{self, Parts};
-use crate::imports::imports;
+use crate::text::imports;
 use signorini_problem::scalar::Scalar;
 
-/// Names that the controller may use, with their place in the kernel.
-const NAMES: &[(&str, &str)] = &[
-    ("Libm", "kernel::Libm"),
-    ("Micromath", "kernel::Micromath"),
-    ("ArrayStorage", "full::ArrayStorage"),
-    ("ByFactor", "full::controller::ByFactor"),
-    ("ControllerStorage", "full::controller::ControllerStorage"),
-    ("Setup", "full::controller::Setup"),
-    ("Lengths", "full::Lengths"),
-    ("Units", "full::Units"),
-    ("sparse", "sparse"),
-    ("CertifiedSweeps", "tick::CertifiedSweeps"),
-    ("UncertifiedSweeps", "tick::UncertifiedSweeps"),
-];
+/// Items of the kernel that the controller may use.
+const NAMES: &str = "\
+    kernel::Libm kernel::Micromath full::ArrayStorage full::controller::ByFactor \
+    full::controller::ControllerStorage full::controller::Setup full::Lengths full::Units sparse \
+    tick::CertifiedSweeps tick::UncertifiedSweeps";
 
 /// The scene with its memory, and the alias.
 pub(super) fn controller<R: Scalar>(baked: &Baked<R>) -> String {

@@ -23,14 +23,12 @@ mod foundation;
 mod linear;
 mod listing;
 mod output;
+mod pattern;
 mod scale;
-mod shares;
 mod sizes;
 mod source;
 #[cfg(test)]
 mod tests;
-mod transfer;
-mod underflow;
 
 pub use arrays::Baked;
 pub use controller::Controller;

@@ -18,7 +18,7 @@ mod why;
 use std::fmt::Write as _;
 
 use crate::choice::{Choice, Origin};
-use crate::table::table;
+use crate::text::table;
 use reach::Reach;
 use runs::runs;
 use signorini_condense::ranges::interval::Interval;
