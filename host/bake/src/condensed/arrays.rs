@@ -304,7 +304,7 @@ impl<R: Scalar> Baked<R> {
         };
         finite(Array::Load, &self.load)?;
         for output in &self.outputs {
-            for numbers in output.arrays() {
+            for numbers in &output.arrays {
                 finite(Array::Fluxes, numbers)?;
             }
         }

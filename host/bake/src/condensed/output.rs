@@ -3,66 +3,59 @@
 use signorini_contact::outputs::Measure;
 
 use crate::narrow::narrow;
+use signorini_condense::Measure as Given;
 use signorini_problem::scalar::Scalar;
 
-/// An output with its arrays.
+/// The numbers of a [`Measure`], owned.
 #[derive(Debug, Clone)]
-pub(super) enum Output<R> {
-    Linear { of_inputs: Vec<R>, of_contact: Vec<R> },
-    Flux { of_inputs: Vec<R>, of_contact: Vec<R>, of_reaction: Vec<R> },
-    Length { always: R, of_contact: Vec<R> },
-    Saturated { always: R, of_contact: Vec<R> },
-    Bound,
+pub(super) struct Output<R> {
+    /// A length that always counts.
+    always: R,
+    /// By the inputs, by the openings, by the reactions.
+    pub arrays: [Vec<R>; 3],
+    of: for<'a> fn(R, [&'a [R]; 3]) -> Measure<'a, R>,
 }
 
 impl<R: Scalar> Output<R> {
-    pub fn new(measure: &signorini_condense::Measure) -> Self {
+    pub fn new(measure: &Given) -> Self {
         match measure {
-            signorini_condense::Measure::Linear { of_inputs, of_contact } => {
-                Self::Linear { of_inputs: narrow(of_inputs), of_contact: narrow(of_contact) }
+            Given::Linear { of_inputs, of_contact } => {
+                Self::of(0.0, [of_inputs, of_contact, &[]], |_, [of_inputs, of_contact, _]| {
+                    Measure::Linear { of_inputs, of_contact }
+                })
             }
-            signorini_condense::Measure::Flux { of_inputs, of_contact, of_reaction } => {
-                Self::Flux {
-                    of_inputs: narrow(of_inputs),
-                    of_contact: narrow(of_contact),
-                    of_reaction: narrow(of_reaction),
-                }
+            Given::Flux { of_inputs, of_contact, of_reaction } => Self::of(
+                0.0,
+                [of_inputs, of_contact, of_reaction],
+                |_, [of_inputs, of_contact, of_reaction]| Measure::Flux {
+                    of_inputs,
+                    of_contact,
+                    of_reaction,
+                },
+            ),
+            Given::Length { always, of_contact } => {
+                Self::of(*always, [&[], of_contact, &[]], |always, [_, of_contact, _]| {
+                    Measure::Length { always, of_contact }
+                })
             }
-            signorini_condense::Measure::Length { always, of_contact } => {
-                Self::Length { always: R::narrow(*always), of_contact: narrow(of_contact) }
+            Given::Saturated { always, of_contact } => {
+                Self::of(*always, [&[], of_contact, &[]], |always, [_, of_contact, _]| {
+                    Measure::Saturated { always, of_contact }
+                })
             }
-            signorini_condense::Measure::Saturated { always, of_contact } => {
-                Self::Saturated { always: R::narrow(*always), of_contact: narrow(of_contact) }
-            }
-            signorini_condense::Measure::Bound => Self::Bound,
+            Given::Bound => Self::of(0.0, [&[]; 3], |_, _| Measure::Bound),
         }
     }
 
-    /// Its arrays in flash.
-    pub fn arrays(&self) -> [&[R]; 3] {
-        match self {
-            Self::Linear { of_inputs, of_contact } => [of_inputs, of_contact, &[]],
-            Self::Flux { of_inputs, of_contact, of_reaction } => {
-                [of_inputs, of_contact, of_reaction]
-            }
-            Self::Length { of_contact, .. } | Self::Saturated { of_contact, .. } => {
-                [&[], of_contact, &[]]
-            }
-            Self::Bound => [&[]; 3],
-        }
+    fn of(
+        always: f64,
+        arrays: [&[f64]; 3],
+        of: for<'a> fn(R, [&'a [R]; 3]) -> Measure<'a, R>,
+    ) -> Self {
+        Self { always: R::narrow(always), arrays: arrays.map(narrow), of }
     }
 
     pub fn measure(&self) -> Measure<'_, R> {
-        match self {
-            Self::Linear { of_inputs, of_contact } => Measure::Linear { of_inputs, of_contact },
-            Self::Flux { of_inputs, of_contact, of_reaction } => {
-                Measure::Flux { of_inputs, of_contact, of_reaction }
-            }
-            Self::Length { always, of_contact } => Measure::Length { always: *always, of_contact },
-            Self::Saturated { always, of_contact } => {
-                Measure::Saturated { always: *always, of_contact }
-            }
-            Self::Bound => Measure::Bound,
-        }
+        (self.of)(self.always, self.arrays.each_ref().map(Vec::as_slice))
     }
 }

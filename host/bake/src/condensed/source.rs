@@ -32,7 +32,8 @@ pub fn source<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
     let mut text = face.source::<R>(&about);
     let own = constants(baked) + &controller(face, baked);
     text += &imports(NAMES, &own, "");
-    text + &own + &data(face.outputs(), baked)
+    let outputs = face.outputs.iter().map(|item| item.identifier.as_str());
+    text + &own + &data(outputs, baked)
 }
 
 /// Items of the kernel that the module may use.

@@ -15,7 +15,9 @@ pub(super) fn patterns<R: Scalar, I: Index>(
     face: &ModuleApi,
     to: &mut Statics,
 ) -> String {
-    lines(all.iter().zip(face.inputs()).map(|(of, input)| pattern::<R, I>(of, input, to)))
+    lines(
+        all.iter().zip(&face.inputs).map(|(of, input)| pattern::<R, I>(of, &input.identifier, to)),
+    )
 }
 
 fn pattern<R: Scalar, I: Index>(of: &Pattern<R, u32>, input: &str, to: &mut Statics) -> String {
@@ -94,7 +96,11 @@ pub(super) fn outputs<R: Scalar, I: Index>(
     face: &ModuleApi,
     to: &mut Statics,
 ) -> String {
-    lines(all.iter().zip(face.outputs()).map(|(of, output)| functional::<R, I>(of, output, to)))
+    lines(
+        all.iter()
+            .zip(&face.outputs)
+            .map(|(of, output)| functional::<R, I>(of, &output.identifier, to)),
+    )
 }
 
 fn functional<R: Scalar, I: Index>(
