@@ -23,12 +23,14 @@ pub mod intervals;
 mod item;
 mod meanings;
 pub mod module_api;
-mod narrow;
+pub mod narrow;
 pub mod promise;
 pub mod range;
 pub mod ranges;
 pub mod setting;
 mod statics;
+#[cfg(test)]
+mod tests;
 pub mod text;
 pub mod trial;
 mod worst;

@@ -5,7 +5,8 @@ use signorini_contact::dense::blocks::{Block, SIDE, count, padded};
 use signorini_condense::CondensedModel;
 use signorini_problem::scalar::Scalar;
 
-pub(crate) fn narrow<R: Scalar>(numbers: &[f64]) -> Vec<R> {
+/// Numbers in the scalar `R`.
+pub fn narrow<R: Scalar>(numbers: &[f64]) -> Vec<R> {
     numbers.iter().map(|&x| R::narrow(x)).collect()
 }
 

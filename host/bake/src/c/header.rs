@@ -187,23 +187,17 @@ fn enumeration(name: &str, doc: &str, codes: &[Code], meanings: &[&str]) -> Stri
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
     use std::process::Command;
 
     use super::*;
     use crate::choice::{Choice, Wanted};
     use crate::emit::emit;
+    use crate::tests::standard;
     use signorini_image::library::MACHINES;
-    use signorini_problem::Problem;
-    use signorini_scene::mesh::adapted;
-    use signorini_scene::scene::Scene;
 
     /// The header of a standard scene for this machine, with the sizes of a state and a report.
     fn header(name: &str, state: usize, report: usize) -> String {
-        let path = format!("../../meshes/scenes/{name}.toml");
-        let scene = Scene::read(Path::new(&path)).expect("a standard scene");
-        let problem = Problem::new(&scene, adapted::of_scene(&scene).expect("its mesh"));
-        let problem = problem.expect("a problem");
+        let problem = standard(name, |_| ());
         let chosen = Choice::<f32>::new(&problem, Wanted::default()).expect("a model");
         let chosen = emit(&problem, &chosen).chosen;
         let (api, on) = (ModuleApi::new(&problem), &MACHINES[3]);

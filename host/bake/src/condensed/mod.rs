@@ -11,7 +11,6 @@ mod bound;
 mod controller;
 mod modes;
 mod output;
-mod relaxation;
 mod sizes;
 mod source;
 mod start;

@@ -69,8 +69,7 @@ impl<R: Scalar> Baked<R> {
 
     /// Whether its first tick needs no sweeps.
     fn solves(&self, scene: &Scene) -> bool {
-        let inputs = scene.inputs.iter().map(|input| R::narrow(input.default));
-        let inputs: Vec<R> = inputs.collect();
+        let inputs: Vec<R> = scene.inputs.iter().map(|input| R::narrow(input.default)).collect();
         match self.has_quads() {
             true => Controller::<R, QUADS>::new(self).solves(&inputs),
             false => Controller::<R, TRIANGLES>::new(self).solves(&inputs),

@@ -17,7 +17,6 @@ mod bent;
 mod borrowed;
 mod controller;
 mod data;
-mod driver;
 mod factored;
 mod foundation;
 mod linear;

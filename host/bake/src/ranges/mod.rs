@@ -7,7 +7,6 @@
 //!   random inputs      ─► what outputs and error bound reach       seen
 //! ```
 
-mod conflict;
 mod counts;
 mod reach;
 mod runs;
@@ -29,9 +28,9 @@ use signorini_problem::Problem;
 use signorini_problem::functional::wanted;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::scene::Scene;
+pub use why::conflict;
 use why::{coefficient, nothing_proved};
 
-pub use conflict::conflict;
 use counts::largest_bound;
 pub use counts::{constants, declared, found};
 
