@@ -1,8 +1,9 @@
 //! A condensed model with limits of the flux, tick after tick: against the direct solver on the mesh, and its bound against that
 //! of the same numbers in f64.
 
-use crate::direct::{HEATER, directly, narrowed};
+use crate::direct::{HEATER, directly};
 use signorini_bake::condensed::{Baked, Controller, Work};
+use signorini_bake::narrow::narrow;
 use signorini_condense::{CondensedModel, condense};
 use signorini_kernel::report::Ended;
 use signorini_problem::Problem;
@@ -59,7 +60,7 @@ fn ticks<R: Scalar>(problem: &Problem, expected: &Expected) -> Result<[bool; 3]>
     let mut controller = Controller::new(&baked);
     let mut seen = [false; 3];
     for values in STEPS {
-        let inputs: Vec<R> = narrowed(&values);
+        let inputs: Vec<R> = narrow(&values);
         let (found, report) = controller.tick(&inputs).expect("a tick");
         let x: Vec<f64> = controller.x().iter().map(|x| x.wide()).collect();
         for x in &x {

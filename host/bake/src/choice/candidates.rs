@@ -1,12 +1,10 @@
 //! The variants of the condensed model, each with what it takes.
 
-use signorini_contact::dense::blocks::padded;
-
 use super::work::{allowed, entries, fixed, within};
 use super::{Candidate, Model, Origin};
 use crate::budget::{Budget, Needs};
 use crate::costs::Costs;
-use crate::dense::{Done, Price};
+use crate::dense::Done;
 use crate::setting::checked;
 use crate::{condensed, trial};
 use signorini_condense::CondensedModel;
@@ -101,18 +99,9 @@ fn condensed_as<R: Scalar>(
         None => condensed::Baked::<R>::new(condensate, all, certified),
     };
     let baked = baked.map_err(unfit)?;
-    let baked = baked.with_setting(setting);
+    let mut baked = baked.with_setting(setting);
     let costs = Costs::measured();
-    let price = Price {
-        order: padded(condensate.contact),
-        entries: entries(condensate, baked.modes.as_ref()),
-        vertices: baked.vertices(),
-        columns: baked.columns(),
-        exact,
-        is_limited: baked.is_limited(),
-        forms: baked.forms(),
-        modes: baked.modes.as_ref().map_or(0, |modes| modes.count),
-    };
+    let price = baked.price(entries(condensate, baked.modes.as_ref()), exact);
     let spaces = condensate.defaults.iter().zip(&condensate.ranges).take(baked.inputs).skip(1);
     let spaces: Vec<_> = spaces.map(|(&default, &range)| InputSpace { default, range }).collect();
     let of_tick = |done: &Done| price.of::<R>(&costs, done);
@@ -132,11 +121,16 @@ fn condensed_as<R: Scalar>(
     };
     // What every tick tried has time for.
     let tried = (!is_late(instructions[1])).then_some(trial);
-    let baked = match baked.worst_exchanges() {
-        Some(_) if !is_late(worst) || tried.is_some() => baked.with_worst(worst),
-        // Cut off where time is up: no end is proved.
-        _ => baked.with_work(within::<R>(&costs, condensate.contact, all, tried, time)),
-    };
+    match baked.worst_exchanges() {
+        Some(_) if !is_late(worst) || tried.is_some() => {
+            baked.worst_instructions = worst.map(|count| count.ceil() as u64);
+        }
+        _ => {
+            // Cut off where time is up: no end is proved.
+            baked.work = within::<R>(&costs, condensate.contact, all, tried, time);
+            baked.sweeps.most = baked.work.sweeps;
+        }
+    }
     let sizes = condensed::sizes(&baked);
     let needs = Needs::with_code(baked.kind(), sizes, instructions);
     let solver = match (condensate.contact, exact) {

@@ -4,6 +4,7 @@ use signorini_contact::dense::blocks::{count, padded};
 
 use super::arrays::{Baked, Solver};
 use super::statics::written;
+use crate::dense::Price;
 use crate::full::Sizes;
 use signorini_problem::scalar::Scalar;
 
@@ -11,12 +12,27 @@ use signorini_problem::scalar::Scalar;
 const BLOCK: usize = 64;
 
 impl<R: Scalar> Baked<R> {
+    /// The sizes by which its ticks are priced, with so many entries of loads and outputs, and the exact method or without.
+    pub fn price(&self, entries: usize, exact: bool) -> Price {
+        let (bound, laws) = (self.bound.as_ref(), usize::from(self.modes.is_some()));
+        Price {
+            order: padded(self.contact),
+            entries,
+            vertices: bound.map_or(0, |bound| bound.vertices.len()),
+            columns: self.columns(),
+            exact,
+            is_limited: self.is_limited(),
+            forms: bound.map_or(0, |bound| 1 + usize::from(bound.jump.is_some()) + laws),
+            modes: self.modes.as_ref().map_or(0, |modes| modes.count),
+        }
+    }
+
     /// Bytes that modes take beside the bound.
     fn of_modes(&self) -> usize {
         self.modes.as_ref().map_or(0, |modes| {
             let columns = modes.count * padded(self.contact);
             let own = modes.compliance.len() + modes.of_inputs.len() + columns;
-            (own + BLOCK * count(self.contact) + self.inputs + modes.count) * self.scalar()
+            (own + BLOCK * count(self.contact) + self.inputs + modes.count) * size_of::<R>()
         })
     }
 
@@ -34,7 +50,7 @@ impl<R: Scalar> Baked<R> {
         let of_bound = without(&|other| other.bound = Err(String::new()));
         let corners = self.bound.as_ref().map_or(0, |bound| bound.corners.len());
         let floating = self.bound.as_ref().is_ok_and(|bound| !bound.floating.is_empty());
-        let scalar = self.scalar();
+        let scalar = size_of::<R>();
         let matrix = format!("{} contact edges, half of a symmetric matrix", self.contact);
         let method = match exact {
             true if self.modes.is_some() => "a tableau",
@@ -79,7 +95,7 @@ impl<R: Scalar> Baked<R> {
 
 /// RAM of the `Controller` and flash of its data, exact but for alignment and lengths of slices.
 pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
-    let (n, scalar) = (padded(baked.contact), baked.scalar());
+    let (n, scalar) = (padded(baked.contact), size_of::<R>());
     let columns = baked.columns();
     let tableau = match baked.solver() {
         Solver::Exchanges(_) | Solver::TwoPhases => {
