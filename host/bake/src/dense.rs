@@ -16,7 +16,7 @@ use super::costs::{Costs, ORDERS, around};
 use signorini_problem::scalar::Scalar;
 
 /// A column entry of a load or an output: two loads, a multiply-add, half of a loop.
-const AN_ENTRY: f64 = 4.0;
+pub(super) const AN_ENTRY: f64 = 4.0;
 /// What the bound does with an edge beside the norm (its part of z, of the largest opening, of what is mended) and with a
 /// contact vertex (two openings, what is beside them, its correction), what a tick does once and with an edge: no stage of
 /// the record has them alone. They were chosen so that slab, levee, strip and a levee of 64 edges are met within 8 %.

@@ -74,13 +74,10 @@ pub const OUTPUT_WEIGHTS: [signorini_device::intervals::OutputWeights<Scalar>; O
 }
 
 fn record<R: Scalar>(of: &OutputWeights<R>) -> String {
-    let OutputWeights { total, square, algebraic, of_u } = *of;
-    if total == R::INFINITY {
-        return "signorini_device::intervals::OutputWeights::NONE".to_owned();
+    match of.total == R::INFINITY {
+        true => "signorini_device::intervals::OutputWeights::NONE".to_owned(),
+        false => format!("signorini_device::intervals::{of:?}"),
     }
-    format!(
-        "signorini_device::intervals::OutputWeights {{ total: {total:?}, square: {square:?}, algebraic: {algebraic:?}, of_u: {of_u:?} }}"
-    )
 }
 
 const PLUS_MINUS: &str = "

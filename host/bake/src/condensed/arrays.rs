@@ -9,9 +9,8 @@ use signorini_contact::sides;
 use signorini_contact::spans::SpanColumns;
 use signorini_kernel::{Error, error::Array};
 
-use super::bound::{Bound, Ends};
+use super::bound::{Bound, Ends, Output};
 use super::modes::{Modes, Scaled};
-use super::output::Output;
 use super::start::{InitialState, best_omega};
 use crate::narrow::{filled_up, matrix, pairs};
 use signorini_condense::ranges::split::Split;

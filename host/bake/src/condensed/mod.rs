@@ -10,7 +10,6 @@ mod arrays;
 mod bound;
 mod controller;
 mod modes;
-mod output;
 mod sizes;
 mod source;
 mod start;

@@ -6,7 +6,7 @@ use signorini_contact::dense::blocks::{count, padded};
 
 use super::arrays::{Baked, Solver};
 use super::sizes::sizes;
-use super::statics::data;
+use super::statics::{self, written};
 use crate::controller::{self, Parts};
 use crate::module_api::{About, ModuleApi};
 use crate::text::imports;
@@ -33,7 +33,7 @@ pub fn source<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
     let own = constants(baked) + &controller(face, baked);
     text += &imports(NAMES, &own, "");
     let outputs = face.outputs.iter().map(|item| item.identifier.as_str());
-    text + &own + &data(outputs, baked)
+    text + &own + &written(outputs, baked).module(statics::NAMES, "Scalar")
 }
 
 /// Items of the kernel that the module may use.

@@ -14,19 +14,11 @@ use crate::statics::{Statics, lines, named, record, tall_record};
 use signorini_problem::scalar::Scalar;
 
 /// Items of the kernel that they may use.
-const NAMES: &str = "\
+pub(super) const NAMES: &str = "\
     contact::Condensed contact::certificate::Corner contact::certificate::Form \
     contact::certificate::Vertex contact::factor::Factor contact::modes::Modal \
     contact::outputs::Measure contact::sides::Baked contact::sides::Sides \
     contact::spans::SpanColumns contact::dense::tableau::InitialTableau";
-
-/// A module of their own.
-pub(super) fn data<'n, R: Scalar>(
-    outputs: impl Iterator<Item = &'n str>,
-    baked: &Baked<R>,
-) -> String {
-    written(outputs, baked).module(NAMES, "Scalar")
-}
 
 /// Everything in flash; `outputs` are their names.
 pub(super) fn written<'n, R: Scalar>(

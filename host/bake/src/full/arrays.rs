@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use signorini_bound::cells::{Cells, Quad, Triangle};
 use signorini_bound::certificate::{Discretization, Metric, POINTS, Stability};
+use signorini_device::full;
 use signorini_device::tick::Limits;
 use signorini_kernel::Tensor;
 use signorini_kernel::mesh::Mesh;
@@ -15,8 +16,8 @@ use super::data::{Data, refuse_faint};
 use super::factored::Factored;
 use super::limits;
 use super::output::{Output, output};
-use super::scale::Scale;
 use crate::module_api::ModuleApi;
+use crate::range::refuse_answers;
 use crate::setting::checked;
 use signorini_certify::Certifier;
 use signorini_certify::term::full_terms;
@@ -24,7 +25,8 @@ use signorini_problem::functional::functionals;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Approach, Assembled, Parts, Problem};
 use signorini_scene::error::Result;
-use signorini_scene::scene::Field;
+use signorini_scene::scene::units::Units;
+use signorini_scene::scene::{Field, Scene};
 use signorini_scene::setting::{MathKind, Method, Omega, Setting, Start};
 use signorini_solve::unfit;
 
@@ -73,6 +75,26 @@ pub(super) struct TickOptions<R> {
     pub fast: bool,
 }
 
+/// Units in which the numbers of a problem are near 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Scale<R> {
+    pub units: Units,
+    /// Units as the kernel takes them.
+    pub kernel: full::Units<R>,
+}
+
+impl<R: Scalar> Scale<R> {
+    /// The units of a scene that is solved in `units`.
+    ///
+    /// # Errors
+    /// Answers that the scalar type cannot hold in the scene's own units.
+    pub fn new(scene: &Scene, units: Units) -> Result<Self> {
+        refuse_answers::<R>(scene, &units)?;
+        let [u, flux, energy] = [units.u, units.flux(), units.energy()].map(R::narrow);
+        Ok(Self { units, kernel: full::Units { u, flux, energy } })
+    }
+}
+
 impl<R: Scalar> TickOptions<R> {
     fn new(setting: &Setting, unknowns: usize) -> Self {
         Self {
@@ -105,11 +127,6 @@ impl<R: Scalar> Baked<R> {
     /// Whether these data allow for an error bound.
     pub fn has_bound(&self) -> bool {
         self.data.has_bound
-    }
-
-    /// The limits of its ticks.
-    pub fn limits(&self) -> Limits<R> {
-        self.how.limits
     }
 
     /// Entries of the factor that solves its ticks, if one does.

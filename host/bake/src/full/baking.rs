@@ -1,11 +1,10 @@
-//! A scene baked: in units in which its numbers are near 1, and with a factor where one is asked for.
+//! A scene baked: where its numbers are far from 1 in other units, and with a factor where one is asked for.
 
 use signorini_kernel::rows::{QUADS, TRIANGLES};
 
-use super::arrays::Baked;
+use super::arrays::{Baked, Scale};
 use super::controller::Controller;
 use super::factored::Factored;
-use super::scale::Scale;
 use crate::module_api::ModuleApi;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Approach, Problem};

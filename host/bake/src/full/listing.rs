@@ -13,7 +13,7 @@ use crate::statics::{Statics, tall_record};
 use signorini_problem::scalar::Scalar;
 
 /// Items of the kernel that they may use.
-const NAMES: &str = "\
+pub(super) const NAMES: &str = "\
     kernel::assembly::CellLoads contact::dense::tableau::InitialTableau \
     kernel::mesh::boundary::Neumann kernel::mesh::boundary::Robin bound::cells::Cell \
     bound::cells::Cells bound::cells::Quad bound::cells::Triangle bound::certificate::Curved \
@@ -23,11 +23,6 @@ const NAMES: &str = "\
     full::Functional full::Pattern full::Points full::TransferPattern full::Product \
     full::Contribution kernel::Mesh kernel::relaxation::Relaxation sparse::Factor \
     sparse::Factored kernel::flux_range::Spans kernel::stiffness::Stiffness kernel::Tensor";
-
-/// The statics, in a module of their own.
-pub(super) fn listing<R: Scalar>(baked: &Baked<R>) -> String {
-    listed(baked).module(NAMES, "Index, Scalar")
-}
 
 /// Everything in flash.
 pub(super) fn listed<R: Scalar>(baked: &Baked<R>) -> Statics {

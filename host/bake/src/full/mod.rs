@@ -23,7 +23,6 @@ mod linear;
 mod listing;
 mod output;
 mod pattern;
-mod scale;
 mod sizes;
 mod source;
 #[cfg(test)]

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use signorini_kernel::limits::Limits;
 
 use super::arrays::{Baked, TickOptions};
-use super::listing::listing;
+use super::listing::{self, listed};
 use super::sizes::sizes;
 use crate::controller::{self, Parts};
 use crate::module_api::About;
@@ -38,7 +38,7 @@ pub fn source<R: Scalar>(baked: &Baked<R>) -> String {
     let _ = write!(text, "\n/// Positions in the arrays.\ntype Index = {index};\n");
     let own = lengths(baked) + &controller(baked);
     text += &(required(&features) + &imports(NAMES, &own, "") + &own);
-    text + &listing(baked)
+    text + &listed(baked).module(listing::NAMES, "Index, Scalar")
 }
 
 /// The build fails, and says why, where the kernel lacks code for the scene.
