@@ -32,17 +32,6 @@ pub(crate) const UNITS: &str = "Units are the scene's: lengths those of its mesh
                      a bound has that of (∫A∇u·∇u)^½. A flux is (A∇u)·n with the normal outward: positive where u rises \
                      towards the outside. Heat, which flows from high u to low, then flows in; water flows out where u is −head.";
 
-/// What a model says of itself in the header.
-#[derive(Debug, Clone)]
-pub struct About<'a> {
-    /// `full` or `condensed`.
-    pub model: &'a str,
-    /// Its description, one paragraph of Markdown.
-    pub text: &'a str,
-    /// The features of the kernel that it needs.
-    pub features: &'a [&'a str],
-}
-
 impl ModuleApi {
     /// That of `problem`.
     pub fn new(problem: &Problem) -> Self {
@@ -70,18 +59,18 @@ impl ModuleApi {
         !self.ranges::<f64>().is_empty()
     }
 
-    /// Everything but the controller and its data.
-    pub fn source<R: Scalar>(&self, about: &About) -> String {
-        self.header(about) + &self.types::<R>(about)
+    /// Everything but the controller and its data; `model` is `full` or `condensed`, `about` its description, one paragraph of
+    /// Markdown, and `features` are those of the kernel that it needs.
+    pub fn source<R: Scalar>(&self, model: &str, about: String, features: &[&str]) -> String {
+        self.header(about, features) + &self.types::<R>(model, features)
     }
 
-    fn header(&self, about: &About) -> String {
+    fn header(&self, about: String, features: &[&str]) -> String {
         let Self { title, file, hash, inputs, outputs, .. } = self;
-        let features: Vec<_> = about.features.iter().map(|name| format!("{name:?}")).collect();
         let mut lines = vec![
             prose(title),
             String::new(),
-            about.text.to_owned(),
+            about,
             String::new(),
             format!(
                 "From {}, scene hash {hash:016x} (scene file, setting, mesh, default inputs).",
@@ -90,11 +79,11 @@ impl ModuleApi {
             format!("Written by `signorini bake` {}; do not edit.", env!("CARGO_PKG_VERSION")),
             String::new(),
             "```toml".to_owned(),
-            dependency(&features),
+            dependency(features),
             "```".to_owned(),
             format!(
                 "Kernel features: {}.",
-                match about.features {
+                match features {
                     [] => "none".to_owned(),
                     features => features.join(", "),
                 }
@@ -118,7 +107,7 @@ impl ModuleApi {
         lines.chain([allow, VERSION.to_owned()]).collect()
     }
 
-    fn types<R: Scalar>(&self, About { model, features, .. }: &About) -> String {
+    fn types<R: Scalar>(&self, model: &str, features: &[&str]) -> String {
         let Self { hash, inputs, defaults, outputs, .. } = self;
         let mut text = format!(
             "
@@ -192,7 +181,7 @@ const VERSION: &str = concat!(
 );
 
 /// The line of a Cargo.toml. The kernel is on no registry: it is found where the checkout stands that has baked this.
-fn dependency(features: &[String]) -> String {
+fn dependency(features: &[&str]) -> String {
     let (place, remark) = match checkout::find() {
         Ok(root) => {
             (root.join("kernel/device").display().to_string(), "the checkout that has baked this")
@@ -201,9 +190,8 @@ fn dependency(features: &[String]) -> String {
             ("kernel/device".to_owned(), "the folder kernel/device of a checkout of signorini")
         }
     };
-    let features = features.join(", ");
     format!(
-        "signorini-device = {{ path = {place:?}, default-features = false, features = [{features}] }} # {remark}"
+        "signorini-device = {{ path = {place:?}, default-features = false, features = {features:?} }} # {remark}"
     )
 }
 

@@ -8,7 +8,7 @@ use super::arrays::{Baked, Solver};
 use super::sizes::sizes;
 use super::statics::{self, written};
 use crate::controller::{self, Parts};
-use crate::module_api::{About, ModuleApi};
+use crate::module_api::ModuleApi;
 use crate::text::imports;
 use signorini_problem::scalar::Scalar;
 
@@ -27,9 +27,7 @@ pub fn source<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         bytes.ram,
         bytes.flash
     );
-    let features = baked.kernel_features();
-    let about = About { model: "condensed", text: &about, features: &features };
-    let mut text = face.source::<R>(&about);
+    let mut text = face.source::<R>("condensed", about, &baked.kernel_features());
     let own = constants(baked) + &controller(face, baked);
     text += &imports(NAMES, &own, "");
     let outputs = face.outputs.iter().map(|item| item.identifier.as_str());

@@ -8,7 +8,6 @@ use super::arrays::{Baked, TickOptions};
 use super::listing::{self, listed};
 use super::sizes::sizes;
 use crate::controller::{self, Parts};
-use crate::module_api::About;
 use crate::text::imports;
 use signorini_problem::scalar::Scalar;
 
@@ -33,8 +32,7 @@ pub fn source<R: Scalar>(baked: &Baked<R>) -> String {
         sizes.ram,
         sizes.flash
     );
-    let about = About { model: "full", text: &about, features: &features };
-    let mut text = baked.face.source::<R>(&about);
+    let mut text = baked.face.source::<R>("full", about, &features);
     let _ = write!(text, "\n/// Positions in the arrays.\ntype Index = {index};\n");
     let own = lengths(baked) + &controller(baked);
     text += &(required(&features) + &imports(NAMES, &own, "") + &own);
