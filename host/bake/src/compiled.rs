@@ -17,27 +17,6 @@ fn kernels(folder: &Path) -> Vec<PathBuf> {
     kernels
 }
 
-/// A firmware that knows nothing of the model: all that every module offers, by the same names. It prints whether a tick
-/// after a reset is the first again, whether there is a bound, and how a tick ends for which there is no time.
-pub const FIRMWARE: &str = "
-fn main() {
-    use signorini_device::kernel::report::{Ended, Report};
-    let mut controller = Box::new(Controller::new());
-    let first: Answer = controller.tick(Inputs::DEFAULT).unwrap();
-    let report: Report<Scalar> = first.report;
-    let limits = Limits { sweeps: 3, ..LIMITS };
-    let other = || Inputs::from_array(Inputs::DEFAULT.to_array().map(|value| 7.0 - value));
-    let deadline = &mut Deadline { remaining: || 0, sweep: 1, certificate: 1 };
-    let late = controller.tick_within(other(), limits, deadline).unwrap().report;
-    let cut = controller.tick_within(other(), limits, &mut Deadline::never()).unwrap().report;
-    controller.reset();
-    let again = controller.tick_within(Inputs::DEFAULT, LIMITS, &mut Deadline::never()).unwrap();
-    let whole = |report: &Report<Scalar>| report.sweeps <= 3 || report.ended != Ended::OutOfSweeps;
-    let bounds = [report, late, cut].map(|report| report.certificate().is_some());
-    println!(\"{} {:?} {:?} {}\", again == first, bounds, late.ended, whole(&cut));
-}
-";
-
 /// The text that a module with a `main` prints when it runs.
 pub fn printed(text: &str) -> String {
     ran(text).unwrap_or_else(|said| panic!("{said}"))

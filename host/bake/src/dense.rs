@@ -16,7 +16,7 @@ use super::costs::{Costs, ORDERS, around};
 use signorini_problem::scalar::Scalar;
 
 /// A column entry of a load or an output: two loads, a multiply-add, half of a loop.
-const AN_ENTRY: f64 = 4.0;
+pub(super) const AN_ENTRY: f64 = 4.0;
 /// What the bound does with an edge beside the norm (its part of z, of the largest opening, of what is mended) and with a
 /// contact vertex (two openings, what is beside them, its correction), what a tick does once and with an edge: no stage of
 /// the record has them alone. They were chosen so that slab, levee, strip and a levee of 64 edges are met within 8 %.
@@ -42,8 +42,8 @@ pub struct Done {
     pub visited: [Visited; 2],
 }
 
-/// The sizes of a condensed model, and the record's coefficients for it.
-#[derive(Debug)]
+/// The sizes of a condensed model.
+#[derive(Debug, Default)]
 pub struct Price {
     /// n, padded.
     pub order: usize,
@@ -72,11 +72,15 @@ impl Price {
         let solve = match (self.order, self.exact) {
             (0, _) => 0.0,
             (_, true) => {
-                let rest =
-                    self.line::<R>(costs, "exact, no edge changes", |n| [n * n / 64.0, n])?;
+                let rest = line::<R>(costs, self.order as f64, "exact, no edge changes", |n| {
+                    [n * n / 64.0, n]
+                })?;
                 at(rest, [before + after, n]) + self.exchanges::<R>(costs, done.pivots)?
             }
-            (_, false) => at(self.line::<R>(costs, PRODUCT, |n| [n * n / 128.0, n])?, [after, n]),
+            (_, false) => at(
+                line::<R>(costs, self.order as f64, PRODUCT, |n| [n * n / 128.0, n])?,
+                [after, n],
+            ),
         };
         let sweeps = f64::from(done.sweeps) * costs.of_dense::<R>("sweep", self.order)?;
         let follows = if done.visited[1].follows { self.follows::<R>(costs)? } else { 0.0 };
@@ -166,7 +170,8 @@ impl Price {
         }
         // Counted with the first n/2 + 3 of n + 3 columns.
         let counted = |n: f64| [(n / 2.0 + 3.0) * (n / 2.0 + 4.0) / 2.0, n + 3.0];
-        let norm = self.line::<R>(costs, "norm of the bound, half of x zero", counted)?;
+        let norm =
+            line::<R>(costs, self.order as f64, "norm of the bound, half of x zero", counted)?;
         let [edge, vertex] = IN_THE_BOUND;
         let rest = edge * self.order as f64 + vertex * self.vertices as f64;
         let each = at(norm, [visited.entries as f64, visited.order as f64]);
@@ -180,28 +185,16 @@ const COME: [&str; 2] = ["two phases, all edges come in", "three phases, all edg
 const MATRIX: [&str; 2] = ["modes, a matrix of none", "modes, a matrix of eight"];
 const FALL: [&str; 2] = ["two phases, all edges come in", "three phases, all to their limits"];
 
-impl Price {
-    /// The coefficients of a stage for this order.
-    fn line<R: Scalar>(
-        &self,
-        costs: &Costs,
-        stage: &str,
-        work: impl Fn(f64) -> [f64; 2],
-    ) -> Option<[f64; 3]> {
-        line::<R>(costs, around(self.order as f64), stage, work)
-    }
-}
-
-/// The coefficients of two measures of work and 1 that give the counts of a stage, whose work at three sizes counted is
-/// `work`; of the first alone where one size was counted, the largest.
+/// The coefficients of two measures of work and 1 that give the counts of a stage, whose work at the three sizes counted around
+/// `order` is `work`; of the first alone where one size was counted, the largest.
 fn line<R: Scalar>(
     costs: &Costs,
-    orders: [f64; 3],
+    order: f64,
     stage: &str,
     work: impl Fn(f64) -> [f64; 2],
 ) -> Option<[f64; 3]> {
     let row = |n| costs.counted::<R>(stage, n).map(|count| (work(n), count));
-    let [Some(a), Some(b), Some(c)] = orders.map(row) else {
+    let [Some(a), Some(b), Some(c)] = around(order).map(row) else {
         let [.., largest] = ORDERS;
         let ([blocks, _], count) = row(largest)?;
         return Some([count / blocks, 0.0, 0.0]);
@@ -228,47 +221,30 @@ mod tests {
         let costs = Costs::measured();
         for n in ORDERS {
             let work = |n: f64| [n * n / 128.0, n];
-            let line = line::<f32>(&costs, around(n), PRODUCT, work).unwrap();
+            let line = line::<f32>(&costs, n, PRODUCT, work).unwrap();
             let counted = costs.counted::<f32>(PRODUCT, n).unwrap();
             COSTS.check_relative(format_args!("order {n}"), at(line, work(n)), counted);
         }
         // A block of 64 multiply-adds, in at least one instruction and a load each.
         let of_block = |n: f64| [n * n / 128.0, n];
-        let [block, edge, _] = line::<f32>(&costs, around(64.0), PRODUCT, of_block).unwrap();
+        let [block, edge, _] = line::<f32>(&costs, 64.0, PRODUCT, of_block).unwrap();
         assert!((128.0..200.0).contains(&block) && (5.0..60.0).contains(&edge), "{block} {edge}");
-        assert!(line::<f64>(&costs, around(64.0), PRODUCT, of_block).is_some());
+        assert!(line::<f64>(&costs, 64.0, PRODUCT, of_block).is_some());
     }
 
     #[test]
     fn the_worst_tick_grows_with_its_exchanges() {
         let costs = Costs::measured();
         for order in [8, 32, 64] {
-            let price = Price {
-                order,
-                entries: 0,
-                vertices: order,
-                columns: 2 * order,
-                exact: true,
-                is_limited: false,
-                forms: 1,
-                modes: 0,
-            };
+            let sizes = Price { order, vertices: order, columns: 2 * order, ..Price::default() };
+            let price = Price { exact: true, forms: 1, ..sizes };
             let worst = |exchanges| price.worst::<f32>(&costs, exchanges).unwrap();
             let [none, all] = [worst(0), worst(order as u32)];
             // What was counted from nothing open to all, and the rest of a tick.
             let counted = costs.counted::<f32>(COME[0], order as f64).unwrap();
             assert!(all > counted && all - none < 1.3 * counted, "{order}");
         }
-        let price = Price {
-            order: 0,
-            entries: 9,
-            vertices: 0,
-            columns: 2,
-            exact: false,
-            is_limited: false,
-            forms: 1,
-            modes: 0,
-        };
+        let price = Price { entries: 9, columns: 2, forms: 1, ..Price::default() };
         assert!(price.worst::<f32>(&costs, 0).unwrap() > A_TICK);
         assert_eq!(price.worst::<f64>(&costs, 0), None);
     }
@@ -276,16 +252,7 @@ mod tests {
     #[test]
     fn an_exchange_alone_costs_less_than_two() {
         let costs = Costs::measured();
-        let price = Price {
-            order: 64,
-            entries: 0,
-            vertices: 0,
-            columns: 0,
-            exact: true,
-            is_limited: false,
-            forms: 0,
-            modes: 0,
-        };
+        let price = Price { order: 64, exact: true, ..Price::default() };
         let of = |pivots| price.of::<f32>(&costs, &Done { pivots, ..Done::default() }).unwrap();
         assert!(of(1) > of(0) && of(2) > of(1) && of(2) - of(1) < of(1) - of(0));
     }

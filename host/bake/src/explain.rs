@@ -6,25 +6,11 @@ use std::fmt::Write as _;
 use super::choice::{Candidate, Choice, Model};
 use super::costs::{CYCLES, Costs};
 use super::ranges;
-use super::table::table;
+use super::text::table;
 use super::worst;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{EdgeKind, Problem, QuadCoefficient};
 use signorini_scene::scene::Quantity;
-
-/// A feature of the general model: any mesh, any data, everything computed and kept on the target.
-#[derive(Debug, Clone, PartialEq)]
-struct Feature {
-    name: &'static str,
-    /// What the scene has of it; 0 leaves it out.
-    present: usize,
-    /// What there is, or what there is not.
-    why: String,
-    /// Bytes of RAM and flash that the general model has for it on this mesh.
-    bytes: usize,
-    /// Instructions a tick (or, for sweeps, a sweep) that go with them.
-    instructions: Option<f64>,
-}
 
 /// The page that `--explain` prints.
 pub fn explanation<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> String {
@@ -34,9 +20,7 @@ pub fn explanation<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> String {
     let condensed = matches!(chosen.model, Model::Condensed(_));
     let head = ["feature", "", "bytes", "instructions", "why"];
     let mut rows = vec![head.map(str::to_owned)];
-    for feature in features::<R>(problem) {
-        rows.push(row(&feature, condensed));
-    }
+    rows.extend(features::<R>(problem, condensed));
     if let Model::Condensed(baked) = &chosen.model {
         rows.extend(baked.features().map(|(name, kept, bytes, why)| {
             let state = if kept { "kept" } else { "dropped" };
@@ -130,20 +114,10 @@ fn candidates<R: Scalar>(choice: &Choice<R>) -> String {
     table(&rows) + &excluded.collect::<String>()
 }
 
-fn row(feature: &Feature, condensed: bool) -> [String; 5] {
-    let Feature { name, present, why, bytes, instructions } = feature;
-    let (state, why) = match (*present > 0, condensed) {
-        (true, false) => ("kept", why.clone()),
-        (true, true) if *name == "contact" => ("kept", why.clone()),
-        (true, true) => ("dropped", format!("{why}; eliminated on the host")),
-        (false, _) => ("dropped", why.clone()),
-    };
-    let count = instructions.map_or("-".to_owned(), |count| format!("{count:.0}"));
-    [(*name).to_owned(), state.to_owned(), bytes.to_string(), count, why]
-}
-
-/// Each feature with what the general model spends on it.
-fn features<R: Scalar>(problem: &Problem) -> Vec<Feature> {
+/// The features of the general model: any mesh, any data, everything computed and kept on the target. Each with whether it is
+/// kept, bytes of RAM and flash for it on this mesh, instructions a tick (of quads a sweep) that go with them, and what the scene
+/// has of it.
+fn features<R: Scalar>(problem: &Problem, condensed: bool) -> Vec<[String; 5]> {
     let costs = Costs::measured();
     let scalar = size_of::<R>();
     let (mesh, counts) = (&problem.mesh, problem.topology.counts);
@@ -158,111 +132,58 @@ fn features<R: Scalar>(problem: &Problem) -> Vec<Feature> {
     let of_kind = |kind| problem.kinds.iter().filter(|&&known| known == kind).count();
     let varying = varying(problem);
     let sources = problem.loads.triangles.len() + problem.loads.quads.len();
-    let inputs_of =
-        |name: &str| problem.scene.inputs.iter().filter(|input| input.of.value == name).count();
-    let sources = sources + inputs_of("source");
+    let inputs = problem.scene.inputs.iter().filter(|input| input.of.value == "source").count();
+    let sources = (sources + inputs).min(cells);
     let robin = of_kind(EdgeKind::Robin);
     let pushed = problem.loads.contact_flux.iter().filter(|&&q| q != 0.0).count();
     let gaps = problem.loads.gap.iter().filter(|&&gap| gap != 0.0).count();
     let limits = problem.loads.spans.iter().filter(|span| **span != f64::INFINITY).count();
-    let contact = counts.contact;
-    let read = problem
-        .scene
-        .outputs
-        .iter()
-        .filter(|output| matches!(output.quantity, Quantity::Flux))
-        .count();
-    let feature = |name, present, why: String, bytes, instructions| Feature {
-        name,
-        present,
-        why,
-        bytes,
-        instructions,
+    let (contact, neumann) = (counts.contact, problem.loads.neumann.len());
+    let is_read = problem.scene.outputs.iter().any(|of| matches!(of.quantity, Quantity::Flux));
+    let row = |name: &str, present: usize, why: String, bytes: usize, count: Option<f64>| {
+        let is_kept = present > 0 && (!condensed || name == "contact");
+        let state = if is_kept { "kept" } else { "dropped" };
+        let moved = if present > 0 && !is_kept { "; eliminated on the host" } else { "" };
+        let count = count.map_or("-".to_owned(), |count| format!("{count:.0}"));
+        [name.to_owned(), state.to_owned(), bytes.to_string(), count, why + moved]
     };
-    let some = |number: usize, what: &str| match number {
-        0 => format!("no {what}"),
-        _ => format!("{number} {what}"),
+    let some = |name, number: usize, what: &str, bytes, count| {
+        let number_of = if number == 0 { "no".to_owned() } else { number.to_string() };
+        row(name, number, format!("{number_of} {what}"), bytes, count)
     };
+    let never = |name, why: &str, bytes, count| row(name, 0, why.to_owned(), bytes, count);
+    let of_quads = match quads {
+        0 => unknowns * (2 * scalar + 2 * index),
+        _ => quads * (6 * scalar + 8 * index),
+    };
+    let wider = wider.map(|(quads, triangles)| (quads - triangles) * unknowns as f64);
+    let points = match varying {
+        0 => "closed forms are exact in every cell".to_owned(),
+        _ => format!("A varies, or a quad is no parallelogram, in {varying} of {cells} cells"),
+    };
+    let of_points = if varying > 0 { varying } else { cells } * 192 * scalar;
+    let matrices = each("element matrices", cells);
+    let (of_neumann, of_robin) = (of_kind(EdgeKind::Neumann), robin.max(1));
+    let limited = "contact edges whose flux has a limit";
+    let fluxes = match is_read {
+        true => "outputs read those of their own edges alone",
+        false => "no output reads them",
+    };
+    let of_fluxes = (3 * triangles + 4 * quads) * scalar;
     vec![
-        feature(
-            "triangles",
-            triangles,
-            some(triangles, "triangles"),
-            triangles * (3 * scalar + 6 * index),
-            None,
-        ),
-        feature(
-            "quads",
-            quads,
-            some(quads, "quads"),
-            if quads > 0 {
-                quads * (6 * scalar + 8 * index)
-            } else {
-                unknowns * (2 * scalar + 2 * index)
-            },
-            wider.map(|(quads, triangles)| (quads - triangles) * unknowns as f64),
-        ),
-        feature(
-            "tensors",
-            0,
-            "element matrices are baked".to_owned(),
-            cells * 3 * scalar,
-            each("element matrices", cells),
-        ),
-        feature(
-            "quadrature points",
-            varying,
-            match varying {
-                0 => "closed forms are exact in every cell".to_owned(),
-                _ => format!(
-                    "A varies, or a quad is no parallelogram, in {varying} of {cells} cells"
-                ),
-            },
-            if varying > 0 { varying } else { cells } * 192 * scalar,
-            None,
-        ),
-        feature(
-            "source f",
-            sources,
-            some(sources.min(cells), "cells with a source"),
-            cells * 2 * scalar,
-            each("load", cells),
-        ),
-        feature(
-            "Neumann fluxes",
-            problem.loads.neumann.len(),
-            some(problem.loads.neumann.len(), "edges with a flux"),
-            of_kind(EdgeKind::Neumann) * (scalar + index),
-            None,
-        ),
-        feature(
-            "Robin",
-            robin,
-            some(robin, "Robin edges"),
-            robin.max(1) * (2 * scalar + index),
-            None,
-        ),
-        feature("contact", contact, some(contact, "contact edges"), contact * (scalar + 1), None),
-        feature(
-            "limits",
-            limits,
-            some(limits, "contact edges whose flux has a limit"),
-            contact * scalar,
-            None,
-        ),
-        feature("gaps", gaps, some(gaps, "edges with a gap"), contact * 3 * scalar, None),
-        feature("offsets q", pushed, some(pushed, "edges with a flux q"), contact * scalar, None),
-        feature(
-            "fluxes of all edges",
-            0,
-            match read {
-                0 => "no output reads them".to_owned(),
-                _ => "outputs read those of their own edges alone".to_owned(),
-            },
-            (3 * triangles + 4 * quads) * scalar,
-            each("flux by cells", cells),
-        ),
-        feature("indicators of cells", 0, "no output reads them".to_owned(), cells * scalar, None),
+        some("triangles", triangles, "triangles", triangles * (3 * scalar + 6 * index), None),
+        some("quads", quads, "quads", of_quads, wider),
+        never("tensors", "element matrices are baked", cells * 3 * scalar, matrices),
+        row("quadrature points", varying, points, of_points, None),
+        some("source f", sources, "cells with a source", cells * 2 * scalar, each("load", cells)),
+        some("Neumann fluxes", neumann, "edges with a flux", of_neumann * (scalar + index), None),
+        some("Robin", robin, "Robin edges", of_robin * (2 * scalar + index), None),
+        some("contact", contact, "contact edges", contact * (scalar + 1), None),
+        some("limits", limits, limited, contact * scalar, None),
+        some("gaps", gaps, "edges with a gap", contact * 3 * scalar, None),
+        some("offsets q", pushed, "edges with a flux q", contact * scalar, None),
+        never("fluxes of all edges", fluxes, of_fluxes, each("flux by cells", cells)),
+        never("indicators of cells", "no output reads them", cells * scalar, None),
     ]
 }
 

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use signorini_device::intervals::OutputWeights;
 
-use crate::choice::{Choice, Model, Origin};
+use crate::choice::{Choice, Origin};
 use crate::text::{code, prose};
 use signorini_intervals::weights::{Answers, Weighed, Weights, weights};
 use signorini_problem::Problem;
@@ -17,10 +17,7 @@ const ROOM: f64 = 1e-6;
 
 /// Those of the outputs of a chosen model, in their order.
 pub fn of_choice<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Vec<Weighed> {
-    let origin = match (&choice.candidate().model, choice.condensed()) {
-        (Model::Condensed(_), Some((_, origin))) => Some(origin),
-        _ => None,
-    };
+    let origin = choice.condensed().map(|(_, origin)| origin);
     let open = origin.map(|origin| open(problem, origin)).unwrap_or_default();
     // Where an edge is open, the total tells how far z is best off its value.
     let total = match open.iter().any(Option::is_some) {
@@ -74,13 +71,10 @@ pub const OUTPUT_WEIGHTS: [signorini_device::intervals::OutputWeights<Scalar>; O
 }
 
 fn record<R: Scalar>(of: &OutputWeights<R>) -> String {
-    let OutputWeights { total, square, algebraic, of_u } = *of;
-    if total == R::INFINITY {
-        return "signorini_device::intervals::OutputWeights::NONE".to_owned();
+    match of.total == R::INFINITY {
+        true => "signorini_device::intervals::OutputWeights::NONE".to_owned(),
+        false => format!("signorini_device::intervals::{of:?}"),
     }
-    format!(
-        "signorini_device::intervals::OutputWeights {{ total: {total:?}, square: {square:?}, algebraic: {algebraic:?}, of_u: {of_u:?} }}"
-    )
 }
 
 const PLUS_MINUS: &str = "

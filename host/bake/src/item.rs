@@ -35,36 +35,25 @@ pub(super) fn structure(name: &str, doc: &str, items: &[Item]) -> String {
     )
 }
 
-/// The constant with the items' names; `count` is the constant that tells how many they are.
-pub(super) fn names(count: &str, items: &[Item]) -> String {
+/// Their names, and their values from an array and as one; `count` is the constant that tells how many they are.
+pub(super) fn arrays(count: &str, items: &[Item]) -> String {
     let names: Vec<_> = items.iter().map(|item| item.name.as_str()).collect();
-    let doc = "    /// Their names in the scene.\n";
-    format!("{doc}    pub const NAMES: [&str; {count}] = {};\n", array(&names, 4))
-}
-
-/// Their values from an array.
-pub(super) fn from_array(count: &str, items: &[Item]) -> String {
-    let pattern = list(items);
-    let fields = braced("Self", items.iter().map(|item| item.identifier.clone()));
+    let names = array(&names, 4);
+    let identifiers: Vec<_> = items.iter().map(|item| item.identifier.as_str()).collect();
+    let values = format!("[{}]", identifiers.join(", "));
+    let fields = fields(items);
     format!(
-        "
+        "    /// Their names in the scene.
+    pub const NAMES: [&str; {count}] = {names};
+
     /// From values in the order of the scene.
-    pub fn from_array({pattern}: [Scalar; {count}]) -> Self {{
+    pub fn from_array({values}: [Scalar; {count}]) -> Self {{
         {fields}
     }}
-"
-    )
-}
 
-/// Their values as an array.
-pub(super) fn to_array(count: &str, items: &[Item]) -> String {
-    let (bound, values) =
-        (braced("Self", items.iter().map(|item| item.identifier.clone())), list(items));
-    format!(
-        "
     /// The values in the order of the scene.
     pub fn to_array(self) -> [Scalar; {count}] {{
-        let {bound} = self;
+        let {fields} = self;
         {values}
     }}
 "
@@ -73,8 +62,7 @@ pub(super) fn to_array(count: &str, items: &[Item]) -> String {
 
 /// The factors of a model's columns: the constant 1, and the inputs.
 pub(super) fn terms(items: &[Item]) -> String {
-    let fields = || items.iter().map(|item| item.identifier.clone());
-    let terms: Vec<_> = std::iter::once("1.0".to_owned()).chain(fields()).collect();
+    let terms = items.iter().map(|item| format!(", {}", item.identifier)).collect::<String>();
     format!(
         "
 impl controller::Inputs<Scalar> for Inputs {{
@@ -82,12 +70,11 @@ impl controller::Inputs<Scalar> for Inputs {{
 
     fn terms(self) -> Self::Terms {{
         let {} = self;
-        [{}]
+        [1.0{terms}]
     }}
 }}
 ",
-        braced("Self", fields()),
-        terms.join(", ")
+        fields(items)
     )
 }
 
@@ -105,21 +92,19 @@ impl controller::Outputs<Scalar> for Outputs {{
 }}
 ",
         if items.is_empty() { "_" } else { "of" },
-        braced("Self", values)
+        braced(values)
     )
 }
 
-fn list(items: &[Item]) -> String {
-    let all: Vec<_> = items.iter().map(|item| item.identifier.as_str()).collect();
-    format!("[{}]", all.join(", "))
+/// All fields by their names.
+fn fields(items: &[Item]) -> String {
+    braced(items.iter().map(|item| item.identifier.clone()))
 }
 
 /// A record or pattern in braces.
-pub(super) fn braced(name: &str, fields: impl Iterator<Item = String>) -> String {
-    let fields: Vec<_> = fields.collect();
-    if fields.is_empty() {
-        format!("{name} {{}}")
-    } else {
-        format!("{name} {{ {} }}", fields.join(", "))
+pub(super) fn braced(fields: impl Iterator<Item = String>) -> String {
+    match fields.collect::<Vec<_>>().join(", ").as_str() {
+        "" => "Self {}".to_owned(),
+        fields => format!("Self {{ {fields} }}"),
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::item::{Item, braced, from_array, items, names, read, structure, terms, to_array};
+use super::item::{Item, arrays, braced, items, read, structure, terms};
 use super::meanings::{effect, meaning, said};
 use super::text::{code, prose};
 use signorini_image::checkout;
@@ -15,13 +15,16 @@ use signorini_scene::scene::Input;
 /// The names and meanings of a scene's inputs and outputs.
 #[derive(Debug, Clone)]
 pub struct ModuleApi {
-    title: String,
-    file: String,
-    hash: u64,
-    inputs: Vec<Item>,
+    pub(crate) title: String,
+    /// The name of its file.
+    pub(crate) file: String,
+    /// Of scene, setting, mesh and default inputs.
+    pub hash: u64,
+    pub(crate) inputs: Vec<Item>,
     defaults: Vec<f64>,
-    ranges: Vec<[f64; 2]>,
-    outputs: Vec<Item>,
+    /// As the scene gives them.
+    pub(crate) given_ranges: Vec<[f64; 2]>,
+    pub(crate) outputs: Vec<Item>,
 }
 
 /// The meaning of every module's numbers.
@@ -29,45 +32,26 @@ pub(crate) const UNITS: &str = "Units are the scene's: lengths those of its mesh
                      a bound has that of (∫A∇u·∇u)^½. A flux is (A∇u)·n with the normal outward: positive where u rises \
                      towards the outside. Heat, which flows from high u to low, then flows in; water flows out where u is −head.";
 
-/// What a model says of itself in the header.
-#[derive(Debug, Clone)]
-pub struct About<'a> {
-    /// `full` or `condensed`.
-    pub model: &'a str,
-    /// Its description, one paragraph of Markdown.
-    pub text: &'a str,
-    /// The features of the kernel that it needs.
-    pub features: &'a [&'a str],
-}
-
 impl ModuleApi {
     /// That of `problem`.
     pub fn new(problem: &Problem) -> Self {
-        let names = problem.scene.inputs.iter().map(|input| input.name.value.as_str());
-        let inputs = items(
-            names,
-            problem.scene.inputs.iter().map(|input| effect(input) + &said(&input.unit)),
-        );
-        let wanted = wanted(&problem.scene);
-        let names = wanted.iter().map(|output| output.name.value.as_str());
-        let outputs =
-            items(names, wanted.iter().map(|output| meaning(output) + &said(&output.unit)));
-        let file =
-            problem.scene.file().file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let (scene, wanted) = (&problem.scene, wanted(&problem.scene));
+        let effects = scene.inputs.iter().map(|input| effect(input) + &said(&input.unit));
+        let meanings = wanted.iter().map(|output| meaning(output) + &said(&output.unit));
         Self {
-            title: problem.scene.title.clone(),
-            file,
+            title: scene.title.clone(),
+            file: scene.file().file_name().unwrap_or_default().to_string_lossy().into_owned(),
             hash: hash(problem),
-            inputs,
-            defaults: problem.scene.inputs.iter().map(|input| input.default).collect(),
-            ranges: problem.scene.inputs.iter().map(Input::interval).collect(),
-            outputs,
+            inputs: items(scene.inputs.iter().map(|input| input.name.value.as_str()), effects),
+            defaults: scene.inputs.iter().map(|input| input.default).collect(),
+            given_ranges: scene.inputs.iter().map(Input::interval).collect(),
+            outputs: items(wanted.iter().map(|output| output.name.value.as_str()), meanings),
         }
     }
 
     /// The ranges of the inputs in the scalar of the target; none where the scene declares none.
     pub fn ranges<R: Scalar>(&self) -> Vec<[R; 2]> {
-        inputs::ranges(&self.ranges)
+        inputs::ranges(&self.given_ranges)
     }
 
     /// Whether an input has a range.
@@ -75,56 +59,18 @@ impl ModuleApi {
         !self.ranges::<f64>().is_empty()
     }
 
-    /// Everything but the controller and its data.
-    pub fn source<R: Scalar>(&self, about: &About) -> String {
-        self.header(about) + &self.types::<R>(about)
+    /// Everything but the controller and its data; `model` is `full` or `condensed`, `about` its description, one paragraph of
+    /// Markdown, and `features` are those of the kernel that it needs.
+    pub fn source<R: Scalar>(&self, model: &str, about: String, features: &[&str]) -> String {
+        self.header(about, features) + &self.types::<R>(model, features)
     }
 
-    /// Identifiers of the inputs, in the order of the scene.
-    pub fn inputs(&self) -> impl Iterator<Item = &str> {
-        self.inputs.iter().map(|item| item.identifier.as_str())
-    }
-
-    /// Identifiers of the outputs.
-    pub fn outputs(&self) -> impl Iterator<Item = &str> {
-        self.outputs.iter().map(|item| item.identifier.as_str())
-    }
-
-    /// The scene's title and the name of its file.
-    pub(crate) fn title(&self) -> &str {
-        &self.title
-    }
-
-    pub(crate) fn file(&self) -> &str {
-        &self.file
-    }
-
-    /// Inputs and outputs, with what they mean.
-    pub(crate) fn input_items(&self) -> &[Item] {
-        &self.inputs
-    }
-
-    pub(crate) fn output_items(&self) -> &[Item] {
-        &self.outputs
-    }
-
-    /// The ranges as the scene gives them.
-    pub(crate) fn given_ranges(&self) -> &[[f64; 2]] {
-        &self.ranges
-    }
-
-    /// The hash of scene, setting, mesh and default inputs.
-    pub fn hash(&self) -> u64 {
-        self.hash
-    }
-
-    fn header(&self, about: &About) -> String {
+    fn header(&self, about: String, features: &[&str]) -> String {
         let Self { title, file, hash, inputs, outputs, .. } = self;
-        let features: Vec<_> = about.features.iter().map(|name| format!("{name:?}")).collect();
         let mut lines = vec![
             prose(title),
             String::new(),
-            about.text.to_owned(),
+            about,
             String::new(),
             format!(
                 "From {}, scene hash {hash:016x} (scene file, setting, mesh, default inputs).",
@@ -133,9 +79,15 @@ impl ModuleApi {
             format!("Written by `signorini bake` {}; do not edit.", env!("CARGO_PKG_VERSION")),
             String::new(),
             "```toml".to_owned(),
-            dependency(&features),
+            dependency(features),
             "```".to_owned(),
-            format!("Kernel features: {}.", features_or_none(about.features)),
+            format!(
+                "Kernel features: {}.",
+                match features {
+                    [] => "none".to_owned(),
+                    features => features.join(", "),
+                }
+            ),
             String::new(),
             UNITS.to_owned(),
         ];
@@ -155,10 +107,9 @@ impl ModuleApi {
         lines.chain([allow, VERSION.to_owned()]).collect()
     }
 
-    fn types<R: Scalar>(&self, about: &About) -> String {
-        let mut text = String::new();
-        let _ = write!(
-            text,
+    fn types<R: Scalar>(&self, model: &str, features: &[&str]) -> String {
+        let Self { hash, inputs, defaults, outputs, .. } = self;
+        let mut text = format!(
             "
 /// Every number of this module.
 pub type Scalar = {scalar};
@@ -169,42 +120,28 @@ pub const SCENE_HASH: u64 = 0x{hash:016x};
 /// The features of `signorini-device` that it needs.
 pub const KERNEL_FEATURES: &[&str] = &{features:?};
 /// Number of inputs.
-pub const INPUTS: usize = {inputs};
+pub const INPUTS: usize = {};
 /// Number of outputs.
-pub const OUTPUTS: usize = {outputs};
+pub const OUTPUTS: usize = {};
 ",
+            inputs.len(),
+            outputs.len(),
             scalar = R::NAME,
-            model = about.model,
-            hash = self.hash,
-            features = about.features,
-            inputs = self.inputs.len(),
-            outputs = self.outputs.len(),
         );
-        text += &structure("Inputs", "What the controller sets.", &self.inputs);
-        let defaults = self.defaults.iter().map(|&x| format!("{:?}", R::narrow(x)));
-        let defaults = self.inputs().zip(defaults).map(|(name, x)| format!("{name}: {x}"));
-        let defaults = braced("Self", defaults);
+        text += &structure("Inputs", "What the controller sets.", inputs);
+        let named = inputs.iter().zip(defaults);
+        let defaults =
+            braced(named.map(|(item, &x)| format!("{}: {:?}", item.identifier, R::narrow(x))));
         text += "
 impl Inputs {
     /// The values that the scene gives.
 ";
         let _ = writeln!(text, "    pub const DEFAULT: Self = {defaults};");
-        text += &names("INPUTS", &self.inputs);
-        text += &from_array("INPUTS", &self.inputs);
-        text += &to_array("INPUTS", &self.inputs);
-        text += &self.range_items::<R>();
-        text += "}\n";
-        text += &terms(&self.inputs);
-        text += &structure("Outputs", "What the controller reads.", &self.outputs);
-        text += "\nimpl Outputs {\n";
-        text += &names("OUTPUTS", &self.outputs);
-        text += &from_array("OUTPUTS", &self.outputs);
-        text += &to_array("OUTPUTS", &self.outputs);
-        text + "}\n" + &read(&self.outputs)
+        text += &(arrays("INPUTS", inputs) + &self.range_items::<R>() + "}\n" + &terms(inputs));
+        text += &structure("Outputs", "What the controller reads.", outputs);
+        text + "\nimpl Outputs {\n" + &arrays("OUTPUTS", outputs) + "}\n" + &read(outputs)
     }
-}
 
-impl ModuleApi {
     /// The ranges, and what takes a value into its own.
     fn range_items<R: Scalar>(&self) -> String {
         let end = |end: f64| match (end.is_finite(), end > 0.0) {
@@ -213,8 +150,8 @@ impl ModuleApi {
             (false, false) => "Scalar::NEG_INFINITY".to_owned(),
         };
         let range = |[lo, hi]: &[f64; 2]| format!("[{}, {}]", end(*lo), end(*hi));
-        let ranges: Vec<_> = self.ranges.iter().map(range).collect();
-        let clamped = self.inputs().enumerate().map(|(at, name)| {
+        let ranges: Vec<_> = self.given_ranges.iter().map(range).collect();
+        let clamped = self.inputs.iter().enumerate().map(|(at, Item { identifier: name, .. })| {
             format!("{name}: signorini_device::ranges::clamp(self.{name}, Self::RANGES[{at}])")
         });
         format!(
@@ -228,7 +165,7 @@ impl ModuleApi {
     }}
 ",
             ranges.join(", "),
-            braced("Self", clamped),
+            braced(clamped),
         )
     }
 }
@@ -244,7 +181,7 @@ const VERSION: &str = concat!(
 );
 
 /// The line of a Cargo.toml. The kernel is on no registry: it is found where the checkout stands that has baked this.
-fn dependency(features: &[String]) -> String {
+fn dependency(features: &[&str]) -> String {
     let (place, remark) = match checkout::find() {
         Ok(root) => {
             (root.join("kernel/device").display().to_string(), "the checkout that has baked this")
@@ -253,15 +190,9 @@ fn dependency(features: &[String]) -> String {
             ("kernel/device".to_owned(), "the folder kernel/device of a checkout of signorini")
         }
     };
-    let features = features.join(", ");
     format!(
-        "signorini-device = {{ path = {place:?}, default-features = false, features = [{features}] }} # {remark}"
+        "signorini-device = {{ path = {place:?}, default-features = false, features = {features:?} }} # {remark}"
     )
-}
-
-/// The features by name.
-fn features_or_none(features: &[&str]) -> String {
-    if features.is_empty() { "none".to_owned() } else { features.join(", ") }
 }
 
 /// FNV-1a over what the data are made of.

@@ -7,6 +7,7 @@ use std::cell::Cell;
 use signorini_kernel::rows::{QUADS, TRIANGLES};
 
 use crate::choice::{Choice, Model, Wanted};
+use crate::narrow::narrow;
 use crate::{condensed, full};
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
@@ -125,8 +126,8 @@ fn ticks<'a, R: Scalar>(
     all: &'a [Allowed],
     mut bound: impl FnMut(&[R]) -> Option<f64>,
 ) -> impl Iterator<Item = Tick<'a>> {
-    all.iter().map(move |allowed| {
-        let inputs: Vec<R> = allowed.inputs.iter().map(|&input| R::narrow(input)).collect();
-        Tick { allowed, bound: bound(&inputs).unwrap_or(f64::INFINITY) }
+    all.iter().map(move |allowed| Tick {
+        allowed,
+        bound: bound(&narrow(&allowed.inputs)).unwrap_or(f64::INFINITY),
     })
 }

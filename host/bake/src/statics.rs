@@ -2,8 +2,7 @@
 
 use std::fmt::{Debug, Write as _};
 
-use crate::imports::imports;
-use crate::text::array;
+use crate::text::{array, imports};
 
 /// The text so far.
 #[derive(Debug, Default)]
@@ -17,6 +16,11 @@ impl Statics {
     /// Writes an array of entries that are `T` on the target, and returns what borrows it; an empty one needs no static.
     pub fn array<T>(&mut self, name: &str, doc: &str, of: &str, entries: &[impl Debug]) -> String {
         self.spelt::<T>(name, doc, of, entries.len(), &array(entries, 4))
+    }
+
+    /// Writes an array of numbers.
+    pub fn numbers<R: Debug>(&mut self, name: &str, doc: &str, entries: &[R]) -> String {
+        self.array::<R>(name, doc, "Scalar", entries)
     }
 
     /// Writes an array whose value is this text.
@@ -38,9 +42,9 @@ impl Statics {
         format!("&{name}")
     }
 
-    /// The module that holds them: `names` are what they may name, with its place in the kernel, `own` what they take from
-    /// the module around it.
-    pub fn module(&self, names: &[(&str, &str)], own: &str) -> String {
+    /// The module that holds them: `names` are items of the kernel that they may use, `own` what they take from the module
+    /// around it.
+    pub fn module(&self, names: &str, own: &str) -> String {
         let text = &self.text;
         let imports = imports(names, text, "    ");
         format!(
@@ -56,9 +60,25 @@ mod data {{
 }
 
 /// Records of an array that nothing else names, one a line.
-pub(crate) fn lines(entries: &[String]) -> String {
-    let lines: String = entries.iter().map(|entry| format!("\n            {entry},")).collect();
-    if entries.is_empty() { "&[]".to_owned() } else { format!("&[{lines}\n        ]") }
+pub(crate) fn lines(entries: impl Iterator<Item = String>) -> String {
+    let lines: String = entries.map(|entry| format!("\n            {entry},")).collect();
+    if lines.is_empty() { "&[]".to_owned() } else { format!("&[{lines}\n        ]") }
+}
+
+/// A record in one line.
+pub(crate) fn record<const N: usize>(name: &str, fields: [(&str, String); N]) -> String {
+    let fields = fields.map(|(field, value)| format!("{field}: {value}"));
+    format!("{name} {{ {} }}", fields.join(", "))
+}
+
+/// A record with a line for each field; its last line is indented by so much.
+pub(crate) fn tall_record<const N: usize>(
+    name: &str,
+    indent: usize,
+    fields: [(&str, String); N],
+) -> String {
+    let fields = fields.map(|(field, value)| format!("\n{:indent$}    {field}: {value},", ""));
+    format!("{name} {{{}\n{:indent$}}}", fields.concat(), "")
 }
 
 /// The name of an input's or output's array.

@@ -1,4 +1,4 @@
-//! Rust text: numbers that read back to the same bits, arrays in lines, identifiers from names.
+//! Rust text: numbers that read back to the same bits, arrays in lines, identifiers from names, `use` lines; tables for a terminal.
 
 use std::collections::HashSet;
 use std::fmt::Debug;
@@ -66,19 +66,52 @@ fn identifier(name: &str) -> String {
     match joined.chars().next() {
         None => "unnamed".to_owned(),
         Some(first) if first.is_ascii_digit() => format!("n{joined}"),
-        Some(_) if KEYWORDS.contains(&joined.as_str()) => format!("{joined}_"),
+        Some(_) if is_among(KEYWORDS, &joined) => format!("{joined}_"),
         Some(_) => joined,
     }
 }
 
+/// Whether a word is one of `words`, which spaces part.
+pub fn is_among(words: &str, word: &str) -> bool {
+    words.split_whitespace().any(|known| known == word)
+}
+
 /// The words that Rust keeps for itself.
-const KEYWORDS: [&str; 51] = [
-    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
-    "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl",
-    "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref",
-    "return", "self", "static", "struct", "super", "trait", "true", "try", "type", "typeof",
-    "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
-];
+const KEYWORDS: &str = "\
+    abstract as async await become box break const continue crate do dyn else enum extern false \
+    final fn for gen if impl in let loop macro match mod move mut override priv pub ref return \
+    self static struct super trait true try type typeof unsafe unsized use virtual where while \
+    yield";
+
+/// `use` of those items of the kernel, by their `paths`, whose names the text has as words, comments aside.
+pub fn imports(paths: &str, text: &str, indent: &str) -> String {
+    let code = text.lines().filter(|line| !line.trim_start().starts_with("///"));
+    let is_inside = |letter: char| letter.is_alphanumeric() || letter == '_';
+    let words: HashSet<_> = code.flat_map(|line| line.split(|letter| !is_inside(letter))).collect();
+    let is_named = |path: &&str| path.rsplit("::").next().is_some_and(|name| words.contains(name));
+    let used = paths.split_whitespace().filter(is_named);
+    let lines = used.map(|path| format!("{indent}use signorini_device::{path};\n"));
+    "\n".to_owned() + &lines.collect::<String>()
+}
+
+/// Rows in columns of their width, the first and the last to the left.
+pub fn table<const N: usize>(rows: &[[String; N]]) -> String {
+    let width =
+        |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let widths: [usize; N] = std::array::from_fn(width);
+    let mut text = String::new();
+    for row in rows {
+        let cells = row.iter().zip(widths).enumerate().map(|(at, (cell, width))| match at {
+            0 => format!("{cell:<width$}"),
+            _ if at + 1 == N => cell.clone(),
+            _ => format!("{cell:>width$}"),
+        });
+        let line: Vec<String> = cells.collect();
+        text += line.join("  ").trim_end();
+        text += "\n";
+    }
+    text
+}
 
 #[cfg(test)]
 mod tests {

@@ -14,32 +14,25 @@ const TICKS: usize = 100;
 const FULL_TICKS: usize = 10;
 const UPDATES: f64 = 5e7;
 
-/// Work of a tick, the median and the most of all.
+/// Work of a tick.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Trial {
+pub struct TickWork<T> {
     /// Exchanges of the exact method.
-    pub pivots: [u32; 2],
+    pub pivots: T,
     /// Sweeps.
-    pub sweeps: [u32; 2],
+    pub sweeps: T,
     /// Substitutions with a factor.
-    pub rounds: [u32; 2],
+    pub rounds: T,
     /// Certificates of full models, and their measurements of the residual.
-    pub looks: [[u32; 2]; 2],
+    pub looks: [T; 2],
     /// Whether no tick was cut off by its limits, the first one included.
     pub settled: bool,
 }
 
-/// The work of one tick.
-#[derive(Debug, Clone, Copy)]
-struct TickWork {
-    pivots: u32,
-    sweeps: u32,
-    rounds: u32,
-    looks: [u32; 2],
-    settled: bool,
-}
+/// Work of many ticks: the median of each number, and the most.
+pub type Trial = TickWork<[u32; 2]>;
 
-/// That of a condensed model, and what `price` makes of its median tick and of the longest.
+/// The trial of a condensed model, and what `price` makes of its median tick and of the longest.
 pub fn of_condensed<R: Scalar>(
     baked: &condensed::Baked<R>,
     spaces: &[InputSpace],
@@ -54,7 +47,7 @@ pub fn of_condensed<R: Scalar>(
         let visited = [std::mem::replace(&mut before, now), now];
         prices.push(price(&Done { pivots, sweeps, visited }));
         let settled = is_settled(report.ended);
-        Some(TickWork { pivots, sweeps, rounds: 0, looks: [0, 0], settled })
+        Some(TickWork { pivots, sweeps, settled, ..TickWork::default() })
     });
     let trial = summary(ticks);
     let mut prices: Vec<f64> = prices.into_iter().skip(1).flatten().collect();
@@ -62,7 +55,7 @@ pub fn of_condensed<R: Scalar>(
     (trial, [prices.get(prices.len() / 2).copied(), prices.last().copied()])
 }
 
-/// That of a full model under the limits that its module has.
+/// The trial of a full model under the limits that its module has.
 pub fn of_full<R: Scalar>(baked: &full::Baked<R>, spaces: &[InputSpace]) -> Trial {
     if baked.has_quads() {
         with_width::<R, QUADS>(baked, spaces)
@@ -104,9 +97,9 @@ fn is_settled(ended: Ended) -> bool {
 }
 
 /// The work of the first tick, which begins cold, is left out.
-fn summary(ticks: impl Iterator<Item = TickWork>) -> Trial {
-    let ticks: Vec<TickWork> = ticks.collect();
-    let both = |count: fn(&TickWork) -> u32| {
+fn summary(ticks: impl Iterator<Item = TickWork<u32>>) -> Trial {
+    let ticks: Vec<_> = ticks.collect();
+    let both = |count: fn(&TickWork<u32>) -> u32| {
         let mut counts: Vec<u32> = ticks.iter().skip(1).map(count).collect();
         counts.sort_unstable();
         let median = counts.get(counts.len() / 2).copied().unwrap_or(0);

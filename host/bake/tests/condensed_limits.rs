@@ -1,8 +1,9 @@
 //! A condensed model with limits of the flux, tick after tick: against the direct solver on the mesh, and its bound against that
 //! of the same numbers in f64.
 
-use crate::direct::{HEATER, directly, narrowed};
+use crate::direct::{HEATER, directly};
 use signorini_bake::condensed::{Baked, Controller, Work};
+use signorini_bake::narrow::narrow;
 use signorini_condense::{CondensedModel, condense};
 use signorini_kernel::report::Ended;
 use signorini_problem::Problem;
@@ -44,37 +45,38 @@ const STEPS: [[f64; 3]; 7] = [
     [-3.0, 0.0, 0.5],
 ];
 
-/// Expectations of each tick.
-struct Expected<'e> {
-    work: Work,
-    is_exact: bool,
-    outputs: Tolerance,
-    bound: Tolerance,
-    model: &'e CondensedModel,
-}
+const EXACT: Work = Work { pivots: Some(400), sweeps: 40 };
+/// How far outputs of exact ticks, and bounds, may be off.
+const ALLOWED: [Tolerance; 2] = [LIMITED_TICK, LIMITED_BOUND];
+const ALLOWED_NARROW: [Tolerance; 2] = [LIMITED_TICK_NARROW, LIMITED_BOUND_NARROW];
 
-fn ticks<R: Scalar>(problem: &Problem, expected: &Expected) -> Result<[bool; 3]> {
-    let baked = Baked::<R>::new(expected.model, expected.work, true).expect("in range");
+fn ticks<R: Scalar>(
+    problem: &Problem,
+    model: &CondensedModel,
+    work: Work,
+    [of_outputs, of_bound]: [Tolerance; 2],
+) -> Result<[bool; 3]> {
+    let baked = Baked::<R>::new(model, work, true).expect("in range");
     assert!(baked.is_limited() && baked.without_bound().is_none());
     let mut controller = Controller::new(&baked);
     let mut seen = [false; 3];
     for values in STEPS {
-        let inputs: Vec<R> = narrowed(&values);
+        let inputs: Vec<R> = narrow(&values);
         let (found, report) = controller.tick(&inputs).expect("a tick");
         let x: Vec<f64> = controller.x().iter().map(|x| x.wide()).collect();
         for x in &x {
             seen[usize::from(*x < 0.0) + 2 * usize::from(*x > 0.0)] = true;
         }
         let p: Vec<f64> = std::iter::once(1.0).chain(inputs.iter().map(|p| p.wide())).collect();
-        let bound = expected.model.bound(&p, &x).expect("a bound");
+        let bound = model.bound(&p, &x).expect("a bound");
         let certificate = report.verdict.certificate().expect("a bound");
         let (total, rounding) = (certificate.total.wide(), certificate.rounding.wide());
         // Rounding stands in the target's bound alone.
-        expected.bound.check_relative(format_args!("{values:?}"), total - rounding, bound);
-        let bound_of_u = expected.model.bound_of_u(&p, &x).expect("a bound");
+        of_bound.check_relative(format_args!("{values:?}"), total - rounding, bound);
+        let bound_of_u = model.bound_of_u(&p, &x).expect("a bound");
         let more = certificate.of_u.wide() - bound_of_u;
         assert!((0.0..=3.0 * rounding).contains(&more), "{values:?}: {more:e} {rounding:e}");
-        if !expected.is_exact {
+        if work != EXACT {
             continue;
         }
         assert_eq!(report.ended, Ended::Exact);
@@ -84,13 +86,11 @@ fn ticks<R: Scalar>(problem: &Problem, expected: &Expected) -> Result<[bool; 3]>
             let value = direct[name].expect("a value");
             let size = value.abs().max(2.0);
             let what = format!("{name} {values:?}");
-            expected.outputs.check_over(what, found.wide() - value, size);
+            of_outputs.check_over(what, found.wide() - value, size);
         }
     }
     Ok(seen)
 }
-
-const EXACT: Work = Work { pivots: Some(400), sweeps: 40 };
 
 #[test]
 fn exact_ticks_are_those_of_the_mesh() -> Result<()> {
@@ -98,11 +98,8 @@ fn exact_ticks_are_those_of_the_mesh() -> Result<()> {
         for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
             let (_, problem) = on_grid(&text, grid(6, cells))?;
             let model = &condense(&problem)?;
-            let expected =
-                |outputs, bound| Expected { work: EXACT, is_exact: true, outputs, bound, model };
-            assert_eq!(ticks::<f64>(&problem, &expected(LIMITED_TICK, LIMITED_BOUND))?, [true; 3]);
-            let narrow = expected(LIMITED_TICK_NARROW, LIMITED_BOUND_NARROW);
-            assert_eq!(ticks::<f32>(&problem, &narrow)?, [true; 3]);
+            assert_eq!(ticks::<f64>(&problem, model, EXACT, ALLOWED)?, [true; 3]);
+            assert_eq!(ticks::<f32>(&problem, model, EXACT, ALLOWED_NARROW)?, [true; 3]);
         }
     }
     Ok(())
@@ -118,10 +115,8 @@ fn ticks_that_are_cut_off_are_bounded_as_on_the_host() -> Result<()> {
             [(None, 0), (None, 1), (None, 3), (Some(1), 0), (Some(2), 1), (Some(5), 2)]
         {
             let work = Work { pivots, sweeps };
-            let expected =
-                |outputs, bound| Expected { work, is_exact: false, outputs, bound, model };
-            ticks::<f64>(&problem, &expected(LIMITED_TICK, LIMITED_BOUND))?;
-            ticks::<f32>(&problem, &expected(LIMITED_TICK_NARROW, LIMITED_BOUND_NARROW))?;
+            ticks::<f64>(&problem, model, work, ALLOWED)?;
+            ticks::<f32>(&problem, model, work, ALLOWED_NARROW)?;
         }
     }
     Ok(())

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use signorini_bake::full::{Baked, Controller};
+use signorini_bake::narrow::narrow;
 use signorini_certify::CertifiedFields;
 use signorini_certify::admissible::Following;
 use signorini_device::tick::{Limits, Report};
@@ -36,11 +37,6 @@ output.skin = { kind = "mean", of = "contact" }
 /// Limits of a tick that goes on until sweeps change nothing that counts.
 pub fn to_the_end<R: Scalar>() -> Limits<R> {
     Limits { share: R::narrow(1e-9), ..Limits::default() }
-}
-
-/// Numbers in the scalar of a controller.
-pub fn narrowed<R: Scalar>(values: &[f64]) -> Vec<R> {
-    values.iter().map(|&value| R::narrow(value)).collect()
 }
 
 /// The problem at these inputs, its direct solution, and the outputs of that.
@@ -78,7 +74,7 @@ impl Beside<'_> {
         assert!(baked.has_bound() && baked.features().contains(&self.feature));
         let mut controller = Controller::<R, WIDTH>::new(&baked);
         for values in &self.steps {
-            let tick = controller.tick_within(&narrowed(values), to_the_end());
+            let tick = controller.tick_within(&narrow(values), to_the_end());
             let (found, report) = tick.expect("a tick");
             let (now, solution, expected) = directly(self.problem, values)?;
             let least = (self.least)(&solution);

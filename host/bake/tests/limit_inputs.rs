@@ -1,8 +1,9 @@
-//! Inputs on either end of a limited flux, tick after tick: against the direct solver and an exact solution, and where they
-//! leave no flux.
+//! Full models with limits of the flux, and inputs on either end of it, tick after tick: against the direct solver and an exact
+//! solution, and where inputs leave no flux.
 
-use crate::direct::{Beside, certified, directly, narrowed, played, to_the_end};
+use crate::direct::{Beside, HEATER, certified, directly, played, to_the_end};
 use signorini_bake::full::{Baked, Controller, source};
+use signorini_bake::narrow::narrow;
 use signorini_certify::exact::distance;
 use signorini_device::tick::Limits;
 use signorini_kernel::Error;
@@ -16,7 +17,8 @@ use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_tolerances::Tolerance;
 use signorini_tolerances::bake::{
-    GUARANTEE, LIMITED_DESK, LIMITED_INPUT_TICK, LIMITED_INPUT_TICK_NARROW,
+    GUARANTEE, LIMITED_DESK, LIMITED_INPUT_TICK, LIMITED_INPUT_TICK_NARROW, LIMITED_TICK,
+    LIMITED_TICK_NARROW,
 };
 
 /// A heater below whose supply sags and whose least flux leaks, a limit from above on the right, air on the left.
@@ -49,7 +51,23 @@ fn steps(problem: &Problem, ticks: usize) -> Vec<Vec<f64>> {
         .collect()
 }
 
+/// Ticks as solves, in which each of two lengths vanishes at times, and not always.
 fn against_the_direct_solver<R: Scalar, const WIDTH: usize>(
+    beside: &Beside,
+    lengths: [usize; 2],
+    allowed: Tolerance,
+) -> Result<()> {
+    let mut seen = [[false; 2]; 2];
+    beside.ticks::<R, WIDTH>(allowed, |found, _, _| {
+        for (seen, length) in seen.iter_mut().zip(lengths) {
+            seen[usize::from(found[length] > R::ZERO)] = true;
+        }
+    })?;
+    assert_eq!(seen, [[true; 2]; 2]);
+    Ok(())
+}
+
+fn supplied<R: Scalar, const WIDTH: usize>(
     problem: &Problem,
     ticks: usize,
     allowed: Tolerance,
@@ -60,23 +78,17 @@ fn against_the_direct_solver<R: Scalar, const WIDTH: usize>(
     };
     let steps = steps(problem, ticks);
     let beside = Beside { problem, feature: "limited", steps, least: |_| 10.0, is_undefined };
-    let mut seen = [[false; 2]; 2];
-    beside.ticks::<R, WIDTH>(allowed, |found, _, _| {
-        seen[0][usize::from(found[2] > R::ZERO)] = true;
-        seen[1][usize::from(found[3] > R::ZERO)] = true;
-    })?;
-    assert_eq!(seen, [[true; 2]; 2]);
-    Ok(())
+    against_the_direct_solver::<R, WIDTH>(&beside, [2, 3], allowed)
 }
 
 #[test]
 fn a_tick_is_a_solve_with_these_ends() -> Result<()> {
     let (_, problem) = on_grid(SUPPLY, grid(6, Cells::Triangles))?;
-    against_the_direct_solver::<f64, TRIANGLES>(&problem, 30, LIMITED_INPUT_TICK)?;
-    against_the_direct_solver::<f32, TRIANGLES>(&problem, 30, LIMITED_INPUT_TICK_NARROW)?;
+    supplied::<f64, TRIANGLES>(&problem, 30, LIMITED_INPUT_TICK)?;
+    supplied::<f32, TRIANGLES>(&problem, 30, LIMITED_INPUT_TICK_NARROW)?;
     for cells in [Cells::Quads, Cells::Mixed] {
         let (_, problem) = on_grid(SUPPLY, grid(6, cells))?;
-        against_the_direct_solver::<f64, QUADS>(&problem, 10, LIMITED_INPUT_TICK)?;
+        supplied::<f64, QUADS>(&problem, 10, LIMITED_INPUT_TICK)?;
     }
     Ok(())
 }
@@ -85,7 +97,46 @@ fn a_tick_is_a_solve_with_these_ends() -> Result<()> {
 fn a_factor_serves_every_range() -> Result<()> {
     let text = format!("{SUPPLY}[setting]\nsolver = \"factor\"\n");
     let (_, problem) = on_grid(&text, grid(6, Cells::Mixed))?;
-    against_the_direct_solver::<f64, QUADS>(&problem, 20, LIMITED_INPUT_TICK)
+    supplied::<f64, QUADS>(&problem, 20, LIMITED_INPUT_TICK)
+}
+
+/// Inputs of [`HEATER`], among them some for each state alone, and back again.
+fn heated<R: Scalar, const WIDTH: usize>(problem: &Problem, allowed: Tolerance) -> Result<()> {
+    let steps = [
+        [-3.0, 0.0, 0.0],
+        [-40.0, 0.0, 0.0],
+        [4.0, 6.0, 0.0],
+        [-3.0, 0.0, 3.0],
+        [2.0, 0.5, -0.2],
+        [-12.0, 2.0, 0.1],
+        [-3.0, 0.0, 0.0],
+    ];
+    let steps = steps.map(Vec::from).into();
+    let beside =
+        Beside { problem, feature: "limited", steps, least: |_| 2.0, is_undefined: |_, _| false };
+    against_the_direct_solver::<R, WIDTH>(&beside, [1, 2], allowed)
+}
+
+#[test]
+fn a_heater_with_a_limit_is_ticked() -> Result<()> {
+    let (_, problem) = on_grid(HEATER, grid(6, Cells::Triangles))?;
+    heated::<f64, TRIANGLES>(&problem, LIMITED_TICK)?;
+    heated::<f32, TRIANGLES>(&problem, LIMITED_TICK_NARROW)?;
+    for cells in [Cells::Quads, Cells::Mixed] {
+        let (_, problem) = on_grid(HEATER, grid(6, cells))?;
+        heated::<f64, QUADS>(&problem, LIMITED_TICK)?;
+    }
+    Ok(())
+}
+
+#[test]
+fn an_infinite_end_has_no_inputs() -> Result<()> {
+    let inputs = [("of = \"contact\", field = \"gap\"", "of = \"right\", field = \"flux\"")];
+    let endless = changed(HEATER, &inputs);
+    let error = on_grid(&endless, grid(2, Cells::Triangles)).err().map(|error| error.to_string());
+    let said = error.unwrap_or_default();
+    assert!(said.contains("boundary.right.flux is -inf, to which nothing can be added"), "{said}");
+    Ok(())
 }
 
 #[test]
@@ -134,7 +185,7 @@ fn bounds<R: Scalar, const WIDTH: usize>(cells: Cells) -> Result<()> {
         // Cut off at first: a bound holds of any iterate.
         for sweeps in [0, 3, 30, u32::MAX] {
             let limits = Limits { sweeps, ..to_the_end() };
-            let (_, report) = controller.tick_within(&narrowed(&[p, p]), limits).expect("a tick");
+            let (_, report) = controller.tick_within(&narrow(&[p, p]), limits).expect("a tick");
             let bound = report.verdict.certificate().expect("a bound").total.wide();
             let error = distance(exact, &now, &certified(&controller).admissible())?.combined;
             GUARANTEE.check_at_most(format_args!("p = {p}, {sweeps}"), error, bound);
@@ -162,11 +213,11 @@ fn refused_and_kept<R: Scalar>() -> Result<()> {
     let baked = Baked::<R>::new(&problem)?;
     let mut controller = Controller::<R, TRIANGLES>::new(&baked);
     let inputs = [1.0, 0.0, 0.0, -3.0];
-    let (first, _) = controller.tick_within(&narrowed(&inputs), to_the_end()).expect("a tick");
+    let (first, _) = controller.tick_within(&narrow(&inputs), to_the_end()).expect("a tick");
     let u = controller.u().to_vec();
     // lo = −1 − leak/2 and hi = 6 supply, beside 0.3 x in both.
     for [supply, leak] in [[-0.2, 0.0], [0.0, -2.1], [1.0, -15.0]] {
-        let tried = controller.tick(&narrowed(&[supply, leak, 0.0, -3.0]));
+        let tried = controller.tick(&narrow(&[supply, leak, 0.0, -3.0]));
         assert_eq!(tried.err(), Some(Error::EmptyRange { contact: 0 }), "{supply} {leak}");
         assert_eq!(controller.u(), u);
         assert!(problem.with_inputs(&[supply, leak, 0.0, -3.0]).is_err());
@@ -175,7 +226,7 @@ fn refused_and_kept<R: Scalar>() -> Result<()> {
     let third = R::ONE / R::from_count(3);
     let equal = [third, R::narrow(-2.0) - R::from_count(4), R::ZERO, R::ZERO];
     controller.tick_within(&equal, to_the_end()).expect("a tick");
-    let (again, _) = controller.tick_within(&narrowed(&inputs), to_the_end()).expect("a tick");
+    let (again, _) = controller.tick_within(&narrow(&inputs), to_the_end()).expect("a tick");
     for (again, first) in again.iter().zip(&first) {
         LIMITED_INPUT_TICK_NARROW.check("again", again.wide() - first.wide());
     }

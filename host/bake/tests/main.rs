@@ -5,7 +5,6 @@ mod condensed_length;
 mod condensed_limits;
 mod direct;
 mod limit_inputs;
-mod limits;
 mod means;
 mod plus_minus;
 mod promise;

@@ -1,7 +1,8 @@
 //! Transfer coefficients that inputs change, tick after tick: against solvers, resistances and an exact solution.
 
-use crate::direct::{Beside, certified, directly, narrowed, played, to_the_end};
+use crate::direct::{Beside, certified, directly, played, to_the_end};
 use signorini_bake::full::{Baked, Controller, source};
+use signorini_bake::narrow::narrow;
 use signorini_certify::exact::distance;
 use signorini_device::tick::{Limits, Report};
 use signorini_kernel::rows::{QUADS, TRIANGLES};
@@ -96,7 +97,7 @@ fn bounds<R: Scalar, const WIDTH: usize>(problem: &Problem) -> Result<()> {
         // Cut off at first: a bound holds of any iterate.
         for sweeps in [3, 30, u32::MAX] {
             let limits = Limits { sweeps, ..to_the_end() };
-            let tick = controller.tick_within(&narrowed(&[h, 1.0 / h]), limits);
+            let tick = controller.tick_within(&narrow(&[h, 1.0 / h]), limits);
             let (_, report): (_, Report<R>) = tick.expect("a tick");
             let bound = report.verdict.certificate().expect("a bound").total.wide();
             let exact = now.scene.exact.as_ref().expect("an exact solution");
@@ -152,7 +153,7 @@ fn resistances<R: Scalar>(base: f64, text: &str, allowed: Tolerance) -> Result<(
     let baked = Baked::<R>::new(&problem)?;
     let mut controller = Controller::<R, TRIANGLES>::new(&baked);
     for h in [1.0, 0.0, 1e-3, 97.0, 0.0, 0.5] {
-        let tick = controller.tick_within(&narrowed(&[h - base]), to_the_end());
+        let tick = controller.tick_within(&narrow(&[h - base]), to_the_end());
         let (found, report) = tick.expect("a tick");
         let expected = -4.0 * h * 2.0 / (h + 2.0);
         allowed.check(format_args!("h = {h}"), found[0].wide() - expected);
@@ -164,7 +165,7 @@ fn resistances<R: Scalar>(base: f64, text: &str, allowed: Tolerance) -> Result<(
         allowed
             .check(format_args!("bound at t = {}", tick.time), tick.bound.expect("a bound").total);
     }
-    let outside = controller.tick(&narrowed(&[97.5 - base]));
+    let outside = controller.tick(&narrow(&[97.5 - base]));
     assert!(outside.is_err_and(|error| error.to_string().contains("input 0")));
     Ok(())
 }
@@ -187,8 +188,7 @@ fn a_wall_in_other_units_passes_as_much() -> Result<()> {
     let baked = Baked::<f32>::new(&problem)?;
     let mut controller = Controller::<f32, TRIANGLES>::new(&baked);
     for h in [1.0, 0.0, 97.0, 0.5] {
-        let (found, report) =
-            controller.tick_within(&narrowed(&[h]), to_the_end()).expect("a tick");
+        let (found, report) = controller.tick_within(&narrow(&[h]), to_the_end()).expect("a tick");
         let expected = -4.0 * h * 2.0 / (h + 2.0);
         TRANSFER_NARROW.check(format_args!("h = {h}"), found[0].wide() * 1e20 - expected);
         assert!(report.verdict.certificate().is_some(), "h = {h}: {report:?}");

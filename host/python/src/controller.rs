@@ -35,19 +35,20 @@ enum Call {
 /// exchanges and sweeps, contact force and length.
 type Told = (String, Vec<f64>, Vec<f64>, Option<[f64; 2]>, u32, [f64; 2]);
 
-/// What is known before the first tick.
-struct Known {
-    name: String,
-    scalar: &'static str,
-    inputs: Vec<(String, f64, [f64; 2])>,
-    outputs: Vec<String>,
-}
-
 /// The controller of a scene.
 #[pyclass(module = "signorini._native", frozen)]
 pub struct Controller {
     calls: Mutex<Sender<Call>>,
-    known: Known,
+    /// Model, solver and scalar in a few words.
+    #[pyo3(get)]
+    name: String,
+    #[pyo3(get)]
+    scalar: &'static str,
+    /// Name, default and range of each input.
+    #[pyo3(get)]
+    inputs: Vec<(String, f64, [f64; 2])>,
+    #[pyo3(get)]
+    outputs: Vec<String>,
     scene: Scene,
     is_file: bool,
 }
@@ -68,35 +69,15 @@ impl Controller {
         })?;
         let (scene, name, scalar) = found.map_err(|error: Error| raised(py, error, is_file))?;
         let input = |of: &Input| (of.name.value.clone(), of.default, of.interval());
-        let known = Known {
+        Ok(Self {
+            calls: Mutex::new(send),
             name,
             scalar: if scalar == ScalarKind::F32 { "f32" } else { "f64" },
             inputs: scene.inputs.iter().map(input).collect(),
             outputs: wanted(&scene).iter().map(|of| of.name.value.clone()).collect(),
-        };
-        Ok(Self { calls: Mutex::new(send), known, scene, is_file })
-    }
-
-    /// Model, solver and scalar in a few words.
-    #[getter]
-    fn name(&self) -> &str {
-        &self.known.name
-    }
-
-    #[getter]
-    fn scalar(&self) -> &str {
-        self.known.scalar
-    }
-
-    /// Name, default and range of each input.
-    #[getter]
-    fn inputs(&self) -> Vec<(String, f64, [f64; 2])> {
-        self.known.inputs.clone()
-    }
-
-    #[getter]
-    fn outputs(&self) -> Vec<String> {
-        self.known.outputs.clone()
+            scene,
+            is_file,
+        })
     }
 
     fn tick(&self, py: Python<'_>, inputs: Vec<f64>) -> PyResult<Told> {

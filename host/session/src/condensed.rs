@@ -2,6 +2,7 @@
 
 use signorini_bake::choice::Origin;
 use signorini_bake::condensed::{Baked, Controller};
+use signorini_bake::narrow::narrow;
 use signorini_certify::{ErrorBound, NoBound};
 use signorini_condense::CondensedModel;
 use signorini_kernel::report::{Ended, Report};
@@ -40,17 +41,10 @@ impl<'b, R: Scalar> Condensed<'b, R> {
 }
 
 impl<R: Scalar> Session for Condensed<'_, R> {
-    fn pose(&mut self, _: &Problem) -> Result<()> {
-        Ok(())
-    }
-
     fn tick(&mut self, inputs: &[f64]) -> Result<u32> {
-        self.inputs.clear();
-        self.inputs.extend(inputs.iter().map(|&x| R::narrow(x)));
+        self.inputs = narrow(inputs);
         let last = self.controller.tick(&self.inputs).map_err(unfit::<R>(&self.problem.scene))?;
-        let sweeps = last.1.sweeps;
-        self.last = Some(last);
-        Ok(sweeps)
+        Ok(self.last.insert(last).1.sweeps)
     }
 
     fn restart(&mut self) {

@@ -1,6 +1,7 @@
 //! The controller of a full model: the mesh, swept as a baked module does.
 
 use signorini_bake::full::{Baked, Controller};
+use signorini_bake::narrow::narrow;
 use signorini_certify::{CertifiedFields, Data, NoBound};
 use signorini_device::tick::Report;
 use signorini_kernel::rows::{QUADS, TRIANGLES};
@@ -17,7 +18,6 @@ struct Full<'b, R: Scalar, const WIDTH: usize> {
     scene: &'b Scene,
     baked: &'b Baked<R>,
     controller: Controller<'b, R, WIDTH>,
-    inputs: Vec<R>,
     /// Outputs and report of the last tick.
     last: Option<(Vec<R>, Report<R>)>,
 }
@@ -36,8 +36,7 @@ pub(crate) fn with_full<R: Scalar, T>(
 
 impl<'b, R: Scalar, const WIDTH: usize> Full<'b, R, WIDTH> {
     fn new(scene: &'b Scene, baked: &'b Baked<R>) -> Self {
-        let controller = Controller::new(baked);
-        Self { scene, baked, controller, inputs: Vec::new(), last: None }
+        Self { scene, baked, controller: Controller::new(baked), last: None }
     }
 
     fn factored(&self) -> Option<Factored> {
@@ -47,17 +46,9 @@ impl<'b, R: Scalar, const WIDTH: usize> Full<'b, R, WIDTH> {
 }
 
 impl<R: Scalar, const WIDTH: usize> Session for Full<'_, R, WIDTH> {
-    fn pose(&mut self, _: &Problem) -> Result<()> {
-        Ok(())
-    }
-
     fn tick(&mut self, inputs: &[f64]) -> Result<u32> {
-        self.inputs.clear();
-        self.inputs.extend(inputs.iter().map(|&x| R::narrow(x)));
-        let last = self.controller.tick(&self.inputs).map_err(unfit::<R>(self.scene))?;
-        let sweeps = last.1.sweeps;
-        self.last = Some(last);
-        Ok(sweeps)
+        let last = self.controller.tick(&narrow(inputs)).map_err(unfit::<R>(self.scene))?;
+        Ok(self.last.insert(last).1.sweeps)
     }
 
     fn restart(&mut self) {

@@ -32,11 +32,13 @@ use signorini_solve::{ScalarKind, Solution};
 /// A scene that is answered tick after tick. The state that it carries is where the next tick starts.
 pub trait Session {
     /// Takes over the data of `at`: the session's problem with other inputs, or at another time. Data of a controller are
-    /// baked, and follow its inputs alone.
+    /// baked, and follow its inputs alone: it has nothing to take over.
     ///
     /// # Errors
     /// Data without an answer, or beyond the session's scalar.
-    fn pose(&mut self, at: &Problem) -> Result<()>;
+    fn pose(&mut self, _at: &Problem) -> Result<()> {
+        Ok(())
+    }
 
     /// Answers for the data posed last and, of a controller, for these inputs in the order of the scene. Returns the
     /// sweeps. A study times this.

@@ -91,26 +91,19 @@ pub(crate) fn with_solves<T>(
     setting: &Setting,
     then: impl FnOnce(&mut dyn Session) -> Result<T>,
 ) -> Result<T> {
-    if setting.scalar == Some(Precision::Mixed) {
-        let parts = Parts::examine(problem)?;
-        let mixed = Mixed::new(problem, &parts).map_err(unfit::<f32>(&problem.scene))?;
-        let by_share = setting.certificate && setting.sweeps.is_none();
-        let share = setting.share.unwrap_or(signorini_bake::full::SHARE);
-        let solves = Solves::new(problem, mixed, settings(setting), setting.certificate)?;
-        return then(&mut Solves { share: by_share.then_some(share), ..solves });
-    }
+    let certificate = setting.certificate;
     match setting.scalar {
-        Some(Precision::F32) => then(&mut swept::<f32>(problem, setting)?),
-        _ => then(&mut swept::<f64>(problem, setting)?),
+        Some(Precision::Mixed) => {
+            let parts = Parts::examine(problem)?;
+            let mixed = Mixed::new(problem, &parts).map_err(unfit::<f32>(&problem.scene))?;
+            let by_share = certificate && setting.sweeps.is_none();
+            let share = setting.share.unwrap_or(signorini_bake::full::SHARE);
+            let solves = Solves::new(problem, mixed, settings(setting), certificate)?;
+            then(&mut Solves { share: by_share.then_some(share), ..solves })
+        }
+        Some(Precision::F32) => then(&mut swept::<f32>(problem, settings(setting), certificate)?),
+        _ => then(&mut swept::<f64>(problem, settings(setting), certificate)?),
     }
-}
-
-fn swept<'p, R: Scalar>(
-    problem: &'p Problem,
-    setting: &Setting,
-) -> Result<Solves<R, Assembled<'p, R>>> {
-    let assembled = Assembled::<R>::new(problem).map_err(unfit::<R>(&problem.scene))?;
-    Solves::new(problem, assembled, settings(setting), setting.certificate)
 }
 
 /// A session of certified warm solves.
@@ -121,9 +114,16 @@ pub(crate) fn warm<'p, R: Scalar>(
     problem: &'p Problem,
     settings: Settings<R>,
 ) -> Result<Box<dyn Session + 'p>> {
+    Ok(Box::new(Solves { is_warm: true, ..swept(problem, settings, true)? }))
+}
+
+fn swept<'p, R: Scalar>(
+    problem: &'p Problem,
+    settings: Settings<R>,
+    is_certified: bool,
+) -> Result<Solves<R, Assembled<'p, R>>> {
     let assembled = Assembled::<R>::new(problem).map_err(unfit::<R>(&problem.scene))?;
-    let solves = Solves::new(problem, assembled, settings, true)?;
-    Ok(Box::new(Solves { is_warm: true, ..solves }))
+    Solves::new(problem, assembled, settings, is_certified)
 }
 
 /// The tolerance of `solve`, and the ω and sweeps of the setting.
@@ -146,10 +146,8 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Solves<R, S> {
     ) -> Result<Self> {
         let parts = Parts::examine(problem)?;
         swept.assembled_mut().set_parts(&parts);
-        let certifier = match is_certified {
-            true => Some(certifier(problem, &parts, swept.assembled())?),
-            false => None,
-        };
+        let certifier = || certifier(problem, &parts, swept.assembled());
+        let certifier = is_certified.then(certifier).transpose()?;
         Ok(Self {
             parts,
             u: swept.assembled().start(),

@@ -50,7 +50,7 @@ pub(super) fn files(name: &str, api: &ModuleApi, on: &Machine) -> Vec<(String, S
 /// A value for each input.
 fn sensors(name: &str, api: &ModuleApi) -> String {
     let mut text = String::new();
-    for (item, [lo, hi]) in api.input_items().iter().zip(api.given_ranges()) {
+    for (item, [lo, hi]) in api.inputs.iter().zip(&api.given_ranges) {
         let field = field(&item.identifier);
         let ends = match lo.is_finite() && hi.is_finite() {
             true => ["least", "most"].map(|end| format!("{name}_{end}_inputs.{field}")),
@@ -64,7 +64,7 @@ fn sensors(name: &str, api: &ModuleApi) -> String {
 /// A line for each output.
 fn actuators(api: &ModuleApi) -> String {
     let mut text = String::new();
-    for item in api.output_items() {
+    for item in &api.outputs {
         let field = field(&item.identifier);
         let _ = writeln!(
             text,

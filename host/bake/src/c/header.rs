@@ -52,11 +52,11 @@ impl Header<'_> {
             "The {model} model in {scalar}, built for {}. From {}, scene hash {:016x}. Written by signorini bake {}; do not edit. \
              Estimated: {flash_bytes} bytes of flash, {ram_bytes} bytes of RAM with the stack of a tick.",
             self.on.word,
-            as_is(self.api.file()),
-            self.api.hash(),
+            as_is(&self.api.file),
+            self.api.hash,
             env!("CARGO_PKG_VERSION"),
         );
-        let title = as_is(self.api.title());
+        let title = as_is(&self.api.title);
         let paragraphs = [title.as_str(), &about, UNITS, SYMBOLS, USE];
         format!(
             "/*\n{}\n */\n#ifndef NAME_H\n#define NAME_H\n\n#include <stddef.h>\n#include <stdint.h>\n\n",
@@ -89,9 +89,9 @@ impl Header<'_> {
             "/* What it was made of: a state or a log of another scene has another one. */\n\
              #define NAME_SCENE_HASH \"{:016x}\"\n\
              #define NAME_INPUTS {}\n#define NAME_OUTPUTS {}\n",
-            self.api.hash(),
-            self.api.input_items().len(),
-            self.api.output_items().len()
+            self.api.hash,
+            self.api.inputs.len(),
+            self.api.outputs.len()
         );
         let worst = &self.chosen.worst_case;
         if let (true, Some(exchanges)) = (worst.proven, worst.exchanges) {
@@ -113,19 +113,17 @@ impl Header<'_> {
     }
 
     fn inputs_and_outputs(&self) -> String {
-        let ranges = self.api.given_ranges().iter();
+        let ranges = self.api.given_ranges.iter();
         let ends = ranges.map(|[lo, hi]| match (lo.is_finite(), hi.is_finite()) {
             (false, false) => " Any finite value.".to_owned(),
             _ => format!(" Range {lo} to {hi}: a tick refuses what lies outside."),
         });
-        let inputs =
-            structure("name_inputs", "What the controller sets.", self.api.input_items(), ends);
+        let inputs = structure("name_inputs", "What the controller sets.", &self.api.inputs, ends);
         let why = self.chosen.without_interval.iter().map(|why| match why {
             Some(why) => format!(" Its plus_minus is infinite: {}.", as_is(why)),
             None => String::new(),
         });
-        inputs
-            + &structure("name_outputs", "What the controller reads.", self.api.output_items(), why)
+        inputs + &structure("name_outputs", "What the controller reads.", &self.api.outputs, why)
     }
 
     fn codes(&self) -> String {
@@ -137,7 +135,7 @@ impl Header<'_> {
     }
 
     fn report(&self) -> String {
-        let has_outputs = !self.api.output_items().is_empty();
+        let has_outputs = !self.api.outputs.is_empty();
         let plus_minus = if has_outputs { PLUS_MINUS } else { "" };
         let size = self.library.report;
         format!(
@@ -157,7 +155,7 @@ impl Header<'_> {
     }
 
     fn functions(&self) -> String {
-        let empty = self.api.input_items().is_empty();
+        let empty = self.api.inputs.is_empty();
         let inputs = if empty { "" } else { INPUT_VALUES };
         format!("{FUNCTIONS}{inputs}")
     }
@@ -189,23 +187,17 @@ fn enumeration(name: &str, doc: &str, codes: &[Code], meanings: &[&str]) -> Stri
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
     use std::process::Command;
 
     use super::*;
     use crate::choice::{Choice, Wanted};
     use crate::emit::emit;
+    use crate::tests::standard;
     use signorini_image::library::MACHINES;
-    use signorini_problem::Problem;
-    use signorini_scene::mesh::adapted;
-    use signorini_scene::scene::Scene;
 
     /// The header of a standard scene for this machine, with the sizes of a state and a report.
     fn header(name: &str, state: usize, report: usize) -> String {
-        let path = format!("../../meshes/scenes/{name}.toml");
-        let scene = Scene::read(Path::new(&path)).expect("a standard scene");
-        let problem = Problem::new(&scene, adapted::of_scene(&scene).expect("its mesh"));
-        let problem = problem.expect("a problem");
+        let problem = standard(name, |_| ());
         let chosen = Choice::<f32>::new(&problem, Wanted::default()).expect("a model");
         let chosen = emit(&problem, &chosen).chosen;
         let (api, on) = (ModuleApi::new(&problem), &MACHINES[3]);

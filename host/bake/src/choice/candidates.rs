@@ -1,14 +1,14 @@
-//! The variants of the condensed model, each with what it takes.
+//! The variants of the condensed model, each with what it takes, and how many exchanges and sweeps there is time for.
 
 use signorini_contact::dense::blocks::padded;
 
-use super::work::{allowed, entries, fixed, within};
 use super::{Candidate, Model, Origin};
 use crate::budget::{Budget, Needs};
+use crate::condensed::{self, Modes, Work};
 use crate::costs::Costs;
-use crate::dense::{Done, Price};
+use crate::dense::{AN_ENTRY, Done};
 use crate::setting::checked;
-use crate::{condensed, trial};
+use crate::trial::{self, Trial};
 use signorini_condense::CondensedModel;
 use signorini_problem::inputs::InputSpace;
 use signorini_problem::scalar::Scalar;
@@ -16,6 +16,11 @@ use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::{Method, Setting};
 use signorini_solve::unfit;
+
+/// Sweeps that follow where the exchanges of a tick do not suffice.
+const FALLBACK: u32 = 20;
+/// Most sweeps of a model without the exact method.
+const MOST_SWEEPS: u32 = 1000;
 
 /// The variants of the condensed model: with the bound first, and of two the one that takes less time. Those that leave
 /// out a bound that is asked for are no choice.
@@ -101,18 +106,9 @@ fn condensed_as<R: Scalar>(
         None => condensed::Baked::<R>::new(condensate, all, certified),
     };
     let baked = baked.map_err(unfit)?;
-    let baked = baked.with_setting(setting);
+    let mut baked = baked.with_setting(setting);
     let costs = Costs::measured();
-    let price = Price {
-        order: padded(condensate.contact),
-        entries: entries(condensate, baked.modes.as_ref()),
-        vertices: baked.vertices(),
-        columns: baked.columns(),
-        exact,
-        is_limited: baked.is_limited(),
-        forms: baked.forms(),
-        modes: baked.modes.as_ref().map_or(0, |modes| modes.count),
-    };
+    let price = baked.price(entries(condensate, baked.modes.as_ref()), exact);
     let spaces = condensate.defaults.iter().zip(&condensate.ranges).take(baked.inputs).skip(1);
     let spaces: Vec<_> = spaces.map(|(&default, &range)| InputSpace { default, range }).collect();
     let of_tick = |done: &Done| price.of::<R>(&costs, done);
@@ -132,11 +128,16 @@ fn condensed_as<R: Scalar>(
     };
     // What every tick tried has time for.
     let tried = (!is_late(instructions[1])).then_some(trial);
-    let baked = match baked.worst_exchanges() {
-        Some(_) if !is_late(worst) || tried.is_some() => baked.with_worst(worst),
-        // Cut off where time is up: no end is proved.
-        _ => baked.with_work(within::<R>(&costs, condensate.contact, all, tried, time)),
-    };
+    match baked.worst_exchanges() {
+        Some(_) if !is_late(worst) || tried.is_some() => {
+            baked.worst_instructions = worst.map(|count| count.ceil() as u64);
+        }
+        _ => {
+            // Cut off where time is up: no end is proved.
+            baked.work = within::<R>(&costs, condensate.contact, all, tried, time);
+            baked.sweeps.most = baked.work.sweeps;
+        }
+    }
     let sizes = condensed::sizes(&baked);
     let needs = Needs::with_code(baked.kind(), sizes, instructions);
     let solver = match (condensate.contact, exact) {
@@ -157,4 +158,66 @@ fn condensed_as<R: Scalar>(
         lacks_bound: false,
         unbounded: None,
     })
+}
+
+/// Instructions of a tick in which no edge changes sides, as if every group of eight edges had an open one:
+/// then a product costs what a sweep does, and all columns of the bound's factor count, not half of them.
+fn fixed<R: Scalar>(
+    costs: &Costs,
+    condensate: &CondensedModel,
+    exact: bool,
+    certified: bool,
+) -> Option<f64> {
+    let of = |stage: &str| costs.of_dense::<R>(stage, condensate.contact);
+    let (sweep, product) = (of("sweep")?, of("product, half of x zero")?);
+    let solve = if exact { of("exact, no edge changes")? + 2.0 * (sweep - product) } else { sweep };
+    let bound = match certified && condensate.certificate.is_ok() {
+        true => 2.0 * of("norm of the bound, half of x zero")?,
+        false => 0.0,
+    };
+    Some(AN_ENTRY * entries::<R>(condensate, None) as f64 + solve + bound)
+}
+
+/// Entries of loads and outputs, and of what amplitudes of modes are made of: for the load, and once x is known.
+fn entries<R>(condensate: &CondensedModel, modes: Option<&Modes<R>>) -> usize {
+    let CondensedModel { contact, inputs, outputs, .. } = condensate;
+    let n = padded(*contact);
+    // The largest amplitudes, with which outputs are refused, take another column.
+    let of_modes = modes.map_or(0, |modes| modes.count * 2 * (n + inputs - modes.count));
+    n * inputs + outputs.len() * (n + inputs) + of_modes
+}
+
+/// What a tick may do where nothing limits its time: the sweeps of the setting, where it has a number; exchanges as many as
+/// the proved worst case has at least, twice as many where edges have three sides.
+fn allowed(setting: &Setting, model: &CondensedModel, exact: bool) -> Work {
+    let of_edge = if model.is_limited() { 4 } else { 2 };
+    match exact {
+        true => Work { pivots: Some((of_edge * model.contact as u32).max(1)), sweeps: FALLBACK },
+        false => Work { pivots: None, sweeps: setting.sweeps.unwrap_or(MOST_SWEEPS) },
+    }
+}
+
+/// What a tick may do in the time declared: as much as the ticks of a trial did, where all of them had time; one step at
+/// least, for what fits no better comes to its end in later ticks. `time`: the instructions of a tick without changes, and
+/// those that there are.
+fn within<R: Scalar>(
+    costs: &Costs,
+    contact: usize,
+    all: Work,
+    tried: Option<Trial>,
+    time: Option<(f64, f64)>,
+) -> Work {
+    let steps = costs.of_dense::<R>("exchange", contact).zip(costs.of_dense::<R>("sweep", contact));
+    let (Some((fixed, budget)), Some((pivot, sweep)), true) = (time, steps, contact > 0) else {
+        return all;
+    };
+    let times = |instructions: f64, each: f64| (instructions / each).clamp(0.0, 1e6) as u32;
+    let tried = tried.unwrap_or_default();
+    let Some(most) = all.pivots else {
+        let sweeps = times(budget - fixed, sweep).max(tried.sweeps[1]).clamp(1, all.sweeps);
+        return Work { pivots: None, sweeps };
+    };
+    let sweeps = times(0.25 * (budget - fixed), sweep).clamp(1, all.sweeps);
+    let affordable = times(budget - fixed - f64::from(sweeps) * sweep, pivot);
+    Work { pivots: Some(affordable.max(tried.pivots[1]).clamp(1, most)), sweeps }
 }

@@ -14,7 +14,6 @@ mod advice;
 mod candidates;
 mod meshes;
 mod origin;
-mod work;
 
 use super::budget::{Budget, Needs, Shortfall};
 use super::range::{refuse_answers, refuse_inputs, refuse_lengths, refuse_loads, refuse_squares};

@@ -12,9 +12,8 @@ use signorini_kernel::{Error, error::Array};
 
 use super::bound::{Bound, Ends};
 use super::modes::{Modes, Scaled};
-use super::padding::{filled_up, matrix, narrow};
-use super::relaxation::best_omega;
-use super::start::InitialState;
+use super::start::{InitialState, best_omega};
+use crate::narrow::{filled_up, matrix, narrow, pairs};
 use signorini_condense::ranges::split::Split;
 use signorini_condense::{CondensedModel, ModalModel};
 use signorini_image::chosen::WorstCase;
@@ -106,7 +105,7 @@ impl<R: Scalar> Baked<R> {
             matrix: matrix(condensate),
             start: InitialState::new(condensate, n > 0 && work.pivots.is_some())?,
             load: condensate.load.iter().flat_map(|column| filled_up(column)).collect(),
-            limits: condensate.limits.iter().map(|pair| pair.map(R::narrow)).collect(),
+            limits: pairs(&condensate.limits),
             spans: spans(condensate)?,
             ranges: ranges(condensate.ranges.get(1..).unwrap_or_default()),
             outputs: condensate.outputs.iter().map(|of| of.map(|c| narrow(c), R::narrow)).collect(),
@@ -158,7 +157,9 @@ impl<R: Scalar> Baked<R> {
             _ if self.is_limited() || self.modes.is_some() => ", limits and modes",
             Solver::Linear => "linear, condensed",
             Solver::Sweeps => ", condensed, swept",
-            _ if self.has_jump() => ", condensed, on quads",
+            _ if self.bound.as_ref().is_ok_and(|bound| bound.jump.is_some()) => {
+                ", condensed, on quads"
+            }
             _ if self.contact <= SIDE => "levee, condensed",
             _ => "unknowns, condensed",
         }
@@ -202,16 +203,6 @@ impl<R: Scalar> Baked<R> {
         Self { sweeps, cold: setting.start == From::Cold, ..self }
     }
 
-    /// The same with what no tick exceeds.
-    pub fn with_worst(self, instructions: Option<f64>) -> Self {
-        Self { worst_instructions: instructions.map(|count| count.ceil() as u64), ..self }
-    }
-
-    /// The same with other limits, the exact method staying in or out.
-    pub fn with_work(self, work: Work) -> Self {
-        Self { work, sweeps: Sweeps { most: work.sweeps, ..self.sweeps }, ..self }
-    }
-
     /// The features of the kernel that it needs.
     pub fn kernel_features(&self) -> Vec<&'static str> {
         let limited = self.is_limited().then_some("limited");
@@ -234,19 +225,9 @@ impl<R: Scalar> Baked<R> {
         if self.spans.len() > n { n } else { 0 }
     }
 
-    /// Bytes of one number.
-    pub(super) fn scalar(&self) -> usize {
-        size_of::<R>()
-    }
-
     /// Columns of F.
     pub fn columns(&self) -> usize {
         self.bound.as_ref().map_or(0, |bound| bound.factor.norms.len())
-    }
-
-    /// Contact vertices of the certificate.
-    pub fn vertices(&self) -> usize {
-        self.bound.as_ref().map_or(0, |bound| bound.vertices.len())
     }
 
     /// Why there is no certificate, if so.
@@ -254,19 +235,9 @@ impl<R: Scalar> Baked<R> {
         self.bound.as_ref().err().map(String::as_str)
     }
 
-    /// How many forms the bound has: none, that of s, that of u_h where it is another, and that of laws that change.
-    pub fn forms(&self) -> usize {
-        let laws = usize::from(self.modes.is_some());
-        self.bound.as_ref().map_or(0, |bound| 1 + usize::from(bound.jump.is_some()) + laws)
-    }
-
     /// Where s − ψ comes from at the ends of contact edges, where a flux has a limit.
     pub(super) fn sides(&self) -> Option<sides::Baked<'_, R>> {
         self.bound.as_ref().ok()?.sides.as_ref().map(Ends::view)
-    }
-
-    fn has_jump(&self) -> bool {
-        self.bound.as_ref().is_ok_and(|bound| bound.jump.is_some())
     }
 
     /// Lends the model, as the generated module has it.

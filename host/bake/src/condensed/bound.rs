@@ -4,7 +4,7 @@ use signorini_contact::certificate::{Corner, Form, Vertex};
 use signorini_contact::factor::Factor;
 use signorini_contact::sides::{self, ON_GAP, Sides};
 
-use super::padding::narrow;
+use crate::narrow::narrow;
 use signorini_condense::CondensedModel;
 use signorini_problem::scalar::Scalar;
 

@@ -10,8 +10,6 @@ mod arrays;
 mod bound;
 mod controller;
 mod modes;
-mod padding;
-mod relaxation;
 mod sizes;
 mod source;
 mod start;

@@ -20,7 +20,7 @@ use signorini_contact::modes::Modal;
 use signorini_problem::scalar::Scalar;
 
 use super::bound::{Bound, Columns};
-use super::padding::narrow;
+use crate::narrow::narrow;
 
 /// Roundings of an entry of Ŝ(t) beside one a mode.
 const FEW: usize = 16;

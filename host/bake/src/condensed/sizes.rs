@@ -4,6 +4,7 @@ use signorini_contact::dense::blocks::{count, padded};
 
 use super::arrays::{Baked, Solver};
 use super::statics::written;
+use crate::dense::Price;
 use crate::full::Sizes;
 use signorini_problem::scalar::Scalar;
 
@@ -11,12 +12,27 @@ use signorini_problem::scalar::Scalar;
 const BLOCK: usize = 64;
 
 impl<R: Scalar> Baked<R> {
+    /// The sizes by which its ticks are priced, with so many entries of loads and outputs, and the exact method or without.
+    pub fn price(&self, entries: usize, exact: bool) -> Price {
+        let (bound, laws) = (self.bound.as_ref(), usize::from(self.modes.is_some()));
+        Price {
+            order: padded(self.contact),
+            entries,
+            vertices: bound.map_or(0, |bound| bound.vertices.len()),
+            columns: self.columns(),
+            exact,
+            is_limited: self.is_limited(),
+            forms: bound.map_or(0, |bound| 1 + usize::from(bound.jump.is_some()) + laws),
+            modes: self.modes.as_ref().map_or(0, |modes| modes.count),
+        }
+    }
+
     /// Bytes that modes take beside the bound.
     fn of_modes(&self) -> usize {
         self.modes.as_ref().map_or(0, |modes| {
             let columns = modes.count * padded(self.contact);
             let own = modes.compliance.len() + modes.of_inputs.len() + columns;
-            (own + BLOCK * count(self.contact) + self.inputs + modes.count) * self.scalar()
+            (own + BLOCK * count(self.contact) + self.inputs + modes.count) * size_of::<R>()
         })
     }
 
@@ -31,64 +47,47 @@ impl<R: Scalar> Baked<R> {
         };
         let exact = self.work.pivots.is_some();
         let tableau = without(&|other| other.work.pivots = None);
-        let bound = without(&|other| other.bound = Err(String::new()));
+        let of_bound = without(&|other| other.bound = Err(String::new()));
         let corners = self.bound.as_ref().map_or(0, |bound| bound.corners.len());
         let floating = self.bound.as_ref().is_ok_and(|bound| !bound.floating.is_empty());
-        let scalar = self.scalar();
+        let scalar = size_of::<R>();
+        let matrix = format!("{} contact edges, half of a symmetric matrix", self.contact);
+        let method = match exact {
+            true if self.modes.is_some() => "a tableau",
+            true => "a tableau, and the one it begins with",
+            false if self.contact == 0 => "no contact edges",
+            false => "see the models above: what it takes, and why it is not chosen",
+        };
+        let inputs = format!("{} and the constant part", self.inputs - 1);
+        let modes =
+            self.modes.as_ref().map_or("no transfer coefficient changes".to_owned(), |of| {
+                let all = of.count + of.left_out;
+                format!("{} of {all} modes of the coefficient's boundary kept", of.count)
+            });
+        let bound = self.bound.as_ref().map_or_else(String::clone, |bound| {
+            let forms = if self.modes.is_some() { "factors" } else { "a factor" };
+            format!("{forms} of {} columns", bound.factor.norms.len())
+        });
+        let spans = match self.varying_spans() {
+            _ if !self.is_limited() => "no flux has a limit",
+            0 => "fixed, on every edge",
+            _ => "inputs change them",
+        };
+        let above = format!("{corners} touching edges end at a value that may lie above the gap");
+        let held = match floating {
+            true => "contact alone holds the domain",
+            false => "a Dirichlet or Robin boundary holds the domain",
+        };
+        let of_floating = if floating { self.contact * scalar } else { 0 };
         [
-            ("matrix S", self.contact > 0, self.matrix.len() * BLOCK * scalar, {
-                format!("{} contact edges, half of a symmetric matrix", self.contact)
-            }),
-            (
-                "exact method",
-                exact,
-                tableau,
-                match exact {
-                    true if self.modes.is_some() => "a tableau".to_owned(),
-                    true => "a tableau, and the one it begins with".to_owned(),
-                    false if self.contact == 0 => "no contact edges".to_owned(),
-                    false => {
-                        "see the models above: what it takes, and why it is not chosen".to_owned()
-                    }
-                },
-            ),
-            ("inputs", self.inputs > 1, self.inputs * n * scalar, {
-                format!("{} and the constant part", self.inputs - 1)
-            }),
-            ("modes", self.modes.is_some(), self.of_modes(), {
-                self.modes.as_ref().map_or("no transfer coefficient changes".to_owned(), |modes| {
-                    let all = modes.count + modes.left_out;
-                    format!("{} of {all} modes of the coefficient's boundary kept", modes.count)
-                })
-            }),
-            (
-                "error bound",
-                self.bound.is_ok(),
-                bound,
-                match &self.bound {
-                    Ok(bound) => {
-                        let forms = if self.modes.is_some() { "factors" } else { "a factor" };
-                        format!("{forms} of {} columns", bound.factor.norms.len())
-                    }
-                    Err(reason) => reason.clone(),
-                },
-            ),
-            ("limits of fluxes", self.is_limited(), self.spans.len() * scalar, {
-                match self.varying_spans() {
-                    _ if !self.is_limited() => "no flux has a limit".to_owned(),
-                    0 => "fixed, on every edge".to_owned(),
-                    _ => "inputs change them".to_owned(),
-                }
-            }),
-            ("corners", corners > 0, corners * self.inputs * scalar, {
-                format!("{corners} touching edges end at a value that may lie above the gap")
-            }),
-            ("floating domain", floating, if floating { self.contact * scalar } else { 0 }, {
-                match floating {
-                    true => "contact alone holds the domain".to_owned(),
-                    false => "a Dirichlet or Robin boundary holds the domain".to_owned(),
-                }
-            }),
+            ("matrix S", self.contact > 0, self.matrix.len() * BLOCK * scalar, matrix),
+            ("exact method", exact, tableau, method.to_owned()),
+            ("inputs", self.inputs > 1, self.inputs * n * scalar, inputs),
+            ("modes", self.modes.is_some(), self.of_modes(), modes),
+            ("error bound", self.bound.is_ok(), of_bound, bound),
+            ("limits of fluxes", self.is_limited(), self.spans.len() * scalar, spans.to_owned()),
+            ("corners", corners > 0, corners * self.inputs * scalar, above),
+            ("floating domain", floating, of_floating, held.to_owned()),
         ]
         .into_iter()
     }
@@ -96,7 +95,7 @@ impl<R: Scalar> Baked<R> {
 
 /// RAM of the `Controller` and flash of its data, exact but for alignment and lengths of slices.
 pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
-    let (n, scalar) = (padded(baked.contact), baked.scalar());
+    let (n, scalar) = (padded(baked.contact), size_of::<R>());
     let columns = baked.columns();
     let tableau = match baked.solver() {
         Solver::Exchanges(_) | Solver::TwoPhases => {

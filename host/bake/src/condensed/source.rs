@@ -6,10 +6,10 @@ use signorini_contact::dense::blocks::{count, padded};
 
 use super::arrays::{Baked, Solver};
 use super::sizes::sizes;
-use super::statics::data;
+use super::statics::{self, written};
 use crate::controller::{self, Parts};
-use crate::imports::imports;
-use crate::module_api::{About, ModuleApi};
+use crate::module_api::ModuleApi;
+use crate::text::imports;
 use signorini_problem::scalar::Scalar;
 
 /// The module.
@@ -27,27 +27,19 @@ pub fn source<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         bytes.ram,
         bytes.flash
     );
-    let features = baked.kernel_features();
-    let about = About { model: "condensed", text: &about, features: &features };
-    let mut text = face.source::<R>(&about);
+    let mut text = face.source::<R>("condensed", about, &baked.kernel_features());
     let own = constants(baked) + &controller(face, baked);
     text += &imports(NAMES, &own, "");
-    text + &own + &data(face.outputs(), baked)
+    let outputs = face.outputs.iter().map(|item| item.identifier.as_str());
+    text + &own + &written(outputs, baked).module(statics::NAMES, "Scalar")
 }
 
-/// Names that the module may use, with their place in the kernel.
-const NAMES: &[(&str, &str)] = &[
-    ("ControllerStorage", "condensed::ControllerStorage"),
-    ("Exchanges", "condensed::Exchanges"),
-    ("Phased", "condensed::Phased"),
-    ("Effort", "condensed::Effort"),
-    ("Swept", "condensed::Swept"),
-    ("Linear", "contact::method::Linear"),
-    ("Sweeps", "contact::method::Sweeps"),
-    ("ArrayModalStorage", "contact::modes::ArrayModalStorage"),
-    ("ArrayStorage", "contact::storage::ArrayStorage"),
-    ("ArrayTableauStorage", "contact::storage::ArrayTableauStorage"),
-];
+/// Items of the kernel that the module may use.
+const NAMES: &str = "\
+    condensed::ControllerStorage condensed::Exchanges condensed::Phased condensed::Effort \
+    condensed::Swept contact::method::Linear contact::method::Sweeps \
+    contact::modes::ArrayModalStorage contact::storage::ArrayStorage \
+    contact::storage::ArrayTableauStorage";
 
 fn constants<R: Scalar>(baked: &Baked<R>) -> String {
     let (contact, sweeps) = (baked.contact, baked.sweeps);

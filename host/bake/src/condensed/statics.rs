@@ -10,31 +10,15 @@ use signorini_contact::outputs::Measure;
 use signorini_contact::{Condensed, sides};
 
 use super::arrays::{Baked, Solver};
-use crate::statics::{Statics, lines, named};
+use crate::statics::{Statics, lines, named, record, tall_record};
 use signorini_problem::scalar::Scalar;
 
-/// Names that they may use, with their place in the kernel.
-const NAMES: &[(&str, &str)] = &[
-    ("Condensed", "contact::Condensed"),
-    ("Corner", "contact::certificate::Corner"),
-    ("Form", "contact::certificate::Form"),
-    ("Vertex", "contact::certificate::Vertex"),
-    ("Factor", "contact::factor::Factor"),
-    ("Modal", "contact::modes::Modal"),
-    ("Measure", "contact::outputs::Measure"),
-    ("Baked", "contact::sides::Baked"),
-    ("Sides", "contact::sides::Sides"),
-    ("SpanColumns", "contact::spans::SpanColumns"),
-    ("InitialTableau", "contact::dense::tableau::InitialTableau"),
-];
-
-/// A module of their own.
-pub(super) fn data<'n, R: Scalar>(
-    outputs: impl Iterator<Item = &'n str>,
-    baked: &Baked<R>,
-) -> String {
-    written(outputs, baked).module(NAMES, "Scalar")
-}
+/// Items of the kernel that they may use.
+pub(super) const NAMES: &str = "\
+    contact::Condensed contact::certificate::Corner contact::certificate::Form \
+    contact::certificate::Vertex contact::factor::Factor contact::modes::Modal \
+    contact::outputs::Measure contact::sides::Baked contact::sides::Sides \
+    contact::spans::SpanColumns contact::dense::tableau::InitialTableau";
 
 /// Everything in flash; `outputs` are their names.
 pub(super) fn written<'n, R: Scalar>(
@@ -46,7 +30,7 @@ pub(super) fn written<'n, R: Scalar>(
         let system = condensed(model, outputs, baked, &mut to);
         let (of, system) = match &baked.modes {
             None => ("Condensed", system),
-            Some(modes) => ("Modal", modal(&modes.view(model), &system, &mut to)),
+            Some(modes) => ("Modal", modal(&modes.view(model), system, &mut to)),
         };
         let _ = write!(
             to.text,
@@ -63,29 +47,21 @@ pub(super) fn written<'n, R: Scalar>(
 fn condensed<'n, R: Scalar>(of: &Condensed<R>, names: impl Iterator<Item = &'n str>, baked: &Baked<R>, to: &mut Statics) -> String {
     let matrix = to.array::<Block<R>>("MATRIX", "S, the lower triangle of its blocks.", "[[Scalar; 8]; 8]", of.matrix);
     let start = start(of, baked, to);
-    let x = to.array::<R>("START", "The scaled openings for the scene's own inputs.", "Scalar", of.x);
-    let load = to.array::<R>("LOAD", "B by columns: what each input, the constant first, does.", "Scalar", of.load);
-    let limits = to.array::<[R; 2]>("WITHIN", "Where openings are kept, scaled.", "[Scalar; 2]", of.limits);
-    let spans = to.array::<R>("SPANS", "How far it is to the other end of each flux, by columns.", "Scalar", &baked.spans);
-    let spans = if baked.is_limited() { format!("SpanColumns::new({spans})") } else { "SpanColumns::UNLIMITED".to_owned() };
-    let outputs = of.outputs.iter().zip(names).map(|(of, name)| measure(of, name, to));
-    let outputs = lines(&outputs.collect::<Vec<_>>());
-    let certificate = of.certificate.as_ref().map_or("None".to_owned(), |form| certificate(form, baked, to));
-    let has_bound = of.has_bound;
-    format!(
-        "Condensed {{
-        contact: super::CONTACT,
-        matrix: {matrix},
-        x: {x},
-        start: {start},
-        load: {load},
-        limits: {limits},
-        spans: {spans},
-        outputs: {outputs},
-        certificate: {certificate},
-        has_bound: {has_bound},
-    }}"
-    )
+    tall_record("Condensed", 4, [
+        ("contact", "super::CONTACT".to_owned()),
+        ("matrix", matrix),
+        ("x", to.numbers("START", "The scaled openings for the scene's own inputs.", of.x)),
+        ("start", start),
+        ("load", to.numbers("LOAD", "B by columns: what each input, the constant first, does.", of.load)),
+        ("limits", to.array::<[R; 2]>("WITHIN", "Where openings are kept, scaled.", "[Scalar; 2]", of.limits)),
+        ("spans", match baked.is_limited() {
+            true => format!("SpanColumns::new({})", to.numbers("SPANS", "How far it is to the other end of each flux, by columns.", &baked.spans)),
+            false => "SpanColumns::UNLIMITED".to_owned(),
+        }),
+        ("outputs", lines(of.outputs.iter().zip(names).map(|(of, name)| measure(of, name, to)))),
+        ("certificate", of.certificate.as_ref().map_or("None".to_owned(), |form| certificate(form, baked, to))),
+        ("has_bound", of.has_bound.to_string()),
+    ])
 }
 
 /// The tableau in which exchanges begin; with modes they begin in S(t).
@@ -98,115 +74,104 @@ fn start<R: Scalar>(of: &Condensed<R>, baked: &Baked<R>, to: &mut Statics) -> St
     let doc = "The tableau of the scene's own inputs: where exchanges begin.";
     let blocks = to.array::<Block<R>>("TABLEAU", doc, "[[Scalar; 8]; 8]", blocks);
     let exchanged = to.array::<bool>("OPEN", "The edges that are open in it.", "bool", exchanged);
-    format!("InitialTableau {{ blocks: {blocks}, exchanged: {exchanged} }}")
+    record("InitialTableau", [("blocks", blocks), ("exchanged", exchanged)])
 }
 
 /// The model of modes around that where the coefficient is least.
 #[rustfmt::skip]
-fn modal<R: Scalar>(of: &Modal<R>, model: &str, to: &mut Statics) -> String {
-    let Modal { input, origin, per_unit, compliance, of_inputs, laws, is_monotone, .. } = of;
-    let compliance = to.array::<R>("COMPLIANCE", "What one of each mode brings to itself.", "Scalar", compliance);
-    let of_inputs = to.array::<R>("MODES_OF_INPUTS", "By modes: what the inputs bring to them.", "Scalar", of_inputs);
-    let laws = optional(laws.as_ref(), "LAWS", "F of the laws that change, by columns.", to);
-    format!(
-        "Modal {{
-        model: {model},
-        input: {input},
-        origin: {origin:?},
-        per_unit: {per_unit:?},
-        compliance: {compliance},
-        of_inputs: {of_inputs},
-        laws: {laws},
-        is_monotone: {is_monotone},
-    }}"
-    )
+fn modal<R: Scalar>(of: &Modal<R>, model: String, to: &mut Statics) -> String {
+    tall_record("Modal", 4, [
+        ("model", model),
+        ("input", of.input.to_string()),
+        ("origin", format!("{:?}", of.origin)),
+        ("per_unit", format!("{:?}", of.per_unit)),
+        ("compliance", to.numbers("COMPLIANCE", "What one of each mode brings to itself.", of.compliance)),
+        ("of_inputs", to.numbers("MODES_OF_INPUTS", "By modes: what the inputs bring to them.", of.of_inputs)),
+        ("laws", optional(of.laws.as_ref(), "LAWS", "F of the laws that change, by columns.", to)),
+        ("is_monotone", of.is_monotone.to_string()),
+    ])
 }
 
-/// The array that an output is read off.
+/// The arrays that an output is read off.
 fn measure<R: Scalar>(of: &Measure<R>, output: &str, to: &mut Statics) -> String {
-    let mut factors =
-        |what: &str, doc: &str, all: &[R]| to.array::<R>(&named(output, what), doc, "Scalar", all);
-    let by_inputs = "By the inputs.";
-    let by_openings = "By the openings.";
-    let lengths = "Lengths of the edges.";
-    match *of {
+    let inputs = ("of_inputs", "By the inputs.");
+    let openings = ("of_contact", "By the openings.");
+    let lengths = ("of_contact", "Lengths of the edges.");
+    let reactions = ("of_reaction", "By the reactions.");
+    let (kind, always, arrays) = match *of {
         Measure::Linear { of_inputs, of_contact } => {
-            let of_inputs = factors("OF_INPUTS", by_inputs, of_inputs);
-            let of_contact = factors("OF_CONTACT", by_openings, of_contact);
-            format!("Measure::Linear {{ of_inputs: {of_inputs}, of_contact: {of_contact} }}")
+            ("Linear", None, vec![(inputs, of_inputs), (openings, of_contact)])
         }
         Measure::Flux { of_inputs, of_contact, of_reaction } => {
-            let of_inputs = factors("OF_INPUTS", by_inputs, of_inputs);
-            let of_contact = factors("OF_CONTACT", by_openings, of_contact);
-            let of_reaction = factors("OF_REACTION", "By the reactions.", of_reaction);
-            format!(
-                "Measure::Flux {{ of_inputs: {of_inputs}, of_contact: {of_contact}, of_reaction: {of_reaction} }}"
-            )
+            let all = vec![(inputs, of_inputs), (openings, of_contact), (reactions, of_reaction)];
+            ("Flux", None, all)
         }
         Measure::Length { always, of_contact } => {
-            let of_contact = factors("OF_CONTACT", lengths, of_contact);
-            format!("Measure::Length {{ always: {always:?}, of_contact: {of_contact} }}")
+            ("Length", Some(always), vec![(lengths, of_contact)])
         }
         Measure::Saturated { always, of_contact } => {
-            let of_contact = factors("OF_CONTACT", lengths, of_contact);
-            format!("Measure::Saturated {{ always: {always:?}, of_contact: {of_contact} }}")
+            ("Saturated", Some(always), vec![(lengths, of_contact)])
         }
-        Measure::Bound => "Measure::Bound".to_owned(),
-    }
+        Measure::Bound => return "Measure::Bound".to_owned(),
+    };
+    let arrays = arrays.into_iter().map(|((field, doc), all)| {
+        let name = named(output, &field.to_ascii_uppercase());
+        format!("{field}: {}", to.numbers(&name, doc, all))
+    });
+    let always = always.map(|always| format!("always: {always:?}"));
+    let fields: Vec<_> = always.into_iter().chain(arrays).collect();
+    format!("Measure::{kind} {{ {} }}", fields.join(", "))
 }
 
 #[rustfmt::skip]
 fn certificate<R: Scalar>(of: &Form<R>, baked: &Baked<R>, to: &mut Statics) -> String {
-    let Form { factor, jump, vertices, corners, stability, floating, oscillation, row_sum, largest_load, unit, .. } = of;
-    let factor = self::factor(factor, "FACTOR", "F by columns: inputs, openings, corrections.", to);
-    let jump = optional(jump.as_ref(), "JUMP", "J by columns: what u_h is off from s.", to);
-    let vertices = to.array::<Vertex<R>>("VERTICES", "Contact vertices.", "Vertex<Scalar>", vertices);
-    let oscillation = to.array::<R>("OSCILLATION", "The oscillation of each input.", "Scalar", oscillation);
-    let largest_load = to.array::<R>("LARGEST_LOAD", "The largest entry of each load.", "Scalar", largest_load);
-    let floating = to.array::<R>("FLOATING", "The flux of a unit on each contact edge.", "Scalar", floating);
+    let factor = factor(&of.factor, "FACTOR", "F by columns: inputs, openings, corrections.", to);
+    let jump = optional(of.jump.as_ref(), "JUMP", "J by columns: what u_h is off from s.", to);
+    let vertices = to.array::<Vertex<R>>("VERTICES", "Contact vertices.", "Vertex<Scalar>", of.vertices);
+    let oscillation = to.numbers("OSCILLATION", "The oscillation of each input.", of.oscillation);
+    let largest_load = to.numbers("LARGEST_LOAD", "The largest entry of each load.", of.largest_load);
+    let floating = to.numbers("FLOATING", "The flux of a unit on each contact edge.", of.floating);
     let sides = sides(baked, to);
-    let corners = corners.iter().enumerate().map(|(at, corner)| self::corner(at, corner, to));
-    let corners = lines(&corners.collect::<Vec<_>>());
-    format!(
-        "Some(Form {{
-            factor: {factor},
-            jump: {jump},
-            vertices: {vertices},
-            corners: {corners},
-            sides: {sides},
-            stability: {stability:?},
-            floating: {floating},
-            oscillation: {oscillation},
-            row_sum: {row_sum:?},
-            largest_load: {largest_load},
-            unit: {unit:?},
-        }})"
-    )
+    let form = tall_record("Form", 8, [
+        ("factor", factor),
+        ("jump", jump),
+        ("vertices", vertices),
+        ("corners", lines(of.corners.iter().enumerate().map(|(at, of)| corner(at, of, to)))),
+        ("sides", sides),
+        ("stability", format!("{:?}", of.stability)),
+        ("floating", floating),
+        ("oscillation", oscillation),
+        ("row_sum", format!("{:?}", of.row_sum)),
+        ("largest_load", largest_load),
+        ("unit", format!("{:?}", of.unit)),
+    ]);
+    format!("Some({form})")
 }
 
 fn corner<R: Scalar>(at: usize, of: &Corner<R>, to: &mut Statics) -> String {
     let Corner { edge, excess, energy } = of;
     let doc = "u_D above the gap at an end of the contact.";
-    let excess = to.array::<R>(&format!("CORNER_{at}"), doc, "Scalar", excess);
+    let excess = to.numbers(&format!("CORNER_{at}"), doc, excess);
     format!("Corner {{ edge: {edge}, excess: {excess}, energy: {energy:?} }}")
 }
 
 /// Where s − ψ comes from at the ends of contact edges.
 #[rustfmt::skip]
 fn sides<R: Scalar>(baked: &Baked<R>, to: &mut Statics) -> String {
-    let Some(sides) = baked.sides() else { return "Sides::UNLIMITED".to_owned() };
-    let sides::Baked { ends, scale, excess, largest } = sides;
-    let ends = to.array::<[u16; 2]>("ENDS", "Vertices and corners at the ends of contact edges.", "[u16; 2]", ends);
-    let scale = to.array::<R>("SCALE", "From the unit of vertices to that of 1/r.", "Scalar", scale);
-    let largest = to.array::<R>("LARGEST_SPAN", "The largest span of each input.", "Scalar", largest);
-    format!("Sides::new(Baked {{ ends: {ends}, scale: {scale}, excess: {excess:?}, largest: {largest} }})")
+    let Some(sides::Baked { ends, scale, excess, largest }) = baked.sides() else { return "Sides::UNLIMITED".to_owned() };
+    let sides = record("Baked", [
+        ("ends", to.array::<[u16; 2]>("ENDS", "Vertices and corners at the ends of contact edges.", "[u16; 2]", ends)),
+        ("scale", to.numbers("SCALE", "From the unit of vertices to that of 1/r.", scale)),
+        ("excess", format!("{excess:?}")),
+        ("largest", to.numbers("LARGEST_SPAN", "The largest span of each input.", largest)),
+    ]);
+    format!("Sides::new({sides})")
 }
 
 fn factor<R: Scalar>(of: &Factor<R>, name: &str, doc: &str, to: &mut Statics) -> String {
-    let columns = to.array::<R>(name, doc, "Scalar", of.columns);
-    let norms = format!("{name}_NORMS");
-    let norms = to.array::<R>(&norms, "The norms of its columns.", "Scalar", of.norms);
-    format!("Factor {{ columns: {columns}, norms: {norms} }}")
+    let columns = to.numbers(name, doc, of.columns);
+    let norms = to.numbers(&format!("{name}_NORMS"), "The norms of its columns.", of.norms);
+    record("Factor", [("columns", columns), ("norms", norms)])
 }
 
 fn optional<R: Scalar>(of: Option<&Factor<R>>, name: &str, doc: &str, to: &mut Statics) -> String {

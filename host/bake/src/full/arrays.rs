@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use signorini_bound::cells::{Cells, Quad, Triangle};
 use signorini_bound::certificate::{Discretization, Metric, POINTS, Stability};
+use signorini_device::full;
 use signorini_device::tick::Limits;
 use signorini_kernel::Tensor;
 use signorini_kernel::mesh::Mesh;
@@ -11,13 +12,12 @@ use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
 use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::stiffness::Stiffness;
 
-use super::data::{Data, Pattern};
+use super::data::{Data, refuse_faint};
 use super::factored::Factored;
 use super::limits;
 use super::output::{Output, output};
-use super::scale::Scale;
-use super::underflow::refuse_faint;
 use crate::module_api::ModuleApi;
+use crate::range::refuse_answers;
 use crate::setting::checked;
 use signorini_certify::Certifier;
 use signorini_certify::term::full_terms;
@@ -25,6 +25,8 @@ use signorini_problem::functional::functionals;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Approach, Assembled, Parts, Problem};
 use signorini_scene::error::Result;
+use signorini_scene::scene::units::Units;
+use signorini_scene::scene::{Field, Scene};
 use signorini_scene::setting::{MathKind, Method, Omega, Setting, Start};
 use signorini_solve::unfit;
 
@@ -73,6 +75,26 @@ pub(super) struct TickOptions<R> {
     pub fast: bool,
 }
 
+/// Units in which the numbers of a problem are near 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Scale<R> {
+    pub units: Units,
+    /// Units as the kernel takes them.
+    pub kernel: full::Units<R>,
+}
+
+impl<R: Scalar> Scale<R> {
+    /// The units of a scene that is solved in `units`.
+    ///
+    /// # Errors
+    /// Answers that the scalar type cannot hold in the scene's own units.
+    pub fn new(scene: &Scene, units: Units) -> Result<Self> {
+        refuse_answers::<R>(scene, &units)?;
+        let [u, flux, energy] = [units.u, units.flux(), units.energy()].map(R::narrow);
+        Ok(Self { units, kernel: full::Units { u, flux, energy } })
+    }
+}
+
 impl<R: Scalar> TickOptions<R> {
     fn new(setting: &Setting, unknowns: usize) -> Self {
         Self {
@@ -107,11 +129,6 @@ impl<R: Scalar> Baked<R> {
         self.data.has_bound
     }
 
-    /// The limits of its ticks.
-    pub fn limits(&self) -> Limits<R> {
-        self.how.limits
-    }
-
     /// Entries of the factor that solves its ticks, if one does.
     pub fn entries(&self) -> Option<usize> {
         self.factored.as_ref().map(Factored::entries)
@@ -140,11 +157,11 @@ impl<R: Scalar> Baked<R> {
         let data = Data::new(problem, &full_terms(problem)?, discretization.stiffness)?;
         data.check().map_err(&unfit)?;
         refuse_faint(&problem.scene, &data)?;
+        let data = if setting.certificate { data } else { data.without_bound() };
         let start = assembled.start().first().copied().unwrap_or(R::ZERO);
         let how = TickOptions::new(&setting, problem.topology.counts.unknowns());
-        let corners = corners(problem);
+        let corners = if how.certified { corners(problem) } else { Vec::new() };
         let baked = Self { start, outputs, corners, ..Self::of(face, data, &discretization, how) };
-        let baked = if how.certified { baked } else { baked.without_bound() };
         match setting.solver {
             Some(Method::Factor) => baked.with_factor(problem),
             _ => Ok(baked),
@@ -159,28 +176,28 @@ impl<R: Scalar> Baked<R> {
     ) -> Self {
         let Discretization { mesh, edges, stiffness, cells, metric, stability } = discretization;
         let [vertex_weights, edge_weights] = cells.weights();
-        let varies = !metric.at_points.is_empty();
+        let varies = how.certified && !metric.at_points.is_empty();
         // Which kind of cell comes next: all of them are triangles with constant A where nobody asks.
-        let needs_order = varies || !cells.quads().is_empty();
+        let needs_order = varies || (how.certified && !cells.quads().is_empty());
         Self {
             face,
             counts: edges.counts(),
-            vertices: mesh.vertices().to_vec(),
-            triangles: mesh.triangles().to_vec(),
-            quads: mesh.quads().to_vec(),
+            vertices: kept(mesh.vertices(), how.certified),
+            triangles: kept(mesh.triangles(), how.certified),
+            quads: kept(mesh.quads(), how.certified),
             of_triangles: edges.of_triangles().to_vec(),
             of_quads: edges.of_quads().to_vec(),
             half_edges: edges.half_edges().to_vec(),
             stiffness_of_triangles: stiffness.triangles.to_vec(),
             stiffness_of_quads: stiffness.quads.to_vec(),
-            packed_triangles: cells.triangles().to_vec(),
-            packed_quads: cells.quads().to_vec(),
-            vertex_weights: vertex_weights.to_vec(),
-            edge_weights: edge_weights.to_vec(),
-            order: if needs_order { cells.order().to_vec() } else { Vec::new() },
-            metric: metric.at_points.to_vec(),
-            metric_place: if varies { metric.place.to_vec() } else { Vec::new() },
-            distortions: metric.distortions.to_vec(),
+            packed_triangles: kept(cells.triangles(), how.certified),
+            packed_quads: kept(cells.quads(), how.certified),
+            vertex_weights: kept(vertex_weights, how.certified),
+            edge_weights: kept(edge_weights, how.certified),
+            order: kept(cells.order(), needs_order),
+            metric: kept(metric.at_points, varies),
+            metric_place: kept(metric.place, varies),
+            distortions: kept(metric.distortions, how.certified),
             stability: *stability,
             data,
             outputs: Vec::new(),
@@ -189,26 +206,6 @@ impl<R: Scalar> Baked<R> {
             how,
             scale: None,
             factored: None,
-        }
-    }
-
-    /// Without everything that only the certificate reads.
-    fn without_bound(self) -> Self {
-        Self {
-            vertices: Vec::new(),
-            triangles: Vec::new(),
-            quads: Vec::new(),
-            packed_triangles: Vec::new(),
-            packed_quads: Vec::new(),
-            vertex_weights: Vec::new(),
-            edge_weights: Vec::new(),
-            order: Vec::new(),
-            metric: Vec::new(),
-            metric_place: Vec::new(),
-            distortions: Vec::new(),
-            corners: Vec::new(),
-            data: self.data.without_bound(),
-            ..self
         }
     }
 
@@ -248,7 +245,7 @@ impl<R: Scalar> Baked<R> {
             ("contact", self.counts.contact > 0),
             ("limited", !self.data.spans.is_empty()),
             ("robin", !self.data.robin.is_empty()),
-            ("transfer", self.data.varies(|pattern| matches!(pattern, Pattern::Coefficient(_)))),
+            ("transfer", self.data.varies(Field::Coefficient)),
             ("curved", !(self.data.curved.is_empty() && self.data.curved_sums.is_empty())),
             ("micromath", self.how.fast),
         ];
@@ -259,6 +256,11 @@ impl<R: Scalar> Baked<R> {
     pub fn unknowns(&self) -> usize {
         self.counts.unknowns()
     }
+}
+
+/// The entries of an array that is needed, or none.
+fn kept<T: Clone>(all: &[T], is_needed: bool) -> Vec<T> {
+    if is_needed { all.to_vec() } else { Vec::new() }
 }
 
 /// For every vertex where a Dirichlet edge meets a contact edge on which u ≥ ψ is the law, an end of either.

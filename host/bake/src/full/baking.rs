@@ -1,11 +1,10 @@
-//! A scene baked: in units in which its numbers are near 1, and with a factor where one is asked for.
+//! A scene baked: where its numbers are far from 1 in other units, and with a factor where one is asked for.
 
 use signorini_kernel::rows::{QUADS, TRIANGLES};
 
-use super::arrays::Baked;
+use super::arrays::{Baked, Scale};
 use super::controller::Controller;
 use super::factored::Factored;
-use super::scale::Scale;
 use crate::module_api::ModuleApi;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Approach, Problem};
@@ -69,8 +68,7 @@ impl<R: Scalar> Baked<R> {
 
     /// Whether its first tick needs no sweeps.
     fn solves(&self, scene: &Scene) -> bool {
-        let inputs = scene.inputs.iter().map(|input| R::narrow(input.default));
-        let inputs: Vec<R> = inputs.collect();
+        let inputs: Vec<R> = scene.inputs.iter().map(|input| R::narrow(input.default)).collect();
         match self.has_quads() {
             true => Controller::<R, QUADS>::new(self).solves(&inputs),
             false => Controller::<R, TRIANGLES>::new(self).solves(&inputs),

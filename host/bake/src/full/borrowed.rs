@@ -1,14 +1,14 @@
 //! A baked scene as the kernel takes it: what the desk solves, and what the module lists.
 
 use signorini_bound::conforming::VertexData;
-use signorini_device::full::{self, Base, CurvedSum, Full, Functional, Lengths, TransferPattern};
+use signorini_device::full::{Base, CurvedSum, Full, Functional, Lengths};
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::flux_range::Spans;
 
 use super::arrays::Baked;
-use super::data::{Data, Pattern};
+use super::data::Data;
 use super::output::Output;
-use super::transfer::Transfer;
+use super::pattern::Pattern;
 use signorini_problem::scalar::Scalar;
 
 impl<R: Scalar> Baked<R> {
@@ -20,13 +20,10 @@ impl<R: Scalar> Baked<R> {
     /// Lends the arrays as the kernel takes them.
     pub(super) fn with<T>(&self, take: impl FnOnce(&Full<R, u32>) -> T) -> T {
         // What patterns borrow beyond their own arrays.
-        let of_coefficients: Vec<_> = self.data.patterns.iter().map(Pattern::transfer).collect();
-        let products: Vec<_> = of_coefficients.iter().map(|of| of.map(Transfer::shares)).collect();
-        let transfer = of_coefficients.iter().zip(&products);
-        let transfer: Vec<_> =
-            transfer.map(|(of, products)| Some(of.as_ref()?.view(products.as_ref()?))).collect();
-        let patterns = self.data.patterns.iter().zip(&transfer);
-        let patterns: Vec<_> = patterns.map(|(of, transfer)| of.view(transfer.as_ref())).collect();
+        let all = &self.data.patterns;
+        let ambient: Vec<_> = all.iter().map(Pattern::ambient).collect();
+        let transfer: Vec<_> = all.iter().zip(&ambient).map(|(of, all)| of.transfer(all)).collect();
+        let patterns: Vec<_> = all.iter().zip(&transfer).map(|(of, law)| of.view(law)).collect();
         let outputs: Vec<_> = self.outputs.iter().map(Output::view).collect();
         let sums = self.data.curved_sums.iter();
         let sums: Vec<_> = sums
@@ -63,34 +60,6 @@ impl<R: Scalar> Data<R> {
             curved: &self.curved,
             curved_sums,
             transfer: &self.transfer,
-        }
-    }
-}
-
-impl<R: Scalar> Pattern<R> {
-    fn transfer(&self) -> Option<&Transfer<R>> {
-        match self {
-            Self::Coefficient(of) => Some(of),
-            _ => None,
-        }
-    }
-
-    fn view<'a>(
-        &'a self,
-        transfer: Option<&'a TransferPattern<'a, R, u32>>,
-    ) -> full::Pattern<'a, R, u32> {
-        match self {
-            Self::Source { triangles, quads } => full::Pattern::Source { triangles, quads },
-            Self::Neumann(shares) => full::Pattern::Neumann(shares),
-            Self::ContactFlux(shares) => full::Pattern::ContactFlux(shares),
-            Self::ContactRange { fluxes, spans } => full::Pattern::ContactRange { fluxes, spans },
-            Self::Gap(chords) => full::Pattern::Gap(chords),
-            Self::Value(chords) => full::Pattern::Value(chords),
-            Self::Ambient { integrals, points } => full::Pattern::Ambient { integrals, points },
-            Self::Coefficient(_) => match transfer {
-                Some(transfer) => full::Pattern::Coefficient(transfer),
-                None => full::Pattern::Neumann(&[]),
-            },
         }
     }
 }

@@ -6,11 +6,11 @@ use signorini_device::full::controller::{ControllerStorage, Setup, Solver, Task}
 use signorini_device::full::{Full, Lengths, Memory, Numbers, Storage};
 use signorini_device::sparse::{Exact, Solved};
 use signorini_device::tick::{
-    CertifiedSweeps, Deadline, Figures, Limits, Report, Substitutions, UncertifiedSweeps,
+    CertifiedSweeps, Deadline, Figures, Limits, Report, Substitutions, Sweeping, UncertifiedSweeps,
 };
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::rows::Row;
-use signorini_kernel::{Error, Libm, Math};
+use signorini_kernel::{Error, Libm};
 
 use super::arrays::Baked;
 use crate::desk::{Terms, Values};
@@ -196,10 +196,18 @@ impl<R: Scalar> Solver<R, u32> for DeskSolver<R> {
         memory: Memory<R, u32, WIDTH>,
         outputs: &mut [R],
     ) -> Result<Report<R>, Error> {
-        let report = match self.is_fast {
-            true => self.with(R::FAST, full, task, deadline, memory, outputs)?,
-            false => self.with(Libm, full, task, deadline, memory, outputs)?,
-        };
+        let report = match (self.is_fast, self.is_certified) {
+            (true, true) => {
+                self.by(CertifiedSweeps(R::FAST), full, task, deadline, memory, outputs)
+            }
+            (true, false) => {
+                self.by(UncertifiedSweeps(R::FAST), full, task, deadline, memory, outputs)
+            }
+            (false, true) => self.by(CertifiedSweeps(Libm), full, task, deadline, memory, outputs),
+            (false, false) => {
+                self.by(UncertifiedSweeps(Libm), full, task, deadline, memory, outputs)
+            }
+        }?;
         self.solved = self.solved.filter(|_| report.sweeps == 0);
         self.figures = Some(report.figures);
         Ok(report)
@@ -207,35 +215,22 @@ impl<R: Scalar> Solver<R, u32> for DeskSolver<R> {
 }
 
 impl<R: Scalar> DeskSolver<R> {
-    /// Ticks with this square root.
-    fn with<M: Math<R> + Copy, F: FnMut() -> u32, const WIDTH: usize>(
+    /// Ticks by these sweeps, after the factor where there is one.
+    fn by<F: FnMut() -> u32, const WIDTH: usize>(
         &mut self,
-        math: M,
+        sweeps: impl Sweeping<R, u32> + Copy,
         full: &Full<R, u32>,
-        task: Task<R, u32>,
+        Task { setup, inputs, limits }: Task<R, u32>,
         deadline: &mut Deadline<F>,
         memory: Memory<R, u32, WIDTH>,
         outputs: &mut [R],
     ) -> Result<Report<R>, Error> {
-        let (mut certified, mut plain) = (CertifiedSweeps(math), UncertifiedSweeps(math));
-        let Some((factored, own)) = task.setup.factored.zip(self.exchanges.as_mut()) else {
-            return match self.is_certified {
-                true => certified.tick(full, task, deadline, memory, outputs),
-                false => plain.tick(full, task, deadline, memory, outputs),
-            };
+        let Some((factored, own)) = setup.factored.zip(self.exchanges.as_mut()) else {
+            return full.tick(inputs, sweeps, limits, deadline, memory, outputs);
         };
-        let mut exact = Exact::new(*factored, own.memory(task.setup.lengths.active)?)?;
-        let Task { inputs, limits, .. } = task;
-        let report = match self.is_certified {
-            true => {
-                let method = Substitutions { exact: &mut exact, sweeps: certified };
-                full.tick(inputs, method, limits, deadline, memory, outputs)?
-            }
-            false => {
-                let method = Substitutions { exact: &mut exact, sweeps: plain };
-                full.tick(inputs, method, limits, deadline, memory, outputs)?
-            }
-        };
+        let exact = &mut Exact::new(*factored, own.memory(setup.lengths.active)?)?;
+        let method = Substitutions { exact, sweeps };
+        let report = full.tick(inputs, method, limits, deadline, memory, outputs)?;
         self.solved = exact.solved();
         Ok(report)
     }

@@ -1,20 +1,20 @@
 //! Loads and boundary data as the target adds them up: base and patterns, narrowed.
 
 use signorini_bound::certificate::Curved;
-use signorini_device::full::{Contribution, EdgeTrace, Points};
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::error::Array;
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::stiffness::Stiffness;
 
 use super::bent::{Bent, bent};
-use super::shares::{chords, shares};
-use super::transfer::Transfer;
+use super::pattern::{Pattern, fluxes};
+use crate::narrow::{narrow, pairs};
+use crate::range::wider;
 use signorini_certify::TermData;
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
-use signorini_scene::scene::Field;
+use signorini_scene::scene::{Field, Scene};
 
 /// The arrays of [`signorini_device::full::Base`], the patterns, the oscillation.
 #[derive(Debug, Clone, Default)]
@@ -38,51 +38,25 @@ pub(super) struct Data<R> {
     pub has_bound: bool,
 }
 
-/// An input's pattern, owned.
-#[derive(Debug, Clone)]
-pub(super) enum Pattern<R> {
-    Source { triangles: Vec<Contribution<R, u32>>, quads: Vec<Contribution<R, u32>> },
-    Neumann(Vec<Contribution<R, u32>>),
-    ContactFlux(Vec<Contribution<R, u32>>),
-    ContactRange { fluxes: Vec<Contribution<R, u32>>, spans: Vec<Contribution<R, u32>> },
-    Gap(Vec<EdgeTrace<R, u32>>),
-    Value(Vec<EdgeTrace<R, u32>>),
-    Ambient { integrals: Vec<Contribution<R, u32>>, points: Vec<Points<R, u32>> },
-    Coefficient(Transfer<R>),
-}
-
 impl<R: Scalar> Data<R> {
     /// From the parts of the data, base first.
     pub fn new(problem: &Problem, parts: &[TermData], stiffness: Stiffness<R>) -> Result<Self> {
         let Some((base, of_inputs)) = parts.split_first() else { return Ok(Self::default()) };
         let neumann = with_flux(parts);
         let is_uniform = parts.iter().all(TermData::is_uniform);
-        let patterns = problem.scene.inputs.iter().zip(of_inputs).map(|(input, part)| {
-            let contact = !part.loads().contact_flux.iter().all(|&flux| flux == 0.0);
-            match input.field.value {
-                Field::Source => Pattern::Source {
-                    triangles: shares(&part.loads().triangles),
-                    quads: shares(&part.loads().quads),
-                },
-                Field::Flux if contact => range(part),
-                Field::Flux => Pattern::Neumann(shares(&fluxes(&neumann, part))),
-                Field::Gap => Pattern::Gap(chords(&part.loads().gap, &part.ends.gap)),
-                Field::Value => Pattern::Value(chords(&part.loads().dirichlet, &part.ends.given)),
-                Field::Limit => range(part),
-                Field::Ambient => ambient(part, is_uniform),
-                Field::Coefficient => {
-                    let of = part.coefficient.as_ref();
-                    Pattern::Coefficient(
-                        of.map(|of| Transfer::new(of, is_uniform)).unwrap_or_default(),
-                    )
-                }
-            }
-        });
+        let patterns = problem
+            .scene
+            .inputs
+            .iter()
+            .zip(of_inputs)
+            .map(|(input, part)| Pattern::new(input.field.value, part, &neumann, is_uniform));
         let (curved, curved_sums) = bent(problem, parts)?;
+        let of_base = neumann.iter().zip(fluxes(&neumann, base));
+        let along = base.transfer.iter().filter(|_| !is_uniform);
         let mut data = Self {
             triangles: narrow(&base.loads().triangles),
             quads: narrow(&base.loads().quads),
-            neumann: Vec::new(),
+            neumann: of_base.map(|(&edge, flux)| Neumann { edge, flux: R::narrow(flux) }).collect(),
             robin: base.loads().robin.iter().map(robin).collect(),
             contact_flux: narrow(&base.loads().contact_flux),
             spans: narrow(&base.spans),
@@ -93,31 +67,18 @@ impl<R: Scalar> Data<R> {
             dirichlet_ends: pairs(&base.ends.given),
             curved,
             curved_sums,
-            transfer: Vec::new(),
+            transfer: along.map(|edge| edge.map(|point| point.map(R::narrow))).collect(),
             patterns: patterns.collect(),
             oscillation: oscillation(problem, parts, stiffness),
             has_bound: parts.iter().all(TermData::has_bound),
         };
-        let of_base = neumann.iter().zip(fluxes(&neumann, base));
-        data.neumann =
-            of_base.map(|(&edge, flux)| Neumann { edge, flux: R::narrow(flux) }).collect();
-        if !is_uniform {
-            let edges = base.transfer.iter();
-            data.transfer = edges.map(|edge| edge.map(|point| point.map(R::narrow))).collect();
-        }
         data.leave_out_zeros(problem);
         Ok(data)
     }
 
     /// Without everything that only the certificate reads.
     pub fn without_bound(mut self) -> Self {
-        for pattern in &mut self.patterns {
-            match pattern {
-                Pattern::Ambient { points, .. } => points.clear(),
-                Pattern::Coefficient(of) => of.points.clear(),
-                _ => {}
-            }
-        }
+        self.patterns.iter_mut().for_each(|pattern| pattern.points.clear());
         Self {
             curved: Vec::new(),
             curved_sums: Vec::new(),
@@ -137,19 +98,16 @@ impl<R: Scalar> Data<R> {
                 array.clear();
             }
         };
-        let source = self.varies(|pattern| matches!(pattern, Pattern::Source { .. }));
-        let flux = self.varies(|pattern| match pattern {
-            Pattern::ContactRange { fluxes, .. } => !fluxes.is_empty(),
-            pattern => matches!(pattern, Pattern::ContactFlux(_)),
-        });
+        let source = self.varies(Field::Source);
+        let flux = self.patterns.iter().any(Pattern::moves_contact_flux);
         fit(&mut self.triangles, source, problem.mesh.triangles.len());
         fit(&mut self.quads, source, problem.mesh.quads.len());
         fit(&mut self.contact_flux, flux, problem.topology.counts.contact);
     }
 
-    /// Whether there is such a pattern.
-    pub fn varies(&self, is_such: impl Fn(&Pattern<R>) -> bool) -> bool {
-        self.patterns.iter().any(is_such)
+    /// Whether an input changes this field.
+    pub fn varies(&self, field: Field) -> bool {
+        self.patterns.iter().any(|pattern| pattern.field == field)
     }
 
     /// Checks of the kernel that it makes only where its arrays are used.
@@ -163,57 +121,24 @@ impl<R: Scalar> Data<R> {
     }
 }
 
-impl<R: Scalar> Pattern<R> {
-    /// Every number of it.
-    pub fn weights(&self) -> Vec<R> {
-        let of =
-            |shares: &[Contribution<R, u32>]| shares.iter().map(|share| share.weight).collect();
-        match self {
-            Self::Source { triangles, quads } => [of(triangles), of(quads)].concat(),
-            Self::ContactRange { fluxes, spans } => [of(fluxes), of(spans)].concat(),
-            Self::Neumann(shares) | Self::ContactFlux(shares) => of(shares),
-            Self::Gap(chords) | Self::Value(chords) => {
-                let all =
-                    chords.iter().flat_map(|chord| [chord.mean, chord.ends[0], chord.ends[1]]);
-                all.collect()
-            }
-            Self::Ambient { integrals, points } => {
-                let points = points.iter().flat_map(|point| point.values);
-                of(integrals).into_iter().chain(points).collect()
-            }
-            Self::Coefficient(of) => of.weights(),
+/// A pattern that is nothing but underflow would leave its input without effect.
+pub(super) fn refuse_faint<R: Scalar>(scene: &Scene, data: &Data<R>) -> Result<()> {
+    for (input, pattern) in scene.inputs.iter().zip(&data.patterns) {
+        let weights = pattern.weights();
+        let most = weights.iter().fold(R::ZERO, |most, weight| most.or_larger(weight.magnitude()));
+        if !weights.is_empty() && most < R::TINY {
+            let message = format!("beside the other data too small for {}", R::NAME);
+            let hint =
+                format!("multiply it by a power of ten and divide the input by it{}", wider::<R>());
+            return Err(scene.error(&input.pattern, message).hint(hint).into());
         }
     }
-}
-
-fn narrow<R: Scalar>(numbers: &[f64]) -> Vec<R> {
-    numbers.iter().map(|&x| R::narrow(x)).collect()
-}
-
-fn pairs<R: Scalar>(all: &[[f64; 2]]) -> Vec<[R; 2]> {
-    all.iter().map(|pair| pair.map(R::narrow)).collect()
+    Ok(())
 }
 
 fn robin<R: Scalar>(law: &Robin<f64, u32>) -> Robin<R, u32> {
     let (coefficient, ambient) = (R::narrow(law.coefficient), R::narrow(law.ambient));
     Robin { edge: law.edge, coefficient, ambient }
-}
-
-fn ambient<R: Scalar>(part: &TermData, is_uniform: bool) -> Pattern<R> {
-    let integrals: Vec<f64> = part.loads().robin.iter().map(|law| law.ambient).collect();
-    let edges = part.transfer.iter().zip(0..).filter(|_| !is_uniform);
-    let points = edges.map(|(edge, at)| Points { at, values: edge.map(|[_, u]| R::narrow(u)) });
-    let acts = |points: &Points<R, u32>| points.values.iter().any(|&u| u != R::ZERO);
-    Pattern::Ambient { integrals: shares(&integrals), points: points.filter(acts).collect() }
-}
-
-/// What an input adds to the fluxes of contact edges: to their bases alone, or to spans as well.
-fn range<R: Scalar>(part: &TermData) -> Pattern<R> {
-    let fluxes = shares(&part.loads().contact_flux);
-    match part.spans.iter().any(|&span| span != 0.0) {
-        true => Pattern::ContactRange { fluxes, spans: shares(&part.spans) },
-        false => Pattern::ContactFlux(fluxes),
-    }
 }
 
 /// The Neumann edges on which some part of the data has a flux, ascending.
@@ -225,17 +150,6 @@ fn with_flux(parts: &[TermData]) -> Vec<u32> {
     edges.sort_unstable();
     edges.dedup();
     edges
-}
-
-/// The flux of a part on each of these edges.
-fn fluxes(edges: &[u32], part: &TermData) -> Vec<f64> {
-    let mut fluxes = vec![0.0; edges.len()];
-    for record in &part.loads().neumann {
-        if let Ok(at) = edges.binary_search(&record.edge) {
-            fluxes[at] += record.flux;
-        }
-    }
-    fluxes
 }
 
 /// Of each part, what f, g and q leave out and, where inputs change ψ or u_D, what rounding does to its

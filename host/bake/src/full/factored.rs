@@ -8,6 +8,7 @@ use signorini_device::sparse::direct::normalise;
 use signorini_device::sparse::{self, Factor};
 use signorini_kernel::Index;
 
+use crate::narrow::narrow;
 use crate::statics::Statics;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Assembled, Problem};
@@ -35,7 +36,6 @@ impl<R: Scalar> Factored<R> {
         if !normalise(&mut ldlt.schur, &mut scale, contact) {
             return Ok(None);
         }
-        let narrow = |numbers: &[f64]| numbers.iter().map(|&x| R::narrow(x)).collect();
         let block = |block: &Block<f64>| block.map(|row| row.map(R::narrow));
         let Ldlt { counts, places, pointers, rows, values, inverse, schur } = ldlt;
         let (values, inverse) = (narrow(&values), narrow(&inverse));

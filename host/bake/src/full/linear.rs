@@ -6,7 +6,7 @@ use signorini_device::full::{
 use signorini_kernel::Index;
 
 use crate::module_api::ModuleApi;
-use crate::statics::{Statics, lines, named};
+use crate::statics::{Statics, lines, named, record};
 use signorini_problem::scalar::Scalar;
 
 /// The share that each input adds for each unit of its value.
@@ -15,9 +15,9 @@ pub(super) fn patterns<R: Scalar, I: Index>(
     face: &ModuleApi,
     to: &mut Statics,
 ) -> String {
-    let inputs = all.iter().zip(face.inputs());
-    let patterns = inputs.map(|(of, input)| pattern::<R, I>(of, input, to));
-    lines(&patterns.collect::<Vec<_>>())
+    lines(
+        all.iter().zip(&face.inputs).map(|(of, input)| pattern::<R, I>(of, &input.identifier, to)),
+    )
 }
 
 fn pattern<R: Scalar, I: Index>(of: &Pattern<R, u32>, input: &str, to: &mut Statics) -> String {
@@ -27,18 +27,17 @@ fn pattern<R: Scalar, I: Index>(of: &Pattern<R, u32>, input: &str, to: &mut Stat
     };
     match of {
         Pattern::Source { triangles, quads } => {
-            let triangles = shares("TO_TRIANGLES", "∫f", triangles);
-            let quads = shares("TO_QUADS", "∫f", quads);
-            format!("Pattern::Source {{ triangles: {triangles}, quads: {quads} }}")
+            let triangles = ("triangles", shares("TO_TRIANGLES", "∫f", triangles));
+            record("Pattern::Source", [triangles, ("quads", shares("TO_QUADS", "∫f", quads))])
         }
         Pattern::Neumann(all) => format!("Pattern::Neumann({})", shares("PATTERN", "∫g", all)),
         Pattern::ContactFlux(all) => {
             format!("Pattern::ContactFlux({})", shares("PATTERN", "∫q", all))
         }
         Pattern::ContactRange { fluxes, spans } => {
-            let fluxes = shares("TO_FLUXES", "∫lo", fluxes);
-            let spans = shares("TO_SPANS", "∫(hi − lo)", spans);
-            format!("Pattern::ContactRange {{ fluxes: {fluxes}, spans: {spans} }}")
+            let fluxes = ("fluxes", shares("TO_FLUXES", "∫lo", fluxes));
+            let spans = ("spans", shares("TO_SPANS", "∫(hi − lo)", spans));
+            record("Pattern::ContactRange", [fluxes, spans])
         }
         Pattern::Gap(all) => format!("Pattern::Gap({})", traces::<R, I>(input, all, to)),
         Pattern::Value(all) => format!("Pattern::Value({})", traces::<R, I>(input, all, to)),
@@ -70,7 +69,7 @@ fn transfer<R: Scalar, I: Index>(
         let integrals = contributions::<R, I>(&name, &doc, integrals, to);
         format!("AmbientShare {{ input: {at}, integrals: {integrals} }}")
     });
-    let ambient = lines(&ambient.collect::<Vec<_>>());
+    let ambient = lines(ambient);
     let (name, doc) = (named(input, "AT_POINTS"), format!("∫h {adds}, at points."));
     let points = to.array::<Points<R, I>>(&name, &doc, "Points<Scalar, Index>", of.points);
     format!("TransferPattern {{ integrals: {integrals}, ambient: {ambient}, points: {points} }}")
@@ -97,9 +96,11 @@ pub(super) fn outputs<R: Scalar, I: Index>(
     face: &ModuleApi,
     to: &mut Statics,
 ) -> String {
-    let outputs = all.iter().zip(face.outputs());
-    let functionals = outputs.map(|(of, output)| functional::<R, I>(of, output, to));
-    lines(&functionals.collect::<Vec<_>>())
+    lines(
+        all.iter()
+            .zip(&face.outputs)
+            .map(|(of, output)| functional::<R, I>(of, &output.identifier, to)),
+    )
 }
 
 fn functional<R: Scalar, I: Index>(
@@ -107,29 +108,25 @@ fn functional<R: Scalar, I: Index>(
     output: &str,
     to: &mut Statics,
 ) -> String {
-    let name = named(output, "EDGES");
-    let (kind, edges) = match of {
-        Functional::Flux(edges) => {
-            let doc = format!("Edges whose fluxes add up to `{output}`.");
-            ("Flux", to.array::<I>(&name, &doc, "Index", edges))
+    let (kind, what) = match of {
+        Functional::Flux(_) => ("Flux", "Edges whose fluxes add up to"),
+        Functional::Force(_) => ("Force", "Contact edges whose forces add up to"),
+        Functional::Length(_) => ("Length", "Contact edges whose lengths add up to"),
+        Functional::Saturated(_) => {
+            ("Saturated", "Contact edges whose lengths at the limit add up to")
         }
-        Functional::Force(edges) => {
-            let doc = format!("Contact edges whose forces add up to `{output}`.");
-            ("Force", to.array::<I>(&name, &doc, "Index", edges))
-        }
-        Functional::Length(shares) => {
-            let doc = format!("Contact edges whose lengths add up to `{output}`.");
-            ("Length", contributions::<R, I>(&name, &doc, shares, to))
-        }
-        Functional::Saturated(shares) => {
-            let doc = format!("Contact edges whose lengths at the limit add up to `{output}`.");
-            ("Saturated", contributions::<R, I>(&name, &doc, shares, to))
-        }
-        Functional::Probe(shares) => {
-            let doc = format!("Edges whose means make `{output}`.");
-            ("Probe", contributions::<R, I>(&name, &doc, shares, to))
-        }
+        Functional::Probe(_) => ("Probe", "Edges whose means make"),
         Functional::Bound => return "Functional::Bound".to_owned(),
+    };
+    let (name, doc) = (named(output, "EDGES"), format!("{what} `{output}`."));
+    let edges = match of {
+        Functional::Flux(edges) | Functional::Force(edges) => {
+            to.array::<I>(&name, &doc, "Index", edges)
+        }
+        Functional::Length(shares) | Functional::Saturated(shares) | Functional::Probe(shares) => {
+            contributions::<R, I>(&name, &doc, shares, to)
+        }
+        Functional::Bound => String::new(),
     };
     format!("Functional::{kind}({edges})")
 }

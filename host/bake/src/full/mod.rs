@@ -17,20 +17,16 @@ mod bent;
 mod borrowed;
 mod controller;
 mod data;
-mod driver;
 mod factored;
 mod foundation;
 mod linear;
 mod listing;
 mod output;
-mod scale;
-mod shares;
+mod pattern;
 mod sizes;
 mod source;
 #[cfg(test)]
 mod tests;
-mod transfer;
-mod underflow;
 
 pub use arrays::Baked;
 pub use controller::Controller;

@@ -7,7 +7,6 @@
 //!   random inputs      ─► what outputs and error bound reach       seen
 //! ```
 
-mod conflict;
 mod counts;
 mod reach;
 mod runs;
@@ -18,7 +17,7 @@ mod why;
 use std::fmt::Write as _;
 
 use crate::choice::{Choice, Origin};
-use crate::table::table;
+use crate::text::table;
 use reach::Reach;
 use runs::runs;
 use signorini_condense::ranges::interval::Interval;
@@ -29,9 +28,9 @@ use signorini_problem::Problem;
 use signorini_problem::functional::wanted;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::scene::Scene;
+pub use why::conflict;
 use why::{coefficient, nothing_proved};
 
-pub use conflict::conflict;
 use counts::largest_bound;
 pub use counts::{constants, declared, found};
 

@@ -2,6 +2,7 @@
 
 use crate::choice::Origin;
 use crate::condensed::{Baked, Controller};
+use crate::narrow::narrow;
 use signorini_condense::ranges::interval::Interval;
 use signorini_problem::Problem;
 use signorini_problem::inputs::{InputSpace, corners, drawn};
@@ -58,8 +59,7 @@ fn exact(origin: &Origin, inputs: &[f64]) -> Vec<Option<f64>> {
 fn bound<R: Scalar>(baked: &Baked<R>, all: &[Vec<f64>]) -> Option<f64> {
     let mut controller = Controller::new(baked);
     let bounds = all.iter().filter_map(|inputs| {
-        let inputs: Vec<R> = inputs.iter().map(|&input| R::narrow(input)).collect();
-        let (_, report) = controller.tick(&inputs).ok()?;
+        let (_, report) = controller.tick(&narrow(inputs)).ok()?;
         report.certificate().map(|certificate| certificate.total.wide())
     });
     bounds.reduce(f64::max)

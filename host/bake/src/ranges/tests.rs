@@ -1,28 +1,16 @@
 //! Runs, reasons and reach on the standard scenes.
 
-use std::path::Path;
-
 use super::{conflict, constants, found, reach::Reach, runs::runs, section};
 use crate::choice::{Choice, Wanted};
 use crate::condensed::Controller;
+use crate::tests::standard as problem;
 use signorini_condense::ranges::outputs::intervals;
 use signorini_kernel::report::Ended;
 use signorini_problem::Problem;
 use signorini_problem::fixtures::on_grid;
 use signorini_problem::scalar::Scalar;
-use signorini_scene::mesh::adapted;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_scene::scene::Scene;
 use signorini_scene::setting::{ModelKind, Setting};
-
-/// A standard scene, changed by `change`.
-fn problem(name: &str, change: impl Fn(&mut Scene)) -> Problem {
-    let path = format!("../../meshes/scenes/{name}.toml");
-    let mut scene = Scene::read(Path::new(&path)).expect("a standard scene");
-    change(&mut scene);
-    let mesh = adapted::of_scene(&scene).expect("its mesh");
-    Problem::new(&scene, mesh).expect("a sound problem")
-}
 
 fn choice(problem: &Problem, has_all_edges: bool) -> Choice<f32> {
     let wanted = Wanted { has_all_edges, ..Wanted::model(ModelKind::Condensed) };

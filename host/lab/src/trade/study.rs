@@ -89,7 +89,7 @@ impl Study {
 
     /// Opens the journal of a shard: what it knows was measured of this scene and target, by this program.
     pub(super) fn journal(&self, shard: Shard, meshes: &mut Meshes) -> Result<Journal> {
-        let hash = ModuleApi::new(meshes.problem(None, 0)?).hash();
+        let hash = ModuleApi::new(meshes.problem(None, 0)?).hash;
         let fingerprint = format!("{hash:016x} {} {}", self.target, program());
         Journal::open(&self.unfinished(), shard, &fingerprint)
     }

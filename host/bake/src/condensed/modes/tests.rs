@@ -19,9 +19,9 @@ use signorini_tolerances::bake::{GUARANTEE, MODAL, MODAL_BEST, MODAL_BOUND, MODA
 
 use super::super::{Baked, Controller, Work, source};
 use crate::choice::{Choice, Model, Wanted};
-use crate::compiled::printed;
 use crate::explain::explanation;
 use crate::module_api::ModuleApi;
+use crate::tests;
 use signorini_session::with_module;
 
 /// Contact below, air on the right with a coefficient from 1 to 60.
@@ -212,38 +212,17 @@ fn modes_that_are_left_out_are_paid_for() -> Result<()> {
     Ok(())
 }
 
-/// Prints the bits of the outputs of each tick.
-fn main(ticks: &[Vec<f64>]) -> String {
-    format!(
-        "
-fn main() {{
-    let mut controller = Box::new(Controller::new());
-    for inputs in {ticks:?} {{
-        let answer = controller.tick(Inputs::from_array(inputs.map(|x: f64| x as Scalar)));
-        println!(\"{{:?}}\", answer.map(|answer| answer.outputs.to_array().map(Scalar::to_bits)));
-    }}
-}}
-"
-    )
-}
-
-fn same_bits<R: Scalar>(text: &str, work: Work, certified: bool, bits: fn(R) -> u64) -> Result<()> {
+fn same_bits<R: Scalar>(text: &str, work: Work, certified: bool) -> Result<()> {
     let (_, problem) = on_grid(text, grid(3, Cells::Mixed))?;
     let (modes, _) = modal(&problem, 0.0)?;
     let baked = Baked::<R>::modal(&modes, work, certified).expect("numbers in range");
     let mut controller = Controller::new(&baked);
+    let tick = |inputs: &[R]| controller.tick(inputs).map(|(outputs, _)| outputs);
     let mut log: Vec<_> = (0..8).map(inputs).collect();
     log[4][2] = 59.0;
-    let lines = log.iter().map(|inputs| {
-        let inputs: Vec<R> = inputs.iter().map(|&x| R::narrow(x)).collect();
-        let answer = controller.tick(&inputs).map(|(outputs, _)| outputs);
-        let bits = answer.map(|outputs| outputs.into_iter().map(bits).collect::<Vec<_>>());
-        format!("{bits:?}\n")
-    });
-    let lines: Vec<_> = lines.collect();
-    assert!(lines[0] != lines[2] && lines[4] == "Err(InputOutOfRange { input: 2 })\n", "{lines:?}");
     let text = source(&ModuleApi::new(&problem), &baked);
-    assert_eq!(printed(&(text + &main(&log))), lines.concat(), "{work:?}");
+    let lines = tests::same_bits(&problem, text, &log, tick);
+    assert!(lines[0] != lines[2] && lines[4] == "Err(InputOutOfRange { input: 2 })\n", "{lines:?}");
     Ok(())
 }
 
@@ -251,15 +230,13 @@ fn same_bits<R: Scalar>(text: &str, work: Work, certified: bool, bits: fn(R) -> 
 fn modules_have_the_same_bits() -> Result<()> {
     let exact = Work { pivots: Some(40), sweeps: 4 };
     let swept = Work { pivots: None, sweeps: 6 };
-    same_bits::<f32>(AIR, exact, true, |x| x.to_bits().into())?;
-    same_bits::<f64>(AIR, Work { pivots: Some(2), ..exact }, false, f64::to_bits)?;
-    same_bits::<f64>(AIR, swept, true, f64::to_bits)?;
-    same_bits::<f32>(&limited(), exact, true, |x| x.to_bits().into())?;
+    same_bits::<f32>(AIR, exact, true)?;
+    same_bits::<f64>(AIR, Work { pivots: Some(2), ..exact }, false)?;
+    same_bits::<f64>(AIR, swept, true)?;
+    same_bits::<f32>(&limited(), exact, true)?;
     let linear = AIR.replace("kind = \"contact\", gap = ", "kind = \"dirichlet\", value = ");
     let linear = linear.replace("field = \"gap\"", "field = \"value\"");
-    same_bits::<f32>(&linear.replace("kind = \"force\"", "kind = \"flux\""), swept, true, |x| {
-        x.to_bits().into()
-    })
+    same_bits::<f32>(&linear.replace("kind = \"force\"", "kind = \"flux\""), swept, true)
 }
 
 #[test]

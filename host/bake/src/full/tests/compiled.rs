@@ -4,44 +4,28 @@ use signorini_kernel::rows;
 
 use super::setting::{scene, unbounded};
 use super::{BENT, Baked, Controller, fixtures, source};
-use crate::compiled::{FIRMWARE, printed, ran};
+use crate::compiled::{printed, ran};
+use crate::tests::{self, FIRMWARE};
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::setting::{MathKind, Method, Omega, Setting, Start};
 
-/// Prints the outputs of a cold and a warm tick as bits.
-const MAIN: &str = "
-fn main() {
-    let mut controller = Box::new(Controller::new());
-    for lift in [0.3, -0.2] {
-        let inputs = Inputs { lift, ..Inputs::DEFAULT };
-        let outputs = controller.tick(inputs).map(|answer| answer.outputs.to_array());
-        println!(\"{:?}\", outputs.map(|outputs| outputs.map(Scalar::to_bits)));
-    }
-}
-";
-
-fn same_bits<R: Scalar, const WIDTH: usize>(cells: Cells, bits: impl Fn(R) -> u64) -> Result<()> {
+fn same_bits<R: Scalar, const WIDTH: usize>(cells: Cells) -> Result<()> {
     let (_, problem) = fixtures::on_grid(BENT, grid(3, cells))?;
-    same_bits_of::<R, WIDTH>(&problem, bits)
+    same_bits_of::<R, WIDTH>(&problem)
 }
 
-/// Outputs of the module and of the host's controller.
-pub(super) fn same_bits_of<R: Scalar, const WIDTH: usize>(
-    problem: &Problem,
-    bits: impl Fn(R) -> u64,
-) -> Result<()> {
+/// Of the module and of the host's controller, in a cold and a warm tick.
+pub(super) fn same_bits_of<R: Scalar, const WIDTH: usize>(problem: &Problem) -> Result<()> {
     let baked = Baked::<R>::new(problem)?;
     let mut controller = Controller::<R, WIDTH>::new(&baked);
-    let lines = [0.3, -0.2].map(|lift| {
-        let defaults = problem.scene.inputs.iter().skip(1).map(|input| R::narrow(input.default));
-        let inputs: Vec<R> = std::iter::once(R::narrow(lift)).chain(defaults).collect();
-        let (outputs, _) = controller.tick(&inputs).expect("a tick");
-        format!("Ok({:?})\n", outputs.into_iter().map(&bits).collect::<Vec<_>>())
-    });
-    assert_eq!(printed(&(source(&baked) + MAIN)), lines.concat());
+    let defaults = || problem.scene.inputs.iter().skip(1).map(|input| input.default);
+    let log = [0.3, -0.2].map(|lift| std::iter::once(lift).chain(defaults()).collect());
+    let tick = |inputs: &[R]| controller.tick(inputs).map(|(outputs, _)| outputs);
+    let lines = tests::same_bits(problem, source(&baked), &log, tick);
+    assert!(lines.iter().all(|line| line.starts_with("Ok(")), "{lines:?}");
     Ok(())
 }
 
@@ -60,12 +44,12 @@ fn a_kernel_of_another_version_is_refused() -> Result<()> {
 
 #[test]
 fn triangles_in_f32() -> Result<()> {
-    same_bits::<f32, { rows::TRIANGLES }>(Cells::Triangles, |x| x.to_bits().into())
+    same_bits::<f32, { rows::TRIANGLES }>(Cells::Triangles)
 }
 
 #[test]
 fn both_kinds_of_cells_in_f64() -> Result<()> {
-    same_bits::<f64, { rows::QUADS }>(Cells::Mixed, f64::to_bits)
+    same_bits::<f64, { rows::QUADS }>(Cells::Mixed)
 }
 
 #[test]
@@ -73,7 +57,7 @@ fn nonparametric_quads_in_f32() -> Result<()> {
     let text = format!("{BENT}[setting]\nelement = \"nonparametric\"\n");
     let mesh = fixtures::distorted(grid(3, Cells::Quads));
     let (_, problem) = fixtures::on_grid(&text, mesh)?;
-    same_bits_of::<f32, { rows::QUADS }>(&problem, |x| x.to_bits().into())
+    same_bits_of::<f32, { rows::QUADS }>(&problem)
 }
 
 #[test]
@@ -81,7 +65,7 @@ fn a_coefficient_that_an_input_changes() -> Result<()> {
     let wind = "[input.wind]\nof = \"left\"\nfield = \"coefficient\"\npattern = \"1 - y/3\"\n";
     let text = format!("{BENT}{wind}default = 0.5\nrange = [0, 3]\n");
     let (_, problem) = fixtures::on_grid(&text, grid(3, Cells::Triangles))?;
-    same_bits_of::<f32, { rows::TRIANGLES }>(&problem, |x| x.to_bits().into())
+    same_bits_of::<f32, { rows::TRIANGLES }>(&problem)
 }
 
 #[test]
@@ -92,14 +76,14 @@ fn a_limit_that_an_input_changes() -> Result<()> {
     let text = format!("{limited}{supply}default = 0.5\nrange = [0, 2]\n")
         .replace("pattern = \"-1 - x\"", "pattern = \"-1\"");
     let (_, problem) = fixtures::on_grid(&text, grid(3, Cells::Triangles))?;
-    same_bits_of::<f32, { rows::TRIANGLES }>(&problem, |x| x.to_bits().into())
+    same_bits_of::<f32, { rows::TRIANGLES }>(&problem)
 }
 
 #[test]
 fn with_a_setting() -> Result<()> {
     let fast = Setting { math: MathKind::Micromath, share: Some(0.3), ..Setting::default() };
     let problem = scene(BENT, Cells::Mixed, fast)?;
-    same_bits_of::<f32, { rows::QUADS }>(&problem, |x| x.to_bits().into())?;
+    same_bits_of::<f32, { rows::QUADS }>(&problem)?;
     let plain = Setting {
         start: Start::Cold,
         omega: Omega::Fixed(1.4),
@@ -108,7 +92,7 @@ fn with_a_setting() -> Result<()> {
         ..Setting::default()
     };
     let problem = scene(unbounded(), Cells::Mixed, plain)?;
-    same_bits_of::<f32, { rows::QUADS }>(&problem, |x| x.to_bits().into())
+    same_bits_of::<f32, { rows::QUADS }>(&problem)
 }
 
 #[test]

@@ -138,10 +138,10 @@ fn every_kind_of_input_gives_what_sweeps_give() -> Result<()> {
 #[test]
 fn the_module_has_the_bits_of_the_same_arrays() -> Result<()> {
     let problem = scene(BENT, Cells::Mixed, factor())?;
-    same_bits_of::<f32, { rows::QUADS }>(&problem, |x| x.to_bits().into())?;
+    same_bits_of::<f32, { rows::QUADS }>(&problem)?;
     let plain = Setting { certificate: false, start: Start::Cold, ..factor() };
     let problem = scene(unbounded(), Cells::Triangles, plain)?;
-    same_bits_of::<f64, TRIANGLES>(&problem, f64::to_bits)
+    same_bits_of::<f64, TRIANGLES>(&problem)
 }
 
 #[test]
@@ -156,7 +156,7 @@ fn a_module_without_contact() -> Result<()> {
     let text = fixtures::changed(&text, &[(rain, ""), (force, "")]);
     let setting = Setting { certificate: false, ..factor() };
     let problem = scene(&text, Cells::Triangles, setting)?;
-    same_bits_of::<f32, TRIANGLES>(&problem, |x| x.to_bits().into())
+    same_bits_of::<f32, TRIANGLES>(&problem)
 }
 
 #[test]
@@ -212,8 +212,8 @@ fn bake_takes_the_factor_where_sweeps_do_not_end() -> Result<()> {
 
 #[test]
 fn bake_takes_the_one_that_costs_less() -> Result<()> {
-    let coarse = fixtures::on_grid(BENT, grid(2, Cells::Triangles))?;
-    for (_, problem) in [coarse, super::standard("strip.toml")?] {
+    let (_, coarse) = fixtures::on_grid(BENT, grid(2, Cells::Triangles))?;
+    for problem in [coarse, super::standard("strip", |_| ())] {
         let choice = Choice::<f32>::new(&problem, Wanted::model(ModelKind::Full))?;
         let costs: Vec<_> = choice.candidates.iter().map(|of| of.needs.instructions()).collect();
         let [Some(first), Some(second)] = costs[..] else { panic!("{costs:?}") };
@@ -230,7 +230,7 @@ fn bake_takes_the_one_that_costs_less() -> Result<()> {
 /// of its quads are no parallelograms, and their certificates take twelve times as long as those of others.
 #[test]
 fn cells_in_which_a_varies_have_their_own_price() -> Result<()> {
-    let (_, problem) = super::standard("slab.toml")?;
+    let problem = super::standard("slab", |_| ());
     let choice = Choice::<f32>::new(&problem, Wanted::model(ModelKind::Full))?;
     let factored = choice.candidates.iter().find(|of| entries(of).is_some());
     let needs = factored.expect("a factor").needs.instructions().expect("a price");

@@ -5,24 +5,21 @@ mod factored;
 mod scale;
 mod setting;
 
-use signorini_tolerances::Tolerance;
-use signorini_tolerances::bake::{OSCILLATION, TICK, TICK_NARROW};
-use std::path::Path;
-
 use signorini_device::tick::Limits;
 use signorini_kernel::Error;
 use signorini_kernel::error::Array;
 use signorini_kernel::rows;
+use signorini_tolerances::Tolerance;
+use signorini_tolerances::bake::{OSCILLATION, TICK, TICK_NARROW};
 
 use super::{Baked, Controller, source};
+use crate::tests::standard;
 use signorini_problem::Problem;
 use signorini_problem::fixtures;
 use signorini_problem::functional::wanted;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
-use signorini_scene::mesh;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_scene::scene::Scene;
 use signorini_solve::outputs::outputs;
 use signorini_solve::{Options, solve};
 
@@ -47,13 +44,6 @@ output.length = { kind = "length" }
 output.probe = { kind = "probe", at = [0.1, 0.4] }
 output.bound = { kind = "bound" }
 "#;
-
-fn standard(name: &str) -> Result<(Scene, Problem)> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/scenes").join(name);
-    let scene = Scene::read(&path)?;
-    let problem = Problem::new(&scene, mesh::read(&scene.mesh.value)?)?;
-    Ok((scene, problem))
-}
 
 /// Limits as far down as rounding lets the algebraic part go.
 fn to_the_end<R: Scalar>() -> Limits<R> {
@@ -132,7 +122,7 @@ fn nonparametric_quads() -> Result<()> {
 
 #[test]
 fn standard_scenes_in_both_scalars() -> Result<()> {
-    let (_, problem) = standard("strip.toml")?;
+    let problem = standard("strip", |_| ());
     let steps: [&[f64]; 2] = [&[0.0], &[0.1]];
     ticks::<f64, { rows::QUADS }>(&problem, &steps, TICK)?;
     ticks::<f32, { rows::QUADS }>(&problem, &steps, TICK_NARROW)
@@ -179,7 +169,7 @@ fn data_that_meet_wrongly_have_no_bound() -> Result<()> {
 
 #[test]
 fn a_part_that_contact_alone_holds_is_refused() -> Result<()> {
-    let (_, problem) = standard("membrane.toml")?;
+    let problem = standard("membrane", |_| ());
     let error = Baked::<f32>::new(&problem).expect_err("no way out");
     assert!(error.to_string().contains("contact alone holds"), "{error}");
     Ok(())
@@ -187,7 +177,7 @@ fn a_part_that_contact_alone_holds_is_refused() -> Result<()> {
 
 #[test]
 fn the_text_holds_every_number_once_more() -> Result<()> {
-    let (_, problem) = standard("strip.toml")?;
+    let problem = standard("strip", |_| ());
     let baked = Baked::<f32>::new(&problem)?;
     let text = source(&baked);
     for number in baked.stiffness_of_triangles.iter().flatten() {

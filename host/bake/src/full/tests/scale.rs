@@ -106,7 +106,7 @@ fn without_units_f32_is_lost() -> Result<()> {
 fn the_text_has_the_same_units() -> Result<()> {
     let (_, problem) = bent(powers(-60, -41))?;
     let baked = Baked::<f32>::new(&problem)?;
-    let limits = Limits { error: 1e-20, ..baked.limits() };
+    let limits = Limits { error: 1e-20, ..baked.how.limits };
     let mut controller = Controller::<f32, { rows::QUADS }>::new(&baked);
     let inputs = INPUTS.map(f32::narrow);
     let (outputs, report) = controller.tick_within(&inputs, limits).expect("a tick");

@@ -1,22 +1,27 @@
-//! Arrays and the matrix in the target's scalar, filled up with 0 to whole blocks.
+//! Arrays in the target's scalar; those of contact edges and their matrix filled up with 0 to whole blocks.
 
 use signorini_contact::dense::blocks::{Block, SIDE, count, padded};
 
 use signorini_condense::CondensedModel;
 use signorini_problem::scalar::Scalar;
 
-pub(super) fn narrow<R: Scalar>(numbers: &[f64]) -> Vec<R> {
+/// Numbers in the scalar `R`.
+pub fn narrow<R: Scalar>(numbers: &[f64]) -> Vec<R> {
     numbers.iter().map(|&x| R::narrow(x)).collect()
 }
 
-pub(super) fn filled_up<R: Scalar>(column: &[f64]) -> Vec<R> {
+pub(crate) fn pairs<R: Scalar>(all: &[[f64; 2]]) -> Vec<[R; 2]> {
+    all.iter().map(|pair| pair.map(R::narrow)).collect()
+}
+
+pub(crate) fn filled_up<R: Scalar>(column: &[f64]) -> Vec<R> {
     let mut column = narrow(column);
     column.resize(padded(column.len()), R::ZERO);
     column
 }
 
 /// Ŝ in blocks, padding 0.
-pub(super) fn matrix<R: Scalar>(condensate: &CondensedModel) -> Vec<Block<R>> {
+pub(crate) fn matrix<R: Scalar>(condensate: &CondensedModel) -> Vec<Block<R>> {
     let n = condensate.contact;
     let entry = |row: usize, column: usize| {
         let inside = row < n && column < n;

@@ -1,0 +1,76 @@
+//! Generated text beside the controller on this machine: the same bits, tick after tick; and standard scenes.
+
+use std::path::Path;
+
+use crate::compiled::printed;
+use crate::narrow::narrow;
+use signorini_kernel::Error;
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
+use signorini_scene::mesh::adapted;
+use signorini_scene::scene::Scene;
+
+/// A standard scene, changed by `change`.
+pub fn standard(name: &str, change: impl FnOnce(&mut Scene)) -> Problem {
+    let path = format!("../../meshes/scenes/{name}.toml");
+    let mut scene = Scene::read(Path::new(&path)).expect("a standard scene");
+    change(&mut scene);
+    let mesh = adapted::of_scene(&scene).expect("its mesh");
+    Problem::new(&scene, mesh).expect("a sound problem")
+}
+
+/// A firmware that knows nothing of the model: all that every module offers, by the same names. It prints whether a tick
+/// after a reset is the first again, whether there is a bound, and how a tick ends for which there is no time.
+pub const FIRMWARE: &str = "
+fn main() {
+    use signorini_device::kernel::report::{Ended, Report};
+    let mut controller = Box::new(Controller::new());
+    let first: Answer = controller.tick(Inputs::DEFAULT).unwrap();
+    let report: Report<Scalar> = first.report;
+    let limits = Limits { sweeps: 3, ..LIMITS };
+    let other = || Inputs::from_array(Inputs::DEFAULT.to_array().map(|value| 7.0 - value));
+    let deadline = &mut Deadline { remaining: || 0, sweep: 1, certificate: 1 };
+    let late = controller.tick_within(other(), limits, deadline).unwrap().report;
+    let cut = controller.tick_within(other(), limits, &mut Deadline::never()).unwrap().report;
+    controller.reset();
+    let again = controller.tick_within(Inputs::DEFAULT, LIMITS, &mut Deadline::never()).unwrap();
+    let whole = |report: &Report<Scalar>| report.sweeps <= 3 || report.ended != Ended::OutOfSweeps;
+    let bounds = [report, late, cut].map(|report| report.certificate().is_some());
+    println!(\"{} {:?} {:?} {}\", again == first, bounds, late.ended, whole(&cut));
+}
+";
+
+/// Prints the default inputs, then of each line of a log the outputs of a tick. What is printed of a number is its bits: the shortest
+/// text that reads back the same.
+fn main(log: &[Vec<f64>]) -> String {
+    let ticks = log.len();
+    format!(
+        "
+fn main() {{
+    static CONTROLLER: std::sync::Mutex<Controller> = std::sync::Mutex::new(Controller::new());
+    let mut controller = CONTROLLER.lock().unwrap();
+    println!(\"{{:?}}\", Inputs::DEFAULT.to_array());
+    let log: [[f64; INPUTS]; {ticks}] = {log:?};
+    for inputs in log {{
+        let inputs = Inputs::from_array(inputs.map(|x| x as Scalar));
+        println!(\"{{:?}}\", controller.tick(inputs).map(|answer| answer.outputs.to_array()));
+    }}
+}}
+"
+    )
+}
+
+/// Compares what a module prints of a log with what `tick` answers; the lines of the ticks.
+pub fn same_bits<R: Scalar>(
+    problem: &Problem,
+    module: String,
+    log: &[Vec<f64>],
+    mut tick: impl FnMut(&[R]) -> Result<Vec<R>, Error>,
+) -> Vec<String> {
+    let defaults: Vec<_> = problem.scene.inputs.iter().map(|input| input.default).collect();
+    let lines = log.iter().map(|inputs| format!("{:?}\n", tick(&narrow(inputs))));
+    let lines: Vec<_> = lines.collect();
+    let expected = format!("{:?}\n{}", narrow::<R>(&defaults), lines.concat());
+    assert_eq!(printed(&(module + &main(log))), expected);
+    lines
+}
