@@ -1,13 +1,11 @@
 //! The project's task runner: `cargo xtask --help`. A file per verb; it runs tools and needs none of the project's crates but
 //! the one for images, so it compiles in seconds.
 
-mod absence;
 mod audit;
-mod audit_baked;
-mod audit_c;
 mod baked;
 mod boards;
 mod c;
+mod caught;
 mod cost;
 mod counted;
 mod crates;
@@ -37,7 +35,6 @@ mod size;
 mod snapshot;
 mod stamps;
 mod steps;
-mod symbols;
 mod test;
 mod venv;
 
