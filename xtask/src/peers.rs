@@ -28,9 +28,8 @@ use crate::setup;
 use crate::steps::Steps;
 use image::Measured;
 use reference::{Deviation, Problem, deviation};
-use signorini_image::board::emulator;
 use signorini_image::cargo::{root, target_dir};
-use signorini_image::toolchain::{Toolchain, first_words, output};
+use signorini_image::toolchain::output;
 use sources::Sources;
 
 const RECORD: &str = "tests/firmware/peers.txt";
@@ -76,7 +75,8 @@ pub fn run(steps: &mut Steps) {
             table += &format!("{title}\n{}", rows(scene, is_reduced, &sources)?);
         }
         println!("{table}");
-        record::compare(RECORD, &versions()?, &table, bless)?;
+        let versions = format!("{}, {}", record::versions_with_gcc()?, sources::VERSIONS);
+        record::compare(RECORD, &versions, &table, bless)?;
         slower(&table)
     });
 }
@@ -155,14 +155,6 @@ fn condense(scene: &str, is_reduced: bool, folder: &Path) -> Result<PathBuf, Str
     let mut bake = signorini(&["bake", "--condensed"])?;
     output(bake.args(more).arg(&scene).arg("-o").arg(&source))?;
     Ok(header)
-}
-
-/// Of all that the figures depend on.
-fn versions() -> Result<String, String> {
-    let rustc = Toolchain::find("thumbv7em-none-eabihf")?.version()?;
-    let gcc = output(std::process::Command::new("arm-none-eabi-gcc").arg("-dumpfullversion"))?;
-    let gcc = first_words(&gcc, 1);
-    Ok(format!("{rustc}, {}, GCC {gcc}, {}", emulator()?, sources::VERSIONS))
 }
 
 #[cfg(test)]

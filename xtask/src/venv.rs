@@ -5,7 +5,7 @@ use std::process::Command;
 
 use signorini_image::cargo::{root, target_dir};
 use signorini_image::toolchain::output;
-use signorini_image::tools::install_packages;
+use signorini_image::tools::ensured;
 
 /// The Python of the environment `name`, made just now where need be and possible, after `pip install` with these words; `variables` are
 /// for what pip runs.
@@ -16,13 +16,10 @@ pub fn with(name: &str, words: &[&str], variables: &[(&str, PathBuf)]) -> Result
     let folder = target_dir("python").join(name);
     let python = folder.join("bin/python");
     if !python.exists() {
-        let make = || output(Command::new("python3").args(["-m", "venv"]).arg(&folder)).map(drop);
-        if let Err(why) = make() {
-            // What a failed attempt has left has a Python and no pip.
-            let _ = std::fs::remove_dir_all(&folder);
-            install_packages(&["python3-venv"]).map_err(|remedy| format!("{why}; {remedy}"))?;
-            make()?;
-        }
+        // What a failed attempt has left has a Python and no pip: it is cleared.
+        let words = ["-m", "venv", "--clear"];
+        let make = || output(Command::new("python3").args(words).arg(&folder)).map(drop);
+        ensured(&["python3-venv"], make).inspect_err(|_| drop(std::fs::remove_dir_all(&folder)))?;
     }
     let mut pip = Command::new(&python);
     pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]).args(words);

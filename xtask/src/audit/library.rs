@@ -11,14 +11,12 @@ use crate::setup;
 use crate::steps::Steps;
 use signorini_image::library::{EXPORTS, EXPORTS_WITHIN, Library};
 use signorini_image::objects::{ARM, symbols};
-use signorini_image::tools::ensure_for_c;
 
 const ALWAYS: [Kind; 3] = [FORMATTING, ALLOCATOR, PANIC];
 
 /// A step for the libraries of each module, then the breaches.
 pub fn run(steps: &mut Steps) {
-    setup::run(steps);
-    steps.check_once("tools for C", ensure_for_c);
+    setup::for_c(steps);
     let is_whole = steps.is_whole();
     for row in ROWS.iter().filter(|row| !row.c.words(is_whole).is_empty()) {
         steps.check(&format!("{}, for C: what its libraries lack", row.name()), || {

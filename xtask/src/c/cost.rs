@@ -18,10 +18,10 @@ use super::program::{play, sources};
 use crate::modules::{ROWS, Row};
 use crate::record;
 use crate::steps::Steps;
-use signorini_image::board::{M4F_192K, emulator};
+use signorini_image::board::M4F_192K;
 use signorini_image::library::Library;
 use signorini_image::ticks::Ticks;
-use signorini_image::toolchain::{Toolchain, first_words, output};
+use signorini_image::toolchain::output;
 
 const RECORD: &str = "tests/firmware/c.txt";
 
@@ -60,9 +60,10 @@ pub fn run(steps: &mut Steps) {
         if !wrong.is_empty() {
             return Err(format!("{}; {MOST} are allowed", wrong.join("; ")));
         }
+        let versions = record::versions_with_gcc()?;
         match count {
-            1 => record::compare_part(RECORD, &versions()?, &table),
-            _ => record::compare(RECORD, &versions()?, &table, bless),
+            1 => record::compare_part(RECORD, &versions, &table),
+            _ => record::compare(RECORD, &versions, &table, bless),
         }
         .map(drop)
     });
@@ -155,12 +156,6 @@ fn flash(library: &Path) -> Result<u64, String> {
         (Some(text), Some(data)) => Ok(text + data),
         _ => Err(format!("`{line}` has no sizes")),
     }
-}
-
-fn versions() -> Result<String, String> {
-    let rustc = Toolchain::find("thumbv7em-none-eabihf")?.version()?;
-    let gcc = output(Command::new("arm-none-eabi-gcc").arg("-dumpfullversion"))?;
-    Ok(format!("{rustc}, {}, GCC {}", emulator()?, first_words(&gcc, 1)))
 }
 
 #[cfg(test)]

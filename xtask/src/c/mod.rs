@@ -19,12 +19,10 @@ mod states;
 use crate::modules;
 use crate::setup;
 use crate::steps::Steps;
-use signorini_image::tools::ensure_for_c;
 
 /// The steps of the five.
 pub fn run(steps: &mut Steps) {
-    setup::run(steps);
-    steps.check_once("tools for C", ensure_for_c);
+    setup::for_c(steps);
     modules::bake_for_c(steps);
     headers::run(steps);
     states::run(steps);

@@ -21,6 +21,7 @@ use signorini_image::tools::ensure;
 use signorini_image::worst::WorstStart;
 
 use crate::baked::Failure;
+use crate::command::command;
 use crate::modules::{ROWS, Row};
 use crate::steps::Steps;
 use options::{HELP, Options};
@@ -28,26 +29,8 @@ use stated::compare;
 
 /// The verb.
 pub fn run(words: &[&str]) -> ExitCode {
-    if words.iter().any(|word| ["--help", "-h"].contains(word)) {
-        print!("{HELP}");
-        return ExitCode::SUCCESS;
-    }
-    let options = match Options::parse(words) {
-        Ok(options) => options,
-        Err(why) => {
-            eprintln!("error: {why}\n\n{HELP}");
-            return ExitCode::from(2);
-        }
-    };
-    match measure(&options).and_then(|(firmware, _)| verdict(&firmware).map_err(Failure::from)) {
-        Ok(()) => ExitCode::SUCCESS,
-        // What the bake said of wrong input stands above.
-        Err(failure) if failure.status == 2 => ExitCode::from(2),
-        Err(failure) => {
-            eprintln!("error: {}", failure.why);
-            ExitCode::from(failure.status)
-        }
-    }
+    let work = |options| Ok(verdict(&measure(&options)?.0)?);
+    command(words, HELP, Options::parse, work)
 }
 
 /// Scenes on the board with 192 KiB, as steps of `cargo xtask test`.
