@@ -11,12 +11,12 @@ const RECORD: &str = "tests/firmware/antiicing.txt";
 /// Bakes the scene, flies, and compares what is said. The image itself fails where a deadline is missed or an answer is wrong.
 pub fn check(bless: bool) -> Result<(), String> {
     let module = FLOWN.module()?;
-    let (bins, features) = (&["antiicing"], &["antiicing"]);
-    let build = Build { package: "signorini-rtic", bins, features, scenes: module.file() };
+    let (package, features) = ("signorini-rtic", &["antiicing"]);
+    let build = Build { package, bins: &[], features, scenes: module.file() };
     let (mut command, folder) = M4F.build(build)?;
     command.env("SIGNORINI_SCENE", module.file());
     run_cargo(command)?;
-    let said = M4F.run(&folder.join("antiicing"), true)?;
+    let said = M4F.run(&folder.join("signorini-rtic"), true)?;
     print!("{said}");
     if said.contains("\ncut 0\n") {
         return Err("no deadline was ever tight".to_owned());

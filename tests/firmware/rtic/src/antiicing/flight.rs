@@ -1,6 +1,6 @@
 //! Stands in for air data and bus voltages: a climb, a cruise in gusts with a generator out for a while, a descent.
 
-use crate::scene::Inputs;
+use super::scene::Inputs;
 
 /// Ticks of the flight.
 pub const TICKS: u32 = 600;
@@ -21,11 +21,6 @@ pub struct Flight {
 impl Flight {
     /// On the ground.
     pub const START: Self = Self { tick: 0, seed: 1, gust: 0.0 };
-
-    /// Ticks so far.
-    pub fn ticks(&self) -> u32 {
-        self.tick
-    }
 
     /// The inputs of the next tick.
     pub fn next(&mut self) -> Inputs {

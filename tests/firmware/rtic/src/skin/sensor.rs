@@ -1,6 +1,6 @@
 //! Stands in for an analogue converter: how much heat the wind takes.
 
-use crate::mesh::COLUMNS;
+use super::mesh::COLUMNS;
 
 /// Losses in W/m²: from 1500 to 3546, another at every segment and tick, and in one tick of 16 a gust
 /// that takes 5000 more from everything behind its front. Xorshift (Marsaglia) makes every run the
