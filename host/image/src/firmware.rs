@@ -1,7 +1,7 @@
 //! What a scene costs on a board, and whether it is right there: `firmware.json`.
 
 use std::collections::BTreeMap;
-use std::fmt::{self, Write as _};
+use std::fmt::Write as _;
 use std::thread;
 
 use serde::Serialize;
@@ -10,7 +10,7 @@ use crate::board::Board;
 use crate::chosen::{Ranges, WorstCase};
 use crate::footprint::Footprint;
 use crate::module::Module;
-use crate::room::NoImage;
+use crate::room::NoResult;
 use crate::ticks::{Ticks, text};
 use crate::values::Values;
 use crate::worst::{WorstStart, WorstTick, without_range};
@@ -90,17 +90,6 @@ pub struct Firmware {
     /// A tick without an answer.
     #[serde(skip)]
     refused: Option<String>,
-}
-
-/// Why there is no result.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum NoResult {
-    /// There is no image.
-    NoImage(NoImage),
-    /// A tick takes longer than the board can count.
-    BeyondCounter,
-    /// A program failed, and what it said.
-    Failed(String),
 }
 
 impl Firmware {
@@ -281,28 +270,4 @@ fn instructions(board: &Ticks) -> Result<Instructions, NoResult> {
     let all = first.zip(median).zip(max);
     let ((first, median), max) = all.ok_or_else(|| "a tick was not counted".to_owned())?;
     Ok(Instructions { first, median, max })
-}
-
-impl From<NoImage> for NoResult {
-    fn from(why: NoImage) -> Self {
-        Self::NoImage(why)
-    }
-}
-
-impl From<String> for NoResult {
-    fn from(why: String) -> Self {
-        Self::Failed(why)
-    }
-}
-
-impl fmt::Display for NoResult {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoImage(why) => why.fmt(f),
-            Self::BeyondCounter => {
-                f.write_str("a tick takes longer than the board's counter can count")
-            }
-            Self::Failed(why) => f.write_str(why),
-        }
-    }
 }
