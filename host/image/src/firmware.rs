@@ -151,7 +151,6 @@ impl Firmware {
         let names = self.outputs.0.iter().map(|(name, _)| name.chars().count());
         let width = names.max().unwrap_or(0).max(12);
         let _ = writeln!(table, "  {:<width$}  {:>24}{:>24}", "first tick", "board", "desk");
-        let digits = |value: Option<f64>| value.map_or("null".to_owned(), |x| format!("{x:?}"));
         for ((name, board), (_, desk)) in self.outputs.0.iter().zip(&self.host_outputs.0) {
             let (board, desk) = (digits(*board), digits(*desk));
             let off = self.output_bounds.get(name).and_then(Option::as_ref);
@@ -174,13 +173,10 @@ impl Firmware {
     fn worst(&self) -> String {
         let mut text = String::new();
         if let Some(WorstTick { tick, inputs, .. }) = &self.worst_tick {
-            let value = |value: &Option<f64>| value.map_or("null".to_owned(), |x| format!("{x:?}"));
-            let inputs = inputs.0.iter().map(|(name, x)| format!("{name} = {}", value(x)));
-            let inputs: Vec<_> = inputs.collect();
-            let at = if inputs.is_empty() {
-                String::new()
-            } else {
-                format!(", at {}", inputs.join(", "))
+            let inputs = inputs.0.iter().map(|(name, x)| format!("{name} = {}", digits(*x)));
+            let at = match inputs.collect::<Vec<_>>().join(", ") {
+                none if none.is_empty() => none,
+                inputs => format!(", at {inputs}"),
             };
             let _ = writeln!(text, "  the most at tick {tick}{at}");
         }
@@ -247,6 +243,10 @@ impl Firmware {
             (None, None) => Ok(()),
         }
     }
+}
+
+fn digits(value: Option<f64>) -> String {
+    value.map_or("null".to_owned(), |x| format!("{x:?}"))
 }
 
 /// The intervals of the first tick; `of` says of each output what it is the value of.

@@ -1,10 +1,8 @@
 //! Every kind of scene on every board, played from C: the lines of the Rust program for the desk, bit for bit.
 
-use super::program::play;
+use super::program::played;
 use crate::modules::{ROWS, Row};
 use crate::steps::Steps;
-use signorini_image::cargo::root;
-use signorini_image::ticks::Ticks;
 
 /// Ticks that must be there.
 const TICKS: usize = 101;
@@ -27,16 +25,11 @@ fn compare(row: &Row, words: &[&str]) -> Result<(), String> {
         return Err(format!("{} ticks on the desk", desk.count()));
     }
     words.iter().try_for_each(|word| {
-        let played = on_board(row, word).map_err(|why| format!("{word}: {why}"))?;
+        let package = row.package(word)?;
+        let board = package.machine.board.ok_or("the desk is no board")?;
+        let played = played(&package, &package.library(), &[], &board);
+        let played = played.map_err(|why| format!("{word}: {why}"))?;
         println!("  {word}: {} ticks", played.count());
         played.difference(&desk).map_or(Ok(()), |why| Err(format!("{word}: {why}")))
     })
-}
-
-fn on_board(row: &Row, word: &str) -> Result<Ticks, String> {
-    let package = row.package(word)?;
-    let board = package.machine.board.ok_or("the desk is no board")?;
-    let memory = root().join("tests/firmware/peers/board.ld");
-    let image = play(&package, &package.library(), &[], &memory, &board)?;
-    Ok(Ticks::parse(&board.run(&image, false)?))
 }

@@ -14,13 +14,12 @@ use std::path::Path;
 use std::process::Command;
 
 use super::package::{Package, write};
-use super::program::{play, sources};
+use super::program::played;
 use crate::modules::{ROWS, Row};
 use crate::record;
 use crate::steps::Steps;
 use signorini_image::board::M4F_192K;
 use signorini_image::library::Library;
-use signorini_image::ticks::Ticks;
 use signorini_image::toolchain::output;
 
 const RECORD: &str = "tests/firmware/c.txt";
@@ -138,9 +137,8 @@ fn median(counts: &[i64]) -> i64 {
 
 /// Instructions of each tick.
 fn counts(package: &Package, library: &Path, call: &str, ticks: usize) -> Result<Vec<i64>, String> {
-    let memory = sources().join("netduinoplus2.ld");
-    let image = play(package, library, &[call, &format!("-DTICKS={ticks}")], &memory, &M4F_192K)?;
-    let counts = Ticks::parse(&M4F_192K.run(&image, true)?).numbers("instructions")?;
+    let defines = [call, &format!("-DTICKS={ticks}")];
+    let counts = played(package, library, &defines, &M4F_192K)?.numbers("instructions")?;
     match counts.len() == ticks {
         true => Ok(counts.iter().map(|&count| count as i64).collect()),
         false => Err(format!("{} of {ticks} ticks are counted", counts.len())),

@@ -147,12 +147,10 @@ impl Problem {
     /// By how much an edge violates its conditions, with a sign.
     fn violation(&self, at: usize, [x, w]: [f64; 2]) -> f64 {
         let [least, most] = self.ends(at);
-        if w - x < least {
-            w - least
-        } else if w - x > most {
-            w - most
-        } else {
-            x
+        match w - x {
+            below if below < least => w - least,
+            above if above > most => w - most,
+            _ => x,
         }
     }
 

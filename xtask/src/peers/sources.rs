@@ -56,6 +56,7 @@ impl Sources {
         let sources = Self(target_dir("firmware").join("peers"));
         let complete = sources.0.join("complete");
         if fs::read_to_string(&complete).ok().as_deref() != Some(VERSIONS) {
+            println!("fetching {VERSIONS}, which takes minutes");
             sources.python_environment()?;
             sources.pinned()?;
             fs::write(complete, VERSIONS).map_err(|error| error.to_string())?;
