@@ -85,11 +85,10 @@ fn sides(draw: &mut Draw, set: u32, is_limited: bool) -> [Scalar; CONTACT] {
 
 /// Every second time an arc of neighbours, else each edge with a probability that is drawn too.
 fn draw_open(draw: &mut Draw, open: &mut [bool; CONTACT]) {
-    let mut part = || (draw.uniform() + 1.0) / 2.0;
-    let (is_arc, first, share) = (part() < 0.5, part(), part());
+    let (is_arc, first, share) = (draw.part() < 0.5, draw.part(), draw.part());
     for (at, open) in (0..).zip(open.iter_mut()) {
         let place = at as f32 / CONTACT as f32;
-        *open = if is_arc { (first..=first + share).contains(&place) } else { part() < share };
+        *open = if is_arc { (first..=first + share).contains(&place) } else { draw.part() < share };
     }
 }
 

@@ -14,6 +14,7 @@
 mod mesh;
 mod sensor;
 
+use signorini_board::draw::Draw;
 use signorini_board::journal::Journal;
 use signorini_device::condition::{BoundaryEdge, Condition};
 use signorini_device::tick::{Deadline, Limits, Report};
@@ -76,7 +77,7 @@ pub struct Plant {
     skin: &'static mut Memory,
     counts: EdgeCounts,
     /// Of the losses.
-    seed: u32,
+    draw: Draw,
 }
 
 impl Plant {
@@ -86,12 +87,12 @@ impl Plant {
         let steel = Coefficient::Uniform(Tensor::scalar(CONDUCTIVITY));
         let counts = skin.build(&mesh, steel, |edge| Some(condition(edge, &[0.0; COLUMNS])))?;
         skin.set_relaxation(Relaxation::Fixed(OMEGA))?;
-        Ok(Self { mesh, skin, counts, seed: 1 })
+        Ok(Self { mesh, skin, counts, draw: Draw::from_seed(1) })
     }
 
     /// Reads new losses in W/m², one a segment.
     pub fn advance(&mut self) -> Result<(), Error> {
-        let losses = sensor::read(&mut self.seed);
+        let losses = sensor::read(&mut self.draw);
         self.skin.set_conditions(&self.mesh, |edge| Some(condition(edge, &losses)))
     }
 
