@@ -37,7 +37,6 @@ mod snapshot;
 mod stamps;
 mod steps;
 mod test;
-mod venv;
 
 use std::process::ExitCode;
 

@@ -60,7 +60,7 @@ const SHARE: f64 = 1.0;
 
 /// Fetches, builds, runs, prints, compares.
 pub fn run(steps: &mut Steps) {
-    setup::run(steps);
+    setup::for_c(steps);
     let bless = steps.blesses();
     let mut sources = Err("not fetched".to_owned());
     steps.check("the peers' sources", || {

@@ -11,8 +11,7 @@ use crate::chosen::{Ranges, WorstCase};
 use crate::footprint::Footprint;
 use crate::module::Module;
 use crate::room::NoResult;
-use crate::ticks::{Ticks, text};
-use crate::values::Values;
+use crate::ticks::{Ticks, Values, text};
 use crate::worst::{WorstStart, WorstTick, without_range};
 
 /// Ticks that both programs play.

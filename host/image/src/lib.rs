@@ -25,5 +25,4 @@ pub mod room;
 pub mod ticks;
 pub mod toolchain;
 pub mod tools;
-pub mod values;
 pub mod worst;

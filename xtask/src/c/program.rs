@@ -1,10 +1,13 @@
-//! C programs around a controller, compiled by GCC and run on a board or on the desk.
+//! C programs around a controller, compiled by GCC and run on a board or on the desk; first of all the one that plays every kind
+//! of scene on every board, to the lines of the Rust program for the desk, bit for bit.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use super::package::{Package, folder};
+use crate::modules::{ROWS, Row};
+use crate::steps::Steps;
 use signorini_image::board::{Board, M4F_192K};
 use signorini_image::cargo::root;
 use signorini_image::ticks::Ticks;
@@ -68,4 +71,34 @@ pub fn configure(source: &Path, build: &Path, defines: &[String]) -> Result<(), 
 /// The folder of the C programs.
 pub fn sources() -> PathBuf {
     root().join("tests/firmware/c")
+}
+
+/// Ticks that must be there.
+const TICKS: usize = 101;
+
+/// A step for each module: nothing in contact, edges by exchanges, quads, lengths, limits and modes; then meshes of both kinds of
+/// cells, by sweeps and by a factor, with transfer laws, and without a bound.
+pub fn run(steps: &mut Steps) {
+    for row in &ROWS {
+        let words = row.c_played.words(steps.is_whole());
+        if !words.is_empty() {
+            steps.check(&format!("{}, from C, bit for bit", row.name()), || compare(row, &words));
+        }
+    }
+}
+
+/// `Ok` where all boards say from C what the desk says in Rust.
+fn compare(row: &Row, words: &[&str]) -> Result<(), String> {
+    let desk = row.module()?.on_desk()?;
+    if desk.count() != TICKS {
+        return Err(format!("{} ticks on the desk", desk.count()));
+    }
+    words.iter().try_for_each(|word| {
+        let package = row.package(word)?;
+        let board = package.machine.board.ok_or("the desk is no board")?;
+        let played = played(&package, &package.library(), &[], &board);
+        let played = played.map_err(|why| format!("{word}: {why}"))?;
+        println!("  {word}: {} ticks", played.count());
+        played.difference(&desk).map_or(Ok(()), |why| Err(format!("{word}: {why}")))
+    })
 }
