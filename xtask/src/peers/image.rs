@@ -44,6 +44,14 @@ pub struct Measured {
     pub ticks: Vec<PeerTick>,
 }
 
+impl Measured {
+    /// x of every tick, a line each.
+    pub fn answers(&self) -> String {
+        let words = |tick: &PeerTick| tick.x.iter().map(|x| format!("{x:?} ")).collect::<String>();
+        self.ticks.iter().map(|tick| words(tick) + "\n").collect()
+    }
+}
+
 /// Builds and runs a peer.
 pub fn peer(name: &str, code: &Result<Code, String>, folder: &Path) -> Result<Measured, String> {
     let code = code.as_ref().map_err(Clone::clone)?;

@@ -7,6 +7,7 @@ use std::process::Command;
 
 use crate::python::environment;
 use signorini_image::cargo::{root, run, target_dir};
+use signorini_image::toolchain::output;
 
 /// As `requirements.txt` pins them, with checksums.
 pub const VERSIONS: &str = "DAQP 0.7.2, OSQP 1.1.3";
@@ -74,6 +75,19 @@ impl Sources {
         run(unpack)
     }
 
+    /// What `problem.py` prints of a header and another file: two numbers.
+    pub fn problem(&self, verb: &str, header: &Path, file: &Path) -> Result<[f64; 2], String> {
+        let said =
+            output(Command::new(&self.python).arg(script()).arg(verb).arg(header).arg(file))?;
+        let numbers: Vec<f64> = said.split_whitespace().filter_map(|x| x.parse().ok()).collect();
+        numbers.try_into().map_err(|_| format!("problem.py says `{said}`"))
+    }
+
+    /// `Ok` where it solves what is solved by hand.
+    pub fn check(&self) -> Result<(), String> {
+        output(Command::new(&self.python).arg(script()).arg("check")).map(drop)
+    }
+
     fn python<'a>(&self, words: impl IntoIterator<Item = &'a OsStr>) -> Result<(), String> {
         let mut command = Command::new(&self.python);
         command.args(words);
@@ -105,6 +119,10 @@ impl Sources {
         let headers = vec![code.clone(), code.join("inc/public"), code.join("inc/private")];
         Ok(Code { files, headers, flags: &[] })
     }
+}
+
+fn script() -> PathBuf {
+    root().join("tests/firmware/peers/problem.py")
 }
 
 /// The C files of a folder, in order: the image is to be the same every time.
