@@ -10,10 +10,9 @@ use std::sync::Arc;
 use crate::program::signorini;
 use signorini_image::cargo::root;
 use signorini_image::chosen::Chosen;
-use signorini_image::firmware::NoResult;
 use signorini_image::module::Module;
 use signorini_image::once::Once;
-use signorini_image::room::NoImage;
+use signorini_image::room::NoResult;
 
 /// The modules of this run.
 static BAKED: Once<Arc<Module>> = Once::new();
@@ -45,12 +44,6 @@ pub struct Failure {
 impl From<String> for Failure {
     fn from(why: String) -> Self {
         Self { why, status: 1 }
-    }
-}
-
-impl From<NoImage> for Failure {
-    fn from(why: NoImage) -> Self {
-        why.to_string().into()
     }
 }
 

@@ -2,17 +2,16 @@
 
 use std::cmp::Ordering;
 use std::fmt::Write as _;
-use std::fs;
 
-use signorini_image::board::{Board, Build, M4, M4F, M7, emulator};
-use signorini_image::cargo::{root, run as run_cargo};
+use signorini_image::board::{Board, Build, M4, M4F, M7};
+use signorini_image::cargo::run as run_cargo;
 use signorini_image::record::counts::Counts;
 
 use crate::export::scenes;
 use crate::record;
 use crate::setup;
+use crate::snapshot;
 use crate::steps::Steps;
-use signorini_image::toolchain::Toolchain;
 
 /// Boards, the first of which counts in every run.
 const BOARDS: [Board; 3] = [M4F, M4, M7];
@@ -101,8 +100,7 @@ pub fn run(steps: &mut Steps) {
             }
         }
         println!("{table}{}", targets(&counts));
-        let versions =
-            format!("{}, {}", Toolchain::find("thumbv7em-none-eabihf")?.version()?, emulator()?);
+        let versions = record::versions()?;
         let is_same = match boards {
             1 => record::compare_part(RECORD, &versions, &table)?,
             _ => record::compare(RECORD, &versions, &table, bless)?,
@@ -193,7 +191,7 @@ fn quoted(counts: &Counts) -> Result<(), String> {
         format!("takes {:.0} a triangle", of("f32 triangles", "certificate")),
         format!("{:.2} a multiply-add", of("f32, n = 64", "sweep")),
     ];
-    let page = fs::read_to_string(root().join(PAGE)).map_err(|error| error.to_string())?;
+    let page = snapshot::read(PAGE)?;
     match phrases.iter().find(|phrase| !page.contains(*phrase)) {
         Some(phrase) => Err(format!("{PAGE} does not say `{phrase}`")),
         None => Ok(()),

@@ -1,13 +1,12 @@
 //! The project's task runner: `cargo xtask --help`. A file per verb; it runs tools and needs none of the project's crates but
 //! the one for images, so it compiles in seconds.
 
-mod absence;
 mod audit;
-mod audit_baked;
-mod audit_c;
 mod baked;
 mod boards;
 mod c;
+mod caught;
+mod command;
 mod cost;
 mod counted;
 mod crates;
@@ -37,9 +36,7 @@ mod size;
 mod snapshot;
 mod stamps;
 mod steps;
-mod symbols;
 mod test;
-mod venv;
 
 use std::process::ExitCode;
 
@@ -49,14 +46,7 @@ use signorini_image::lock::hold;
 
 use steps::{Mode, Steps};
 
-/// A verb of the command line.
-struct Verb {
-    name: &'static str,
-    about: &'static str,
-    work: Work,
-}
-
-/// What a verb does.
+/// What a verb of the command line does.
 enum Work {
     /// Steps, all of them whichever fail, with no argument but `--bless` and `--all`.
     Steps(fn(&mut Steps)),
@@ -64,105 +54,52 @@ enum Work {
     Command(fn(&[&str]) -> ExitCode),
 }
 
-const VERBS: [Verb; 19] = [
-    Verb {
-        name: "test",
-        about: "formatting, clippy, tests, boards; with --all what need not run each time, too",
-        work: Work::Steps(test::run),
-    },
-    Verb {
-        name: "quick",
-        about: "format, clippy and tests of the packages that the working tree changes",
-        work: Work::Steps(quick::run),
-    },
-    Verb {
-        name: "house",
-        about: "rules of the house that no compiler holds, with those that break them",
-        work: Work::Steps(house::run),
-    },
-    Verb {
-        name: "no-std",
-        about: "the kernel links without std and without an allocator; breaches are caught",
-        work: Work::Steps(no_std::run),
-    },
-    Verb {
-        name: "sanitize",
-        about: "sweeps under AddressSanitizer: no access outside of an array",
-        work: Work::Steps(sanitize::run),
-    },
-    Verb {
-        name: "results",
-        about: "meshio and PyVista read the files of a solve and of ticks (Python, from its registry)",
-        work: Work::Steps(results::run),
-    },
-    Verb {
-        name: "python",
-        about: "the Python module: built by pip in a fresh environment, tested beside the command line",
-        work: Work::Steps(python::run),
-    },
-    Verb {
-        name: "setup",
-        about: "installs the tools for microcontrollers (Debian, as root)",
-        work: Work::Steps(setup::run),
-    },
-    Verb {
-        name: "cross",
-        about: "the kernel and all images for Cortex-M4 and M7",
-        work: Work::Steps(cross::run),
-    },
-    Verb {
-        name: "boards",
-        about: "the images on emulated boards, bit for bit as on the desk",
-        work: Work::Steps(boards::run),
-    },
-    Verb {
-        name: "audit",
-        about: "no allocator, panic, formatting, f64, unused code in the images",
-        work: Work::Steps(audit::run),
-    },
-    Verb {
-        name: "size",
-        about: "flash, RAM and stack by kind of scene",
-        work: Work::Steps(size::run),
-    },
-    Verb {
-        name: "cost",
-        about: "instructions of every stage, against record and targets",
-        work: Work::Steps(cost::run),
-    },
-    Verb {
-        name: "c",
-        about: "controllers from C: bits, instructions, headers, states, examples",
-        work: Work::Steps(c::run),
-    },
-    Verb {
-        name: "firmware",
-        about: "any scene on an emulated board: bits, instructions, RAM, flash, stack",
-        work: Work::Command(firmware::run),
-    },
-    Verb {
-        name: "fuzz",
-        about: "arbitrary bytes into readers, constructors and ticks; a record of how many",
-        work: Work::Command(fuzz::run),
-    },
-    Verb {
-        name: "peers",
-        about: "other solvers on the same board and problems; not part of `test`",
-        work: Work::Steps(peers::run),
-    },
-    Verb {
-        name: "osqp",
-        about: "builds OSQP for the trade study; the last line is the program's path",
-        work: Work::Command(osqp::command),
-    },
-    Verb {
-        name: "mutants",
-        about: "does a test fail for every single change of the kernel? (minutes)",
-        work: Work::Command(mutants::command),
-    },
+const VERBS: [(&str, Work); 19] = [
+    ("test", Work::Steps(test::run)),
+    ("quick", Work::Steps(quick::run)),
+    ("house", Work::Steps(house::run)),
+    ("no-std", Work::Steps(no_std::run)),
+    ("sanitize", Work::Steps(sanitize::run)),
+    ("results", Work::Steps(results::run)),
+    ("python", Work::Steps(python::run)),
+    ("setup", Work::Steps(setup::run)),
+    ("cross", Work::Steps(cross::run)),
+    ("boards", Work::Steps(boards::run)),
+    ("audit", Work::Steps(audit::run)),
+    ("size", Work::Steps(size::run)),
+    ("cost", Work::Steps(cost::run)),
+    ("c", Work::Steps(c::run)),
+    ("firmware", Work::Command(firmware::run)),
+    ("fuzz", Work::Command(fuzz::run)),
+    ("peers", Work::Steps(peers::run)),
+    ("osqp", Work::Command(osqp::run)),
+    ("mutants", Work::Command(mutants::run)),
 ];
 
-const EXAMPLES: &str = "\
+const HELP: &str = "\
+Usage: cargo xtask VERB
+
+Verbs:
+  test      formatting, clippy, tests, boards; with --all what need not run each time, too
+  quick     format, clippy and tests of the packages that the working tree changes
+  house     rules of the house that no compiler holds, with those that break them
+  no-std    the kernel links without std and without an allocator; breaches are caught
+  sanitize  sweeps under AddressSanitizer: no access outside of an array
+  results   meshio and PyVista read the files of a solve and of ticks (Python, from its registry)
+  python    the Python module: built by pip in a fresh environment, tested beside the command line
+  setup     installs the tools for microcontrollers (Debian, as root)
+  cross     the kernel and all images for Cortex-M4 and M7
+  boards    the images on emulated boards, bit for bit as on the desk
+  audit     no allocator, panic, formatting, f64, unused code in the images
+  size      flash, RAM and stack by kind of scene
+  cost      instructions of every stage, against record and targets
+  c         controllers from C: bits, instructions, headers, states, examples
+  firmware  any scene on an emulated board: bits, instructions, RAM, flash, stack
+  fuzz      arbitrary bytes into readers, constructors and ticks; a record of how many
+  peers     other solvers on the same board and problems; not part of `test`
+  osqp      builds OSQP for the trade study; the last line is the program's path
+  mutants   does a test fail for every single change of the kernel? (minutes)
+
 Examples:
   cargo xtask test         before every commit, and what CI runs
   cargo xtask test --all   fuzzing, sanitizer, mutants, MPI, OSQP, old processors, PyVista, every board, too
@@ -182,10 +119,10 @@ fn main() -> ExitCode {
         eprintln!("error: {why}");
         return ExitCode::from(2);
     }
-    match find(name).map(|verb| &verb.work) {
+    match VERBS.iter().find(|(verb, _)| *verb == name).map(|(_, work)| work) {
         Some(Work::Command(command)) => command(arguments),
         _ if words.iter().any(|word| ["--help", "-h", "help"].contains(word)) => {
-            println!("{}", help());
+            println!("{HELP}");
             ExitCode::SUCCESS
         }
         Some(Work::Steps(work)) => match arguments {
@@ -209,17 +146,21 @@ fn main() -> ExitCode {
     }
 }
 
-fn find(name: &str) -> Option<&'static Verb> {
-    VERBS.iter().find(|verb| verb.name == name)
-}
-
 fn wrong(message: &str) -> ExitCode {
-    eprintln!("error: {message}\n\n{}", help());
+    eprintln!("error: {message}\n\n{HELP}");
     ExitCode::from(2)
 }
 
-fn help() -> String {
-    let verb = |verb: &Verb| format!("  {:<10}{}\n", verb.name, verb.about);
-    let verbs: String = VERBS.iter().map(verb).collect();
-    format!("Usage: cargo xtask VERB\n\nVerbs:\n{verbs}\n{EXAMPLES}")
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_help_has_a_line_for_each_verb() {
+        let (_, rest) = HELP.split_once("Verbs:\n").expect("a list");
+        let (list, _) = rest.split_once("\n\n").expect("its end");
+        let named: Vec<_> =
+            list.lines().filter_map(|line| line.split_whitespace().next()).collect();
+        assert_eq!(named, VERBS.map(|(name, _)| name));
+    }
 }

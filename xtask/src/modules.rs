@@ -7,7 +7,7 @@
 
 use std::sync::Arc;
 
-use crate::audit_baked::Audit;
+use crate::audit::kinds::Audit;
 use crate::baked::{Failure, Recipe, bakes};
 use crate::c::package::{self, Package, machine};
 use crate::steps::Steps;

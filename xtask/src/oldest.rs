@@ -6,8 +6,7 @@ use std::process::Command;
 use crate::program;
 use crate::steps::Steps;
 use signorini_image::cargo::{root, target_dir};
-use signorini_image::toolchain::output;
-use signorini_image::tools::install_packages;
+use signorini_image::tools::{answer, ensured};
 
 const EMULATOR: &str = "qemu-x86_64";
 /// Of 2008, with SSE 4.2; AVX came with the next one.
@@ -22,7 +21,7 @@ pub fn run(steps: &mut Steps) {
         return;
     }
     steps.check("a solve on an x86-64 without AVX", || {
-        ensure()?;
+        ensured(&["qemu-user"], || answer(&[EMULATOR]))?;
         let program = program::path()?;
         SOLVERS.iter().try_for_each(|solver| solve(&program, solver))
     });
@@ -38,12 +37,4 @@ fn solve(program: &Path, solver: &str) -> Result<(), String> {
     }
     let said = String::from_utf8_lossy(&ended.stderr);
     Err(format!("--solver {solver} on a {PROCESSOR}: {}: {}", ended.status, said.trim()))
-}
-
-/// `Ok` where the emulator is there, installed just now where need be and possible.
-fn ensure() -> Result<(), String> {
-    let answers = || output(Command::new(EMULATOR).arg("--version")).map(drop);
-    let Err(why) = answers() else { return Ok(()) };
-    install_packages(&["qemu-user"]).map_err(|remedy| format!("{why}; {remedy}"))?;
-    answers()
 }

@@ -4,10 +4,10 @@
 
 use std::process::{Command, ExitCode};
 
+use crate::command::command;
 use crate::steps::Steps;
-use signorini_image::cargo::{cargo, run, target_dir};
-use signorini_image::toolchain::output;
-use signorini_image::tools::install_packages;
+use signorini_image::cargo::{cargo, run as run_cargo, target_dir};
+use signorini_image::tools::{answer, ensured};
 
 /// The package of the program.
 pub const MANIFEST: &str = "tests/osqp/Cargo.toml";
@@ -15,32 +15,17 @@ pub const MANIFEST: &str = "tests/osqp/Cargo.toml";
 const HELP: &str = "\
 Usage: cargo xtask osqp [--wide]
 
-Builds tests/osqp and prints the program's path; with --wide for AVX2 on x86-64, whatever RUSTFLAGS says.";
+Builds tests/osqp and prints the program's path; with --wide for AVX2 on x86-64, whatever RUSTFLAGS says.
+";
 
 /// The verb: the last line of its output is the program's path.
-pub fn command(arguments: &[&str]) -> ExitCode {
-    let is_wide = match arguments {
-        [] => false,
-        ["--wide"] => true,
-        ["--help" | "-h", ..] => {
-            println!("{HELP}");
-            return ExitCode::SUCCESS;
-        }
-        [extra, ..] => {
-            eprintln!("error: `osqp` takes no argument but `--wide`, not `{extra}`");
-            return ExitCode::from(2);
-        }
+pub fn run(words: &[&str]) -> ExitCode {
+    let parse = |words: &[&str]| match words {
+        [] => Ok(false),
+        ["--wide"] => Ok(true),
+        [extra, ..] => Err(format!("`osqp` takes no argument but `--wide`, not `{extra}`")),
     };
-    match build(is_wide) {
-        Ok(path) => {
-            println!("{path}");
-            ExitCode::SUCCESS
-        }
-        Err(why) => {
-            eprintln!("error: {why}");
-            ExitCode::FAILURE
-        }
-    }
+    command(words, HELP, parse, |is_wide| Ok(println!("{}", build(is_wide)?)))
 }
 
 /// Studies leave OSQP out where it cannot be built, and go on: here that is a failure.
@@ -60,11 +45,7 @@ fn widened(words: &[&str]) -> Command {
 }
 
 fn build(is_wide: bool) -> Result<String, String> {
-    let has_cmake = || output(Command::new("cmake").arg("--version"));
-    if let Err(why) = has_cmake() {
-        install_packages(&["cmake"]).map_err(|remedy| format!("{why}; {remedy}"))?;
-        has_cmake()?;
-    }
+    ensured(&["cmake"], || answer(&["cmake"]))?;
     // Each kind has a folder: of two studies at the same time neither gets the other's program.
     let target = target_dir("osqp").join(if is_wide { "wide" } else { "" });
     let words = ["build", "--release", "--locked", "--manifest-path", MANIFEST];
@@ -73,6 +54,6 @@ fn build(is_wide: bool) -> Result<String, String> {
         command.env("RUSTFLAGS", "");
     }
     command.arg("--target-dir").arg(&target);
-    run(command)?;
+    run_cargo(command)?;
     Ok(target.join("release/signorini-osqp").display().to_string())
 }

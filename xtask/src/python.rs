@@ -1,13 +1,13 @@
-//! `cargo xtask python`: the module `signorini` is built by pip in a fresh environment, and its tests run there beside the command line.
+//! Environments of Python, each in a folder below `target/python`; `cargo xtask python`: the module `signorini` is built by pip in a fresh environment, and its tests run there beside the command line.
 
+use std::path::PathBuf;
 use std::process::Command;
 
 use crate::program;
 use crate::steps::Steps;
-use crate::venv;
 use signorini_image::cargo::{root, run as run_command, target_dir};
 use signorini_image::toolchain::output;
-use signorini_image::tools::install_packages;
+use signorini_image::tools::{ensured, install_packages};
 
 /// The package of the module: what it is linked to, pip knows.
 pub const PACKAGE: &str = "signorini-python";
@@ -24,7 +24,7 @@ pub fn run(steps: &mut Steps) {
     // Pip builds into the folder of the program, whose crates serve the module.
     steps.check("pip builds the module signorini, and its tests pass", || {
         let _ = std::fs::remove_dir_all(target_dir("python").join(ENVIRONMENT));
-        let python = venv::with(ENVIRONMENT, &["./host/python[test]"], &[])?;
+        let python = environment(ENVIRONMENT, &["./host/python[test]"], &[])?;
         if output(Command::new(&python).args(["-c", "import gmsh"])).is_err() {
             install_packages(&OF_GMSH)?;
         }
@@ -33,4 +33,29 @@ pub fn run(steps: &mut Steps) {
         tests.env("SIGNORINI", program::path()?).current_dir(root());
         run_command(tests)
     });
+}
+
+/// The Python of the environment `name`, made just now where need be and possible, after `pip install` with these words; `variables` are
+/// for what pip runs.
+///
+/// # Errors
+/// No Python, or a package that pip does not find or cannot build.
+pub fn environment(
+    name: &str,
+    words: &[&str],
+    variables: &[(&str, PathBuf)],
+) -> Result<PathBuf, String> {
+    let folder = target_dir("python").join(name);
+    let python = folder.join("bin/python");
+    if !python.exists() {
+        // What a failed attempt has left has a Python and no pip: it is cleared.
+        let words = ["-m", "venv", "--clear"];
+        let make = || output(Command::new("python3").args(words).arg(&folder)).map(drop);
+        ensured(&["python3-venv"], make).inspect_err(|_| drop(std::fs::remove_dir_all(&folder)))?;
+    }
+    let mut pip = Command::new(&python);
+    pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]).args(words);
+    pip.envs(variables.iter().map(|(name, value)| (name, value))).current_dir(root());
+    output(&mut pip)?;
+    Ok(python)
 }

@@ -6,7 +6,7 @@ use std::process::Command;
 use crate::counted::counted;
 use crate::steps::{Steps, Tally};
 use signorini_image::toolchain::output;
-use signorini_image::tools::install_packages;
+use signorini_image::tools::{answer, ensured};
 
 /// An MPI, and what its bindings are made with.
 const PACKAGES: [&str; 3] = ["libopenmpi-dev", "openmpi-bin", "libclang-dev"];
@@ -33,18 +33,12 @@ pub fn run(steps: &mut Steps) {
 
 /// `Ok` where all is there, installed just now where need be and possible.
 fn ensure() -> Result<(), String> {
-    let Err(why) = missing() else { return Ok(()) };
-    install_packages(&PACKAGES).map_err(|remedy| format!("{why}; {remedy}"))?;
-    missing()
-}
-
-fn missing() -> Result<(), String> {
-    for program in ["mpicc", "mpirun"] {
-        output(Command::new(program).arg("--version"))?;
-    }
-    // A library without a program to ask; elsewhere the build says whether it is there.
-    if Path::new("/etc/debian_version").exists() {
-        output(Command::new("dpkg-query").args(["--show", "libclang-dev"]))?;
-    }
-    Ok(())
+    ensured(&PACKAGES, || {
+        answer(&["mpicc", "mpirun"])?;
+        // A library without a program to ask; elsewhere the build says whether it is there.
+        match Path::new("/etc/debian_version").exists() {
+            true => output(Command::new("dpkg-query").args(["--show", "libclang-dev"])).map(drop),
+            false => Ok(()),
+        }
+    })
 }

@@ -3,13 +3,25 @@
 //! The first line names the versions that the figures belong to. With other versions the table is
 //! printed and nothing is compared, since another compiler makes other code.
 
-use std::fs;
+use std::process::Command;
 
 use crate::snapshot;
-use signorini_image::cargo::root;
+use signorini_image::board::emulator;
+use signorini_image::toolchain::{Toolchain, first_words, output};
 
 /// What may be lost before a check fails.
 const TOLERANCE: f64 = 0.02;
+
+/// The versions that counts on boards depend on.
+pub fn versions() -> Result<String, String> {
+    Ok(format!("{}, {}", Toolchain::find("thumbv7em-none-eabihf")?.version()?, emulator()?))
+}
+
+/// The same, and that of GCC.
+pub fn versions_with_gcc() -> Result<String, String> {
+    let gcc = output(Command::new("arm-none-eabi-gcc").arg("-dumpfullversion"))?;
+    Ok(format!("{}, GCC {}", versions()?, first_words(&gcc, 1)))
+}
 
 /// Compares `table` with the record, or writes it. `false`: the record is one of other versions.
 pub fn compare(path: &str, versions: &str, table: &str, bless: bool) -> Result<bool, String> {
@@ -30,8 +42,7 @@ fn compared(
     table: &str,
     of: impl Fn(&str) -> String,
 ) -> Result<bool, String> {
-    let recorded =
-        fs::read_to_string(root().join(path)).map_err(|error| format!("{path}: {error}"))?;
+    let recorded = snapshot::read(path)?;
     let (by, figures) = recorded.split_once('\n').unwrap_or_default();
     if !(by.starts_with("rustc ") && by.contains(", QEMU ")) {
         return Err(format!("{path} does not begin with versions; --bless writes it anew"));

@@ -4,8 +4,8 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::program::signorini;
+use crate::python::environment;
 use crate::steps::Steps;
-use crate::venv;
 use signorini_image::cargo::{root, target_dir};
 use signorini_image::toolchain::output;
 
@@ -18,7 +18,7 @@ const TICKED: &str = "meshes/catalogue/moving-tri.toml";
 /// The step.
 pub fn run(steps: &mut Steps) {
     steps.check("meshio and PyVista read the results", || {
-        let python = venv::with("environment", &["-r", REQUIREMENTS], &[])?;
+        let python = environment("environment", &["-r", REQUIREMENTS], &[])?;
         let out = target_dir("python").join("out");
         written(&["tick", TICKED, "--vtu", "--ticks", "5"], &out.join("ticks"))?;
         SCENES.iter().try_for_each(|name| {

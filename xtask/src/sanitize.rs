@@ -14,7 +14,7 @@ use crate::counted::counted_by;
 use crate::crates::of_kernel;
 use crate::steps::{Steps, Tally};
 use signorini_image::cargo::{cargo, target_dir};
-use signorini_image::toolchain::output;
+use signorini_image::toolchain::host;
 
 /// Whole solves and ticks in both scalars, with short and long indices.
 const TESTS: [&str; 3] = ["replay::", "exact::", "tick::"];
@@ -68,11 +68,4 @@ fn tests() -> Result<Command, String> {
     command.arg("--").args(TESTS);
     command.env("RUSTC_BOOTSTRAP", "1").env("RUSTFLAGS", FLAG);
     Ok(command)
-}
-
-/// The triple of this machine.
-fn host() -> Result<String, String> {
-    let said = output(Command::new("rustc").arg("-vV"))?;
-    let line = said.lines().find_map(|line| line.strip_prefix("host: "));
-    line.map(str::to_owned).ok_or_else(|| "rustc -vV names no host".to_owned())
 }

@@ -1,16 +1,13 @@
 //! `cargo xtask size`: what the images of baked scenes take, by what the scenes contain.
 
-use std::fs;
-
 use crate::modules::{ROWS, Row};
 use crate::record;
 use crate::setup;
+use crate::snapshot;
 use crate::steps::Steps;
-use signorini_image::board::{M4F_192K, emulator};
-use signorini_image::cargo::root;
+use signorini_image::board::M4F_192K;
 use signorini_image::footprint::Footprint;
 use signorini_image::record::sizes;
-use signorini_image::toolchain::Toolchain;
 
 const RECORD: &str = "tests/firmware/size.txt";
 
@@ -24,9 +21,11 @@ pub fn run(steps: &mut Steps) {
             rows.map(|(row, (what, most))| Ok((what, footprint(row, most)?))).collect();
         let table = sizes::write(&rows?);
         println!("{table}");
-        let versions =
-            format!("{}, {}", Toolchain::find("thumbv7em-none-eabihf")?.version()?, emulator()?);
-        if record::compare(RECORD, &versions, &table, bless)? { quoted(&table) } else { Ok(()) }
+        if record::compare(RECORD, &record::versions()?, &table, bless)? {
+            quoted(&table)
+        } else {
+            Ok(())
+        }
     });
 }
 
@@ -46,7 +45,7 @@ fn footprint(row: &Row, most: u64) -> Result<Footprint, String> {
 /// moves constants by a few bytes.
 fn quoted(table: &str) -> Result<(), String> {
     const PAGE: &str = "docs/firmware.md";
-    let page = fs::read_to_string(root().join(PAGE)).map_err(|error| error.to_string())?;
+    let page = snapshot::read(PAGE)?;
     let head = table.lines().next().unwrap_or_default();
     let (_, shown) = page.split_once(head).ok_or(format!("{PAGE} does not show the table"))?;
     let shown: Vec<_> = shown.lines().take(table.lines().count()).collect();

@@ -4,13 +4,17 @@ use std::fs;
 
 use signorini_image::cargo::root;
 
+/// The text of a file below the root.
+pub fn read(path: &str) -> Result<String, String> {
+    fs::read_to_string(root().join(path)).map_err(|error| format!("{path}: {error}"))
+}
+
 /// `Ok` where the file at `path` holds `text`.
 pub fn snapshot(path: &str, text: &str, bless: bool) -> Result<(), String> {
-    let file = root().join(path);
     if bless {
         return write(path, text);
     }
-    let recorded = fs::read_to_string(&file).map_err(|error| format!("{path}: {error}"))?;
+    let recorded = read(path)?;
     // Git may have given the lines other ends.
     let pairs = recorded.lines().map(Some).chain([None]).zip(text.lines().map(Some).chain([None]));
     match pairs.enumerate().find(|(_, (old, new))| old != new) {

@@ -4,13 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::toolchain::output;
+use crate::objects::{Symbol, run, symbols};
 
 /// Constants of the build that the library does not have: their sizes are what they tell.
 const SIZES: [&str; 2] = ["size_of_state", "size_of_report"];
-
-/// What every C compiler may call, and every C library has.
-const OF_C: [&str; 4] = ["memcpy", "memmove", "memset", "memcmp"];
 
 /// The programs that take objects apart and put them together.
 pub(crate) struct Binutils {
@@ -24,10 +21,7 @@ impl Binutils {
     }
 
     fn run(&self, command: &mut Command) -> Result<String, String> {
-        output(command).map_err(|why| match self.prefix {
-            "" => format!("{why}; it belongs to what Debian calls binutils"),
-            _ => why,
-        })
+        run(self.prefix, command)
     }
 
     /// The archive without LLVM's own copy of the code, which plugins of binutils take for it.
@@ -66,8 +60,7 @@ impl Binutils {
             hide.arg(format!("--keep-global-symbol={name}"));
         });
         self.run(hide.arg(&object))?;
-        let listing = self.run(self.command("nm").arg("-P").arg(&object))?;
-        needs_nothing(&listing).map(|()| object)
+        needs_nothing(&symbols(self.prefix, &object)?).map(|()| object)
     }
 
     /// The library.
@@ -89,40 +82,26 @@ impl Binutils {
         let object = folder.join(format!("{name}.sizes.o"));
         let names = SIZES.map(|own| format!("{name}_{own}"));
         self.linked(whole, &names, &object)?;
-        let listing = self.run(self.command("nm").arg("-P").arg(&object))?;
+        let found = symbols(self.prefix, &object)?;
         let size = |name: &String| {
-            size_of_symbol(&listing, name)
-                .ok_or_else(|| format!("the library does not tell {name}"))
+            let symbol = found.iter().find(|symbol| symbol.name == *name && symbol.size > 0);
+            symbol
+                .map(|symbol| symbol.size as usize)
+                .ok_or(format!("the library does not tell {name}"))
         };
         Ok([size(&names[0])?, size(&names[1])?])
     }
 }
 
 /// `Ok` where no symbol is undefined but what every C library has.
-fn needs_nothing(listing: &str) -> Result<(), String> {
-    let undefined = listing.lines().filter_map(|line| {
-        let (name, kind) = line.split_once(' ')?;
-        kind.starts_with('U').then_some(name)
-    });
-    let known = |name: &&str| {
-        let plain = name.strip_prefix("__aeabi_").unwrap_or(name).trim_end_matches(['4', '8']);
-        OF_C.contains(&plain) || plain == "memclr"
-    };
-    match undefined.into_iter().find(|name| !known(name)) {
-        None => Ok(()),
-        Some(name) if name.contains("panic") => {
-            Err(format!("the library can panic: it asks for {name}; this is a fault of signorini"))
-        }
-        Some(name) => Err(format!(
-            "the library needs {name}, which no C library has; this is a fault of signorini"
-        )),
-    }
-}
-
-/// The size that `nm -P` tells of a symbol.
-fn size_of_symbol(listing: &str, name: &str) -> Option<usize> {
-    let line = listing.lines().find(|line| line.split(' ').next() == Some(name))?;
-    usize::from_str_radix(line.split_whitespace().nth(3)?, 16).ok()
+fn needs_nothing(symbols: &[Symbol]) -> Result<(), String> {
+    let mut undefined = symbols.iter().filter(|symbol| symbol.is_asked() && !symbol.is_of_c());
+    let Some(Symbol { name, .. }) = undefined.next() else { return Ok(()) };
+    let fault = "this is a fault of signorini";
+    Err(match name.contains("panic") {
+        true => format!("the library can panic: it asks for {name}; {fault}"),
+        false => format!("the library needs {name}, which no C library has; {fault}"),
+    })
 }
 
 #[cfg(test)]
@@ -131,17 +110,14 @@ mod tests {
 
     #[test]
     fn what_a_library_needs_is_read_from_its_symbols() {
-        let listing = "levee_tick T 0 8c\nmemcpy U         \n__aeabi_memclr4 U         \n__aeabi_memcpy8 U \n";
-        assert_eq!(needs_nothing(listing), Ok(()));
-        let panics = "levee_tick T 0 8c\na_panic_path_is_reachable U         \n";
-        assert!(needs_nothing(panics).is_err_and(|why| why.contains("can panic")));
-        assert!(needs_nothing("malloc U \n").is_err_and(|why| why.contains("malloc")));
-    }
-
-    #[test]
-    fn sizes_are_those_of_symbols() {
-        let listing = "levee_size_of_report B 0 3c\nlevee_size_of_state R 1c 0278\n";
-        assert_eq!(size_of_symbol(listing, "levee_size_of_state"), Some(0x278));
-        assert_eq!(size_of_symbol(listing, "levee_size"), None);
+        let needs = |asked: &[&str]| {
+            let symbol = |&name: &&str| Symbol { name: name.to_owned(), kind: 'U', size: 0 };
+            let shown = Symbol { name: "levee_tick".to_owned(), kind: 'T', size: 0x8c };
+            needs_nothing(&asked.iter().map(symbol).chain([shown]).collect::<Vec<_>>())
+        };
+        assert_eq!(needs(&["memcpy", "__aeabi_memclr4", "__aeabi_memcpy8"]), Ok(()));
+        let panics = needs(&["a_panic_path_is_reachable"]);
+        assert!(panics.is_err_and(|why| why.contains("can panic")));
+        assert!(needs(&["malloc"]).is_err_and(|why| why.contains("malloc")));
     }
 }

@@ -1,7 +1,7 @@
 //! What a scene costs on a board, and whether it is right there: `firmware.json`.
 
 use std::collections::BTreeMap;
-use std::fmt::{self, Write as _};
+use std::fmt::Write as _;
 use std::thread;
 
 use serde::Serialize;
@@ -10,9 +10,8 @@ use crate::board::Board;
 use crate::chosen::{Ranges, WorstCase};
 use crate::footprint::Footprint;
 use crate::module::Module;
-use crate::room::NoImage;
-use crate::ticks::{Ticks, text};
-use crate::values::Values;
+use crate::room::NoResult;
+use crate::ticks::{Ticks, Values, text};
 use crate::worst::{WorstStart, WorstTick, without_range};
 
 /// Ticks that both programs play.
@@ -92,17 +91,6 @@ pub struct Firmware {
     refused: Option<String>,
 }
 
-/// Why there is no result.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum NoResult {
-    /// There is no image.
-    NoImage(NoImage),
-    /// A tick takes longer than the board can count.
-    BeyondCounter,
-    /// A program failed, and what it said.
-    Failed(String),
-}
-
 impl Firmware {
     /// Builds both programs of `module`, runs them, and measures the image.
     ///
@@ -162,7 +150,6 @@ impl Firmware {
         let names = self.outputs.0.iter().map(|(name, _)| name.chars().count());
         let width = names.max().unwrap_or(0).max(12);
         let _ = writeln!(table, "  {:<width$}  {:>24}{:>24}", "first tick", "board", "desk");
-        let digits = |value: Option<f64>| value.map_or("null".to_owned(), |x| format!("{x:?}"));
         for ((name, board), (_, desk)) in self.outputs.0.iter().zip(&self.host_outputs.0) {
             let (board, desk) = (digits(*board), digits(*desk));
             let off = self.output_bounds.get(name).and_then(Option::as_ref);
@@ -185,13 +172,10 @@ impl Firmware {
     fn worst(&self) -> String {
         let mut text = String::new();
         if let Some(WorstTick { tick, inputs, .. }) = &self.worst_tick {
-            let value = |value: &Option<f64>| value.map_or("null".to_owned(), |x| format!("{x:?}"));
-            let inputs = inputs.0.iter().map(|(name, x)| format!("{name} = {}", value(x)));
-            let inputs: Vec<_> = inputs.collect();
-            let at = if inputs.is_empty() {
-                String::new()
-            } else {
-                format!(", at {}", inputs.join(", "))
+            let inputs = inputs.0.iter().map(|(name, x)| format!("{name} = {}", digits(*x)));
+            let at = match inputs.collect::<Vec<_>>().join(", ") {
+                none if none.is_empty() => none,
+                inputs => format!(", at {inputs}"),
             };
             let _ = writeln!(text, "  the most at tick {tick}{at}");
         }
@@ -260,6 +244,10 @@ impl Firmware {
     }
 }
 
+fn digits(value: Option<f64>) -> String {
+    value.map_or("null".to_owned(), |x| format!("{x:?}"))
+}
+
 /// The intervals of the first tick; `of` says of each output what it is the value of.
 fn bounds(names: &[String], said: &Ticks, of: &[String]) -> BTreeMap<String, Option<OutputBound>> {
     let values = said.outputs().into_iter().zip(said.plus_minus());
@@ -281,28 +269,4 @@ fn instructions(board: &Ticks) -> Result<Instructions, NoResult> {
     let all = first.zip(median).zip(max);
     let ((first, median), max) = all.ok_or_else(|| "a tick was not counted".to_owned())?;
     Ok(Instructions { first, median, max })
-}
-
-impl From<NoImage> for NoResult {
-    fn from(why: NoImage) -> Self {
-        Self::NoImage(why)
-    }
-}
-
-impl From<String> for NoResult {
-    fn from(why: String) -> Self {
-        Self::Failed(why)
-    }
-}
-
-impl fmt::Display for NoResult {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoImage(why) => why.fmt(f),
-            Self::BeyondCounter => {
-                f.write_str("a tick takes longer than the board's counter can count")
-            }
-            Self::Failed(why) => f.write_str(why),
-        }
-    }
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::sections::section;
+use crate::objects::sections;
 use crate::ticks::Ticks;
 
 /// Bytes that stand in an image.
@@ -22,10 +22,17 @@ impl Statics {
     /// # Errors
     /// A section that it lacks.
     pub fn of(image: &Path) -> Result<Self, String> {
-        let sum = |names: &[&str]| names.iter().map(|name| section(image, name)).sum();
-        let ram: Result<u64, String> = sum(&[".data", ".bss", ".uninit"]);
-        let data: Result<u64, String> = sum(&[".vector_table", ".rodata", ".data"]);
-        Ok(Self { code: section(image, ".text")?, data: data?, ram: ram? })
+        let found = sections(image)?;
+        let of = |name: &str| {
+            let section = found.iter().find(|(section, _)| section == name).map(|(_, size)| *size);
+            section.ok_or_else(|| format!("{} has no section {name}", image.display()))
+        };
+        let data = of(".data")?;
+        Ok(Self {
+            code: of(".text")?,
+            data: of(".vector_table")? + of(".rodata")? + data,
+            ram: data + of(".bss")? + of(".uninit")?,
+        })
     }
 
     /// Bytes of flash.

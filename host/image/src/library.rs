@@ -15,6 +15,7 @@ use crate::binutils::Binutils;
 use crate::board::{Board, Build, M4, M4F, M7};
 use crate::cargo::{build, cargo, root, target_dir};
 use crate::lock;
+use crate::objects::ARM;
 use crate::tools;
 
 const PACKAGE: &str = "signorini-c";
@@ -142,7 +143,7 @@ impl<'a> Bench<'a> {
         let turn = lock::hold(&folder.join("lock"))?;
         let scene = folder.join("scene.rs");
         fs::write(&scene, module).map_err(|error| format!("{}: {error}", scene.display()))?;
-        let tools = Binutils { prefix: if on.board.is_some() { "arm-none-eabi-" } else { "" } };
+        let tools = Binutils { prefix: if on.board.is_some() { ARM } else { "" } };
         Ok(Self { tools, features, name, on, folder, scene, _turn: turn })
     }
 

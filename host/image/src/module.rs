@@ -14,7 +14,7 @@ use crate::cargo::{build, cargo, root, target_dir};
 use crate::chosen::Chosen;
 use crate::lock;
 use crate::once::Once;
-use crate::room::NoImage;
+use crate::room::NoResult;
 use crate::ticks::Ticks;
 use crate::toolchain::output;
 
@@ -71,10 +71,10 @@ impl Module {
     ///
     /// # Errors
     /// No room on the board, a build that fails.
-    pub fn image(&self, board: &Board) -> Result<PathBuf, NoImage> {
+    pub fn image(&self, board: &Board) -> Result<PathBuf, NoResult> {
         let linked = self.linked("scene", board, &[]);
         linked.map_err(|why| {
-            NoImage::of(board, why, || self.linked("scene", &board.boundless(), &[]))
+            NoResult::of(board, why, || self.linked("scene", &board.boundless(), &[]))
         })
     }
 
@@ -92,10 +92,9 @@ impl Module {
     ///
     /// # Errors
     /// No image; it fails.
-    pub fn on_board(&self, board: &Board) -> Result<Ticks, NoImage> {
+    pub fn on_board(&self, board: &Board) -> Result<Ticks, NoResult> {
         let image = self.image(board)?;
-        let ticks = self.ticks.get(board.name, || Ok(Ticks::parse(&board.run(&image, true)?)));
-        ticks.map_err(NoImage::Failed)
+        self.ticks.get(board.name, || Ok(Ticks::parse(&board.run(&image, true)?)))
     }
 
     /// The ticks that this machine plays.

@@ -1,5 +1,8 @@
 //! What the two programs print: lines that must be equal, and notes (`@ …`) that are each machine's own.
 
+use serde::ser::SerializeMap as _;
+use serde::{Serialize, Serializer};
+
 /// The ticks of one machine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ticks {
@@ -91,6 +94,26 @@ pub fn text(digits: &str) -> String {
     let byte = |at| digits.get(at..at + 2).and_then(|byte| u8::from_str_radix(byte, 16).ok());
     let bytes: Vec<u8> = (0..digits.len()).step_by(2).filter_map(byte).collect();
     String::from_utf8_lossy(&bytes).into_owned()
+}
+
+/// Values by name, in their order, as `firmware.json` has them; null where one is no number.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Values(pub Vec<(String, Option<f64>)>);
+
+impl Values {
+    /// Each name with its value; null where there is none.
+    pub fn new(names: &[String], values: impl IntoIterator<Item = Option<f64>>) -> Self {
+        let mut values = values.into_iter();
+        Self(names.iter().map(|name| (name.clone(), values.next().flatten())).collect())
+    }
+}
+
+impl Serialize for Values {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        self.0.iter().try_for_each(|(name, value)| map.serialize_entry(name, value))?;
+        map.end()
+    }
 }
 
 #[cfg(test)]

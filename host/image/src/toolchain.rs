@@ -84,6 +84,16 @@ fn sysroot(rustc: impl AsRef<Path>) -> Option<PathBuf> {
     Some(PathBuf::from(root.trim()))
 }
 
+/// The triple of this machine.
+///
+/// # Errors
+/// No rustc, or one that names none.
+pub fn host() -> Result<String, String> {
+    let about = output(Command::new("rustc").arg("-vV"))?;
+    let host = about.lines().find_map(|line| line.strip_prefix("host: "));
+    host.map(str::to_owned).ok_or_else(|| "rustc -vV names no host".to_owned())
+}
+
 /// Standard output of a command that succeeds.
 ///
 /// # Errors

@@ -28,21 +28,15 @@ const C_PROGRAMS: [&str; 6] =
 /// What is missing, and what to do about it.
 pub fn ensure_for_c() -> Result<(), String> {
     ensure()?;
-    let Err(why) = missing_for_c() else { return Ok(()) };
-    install_packages(&C_PACKAGES).map_err(|remedy| format!("{why}; {remedy}"))?;
-    missing_for_c()
-}
-
-fn missing_for_c() -> Result<(), String> {
-    for program in C_PROGRAMS {
-        output(Command::new(program).arg("--version"))?;
-    }
-    // GCC says where a file of the C library is, or just its name.
-    let specs = output(Command::new("arm-none-eabi-gcc").arg("-print-file-name=nano.specs"))?;
-    match Path::new(specs.trim()).is_absolute() {
-        true => Ok(()),
-        false => Err("arm-none-eabi-gcc has no C library".to_owned()),
-    }
+    ensured(&C_PACKAGES, || {
+        answer(&C_PROGRAMS)?;
+        // GCC says where a file of the C library is, or just its name.
+        let specs = output(Command::new("arm-none-eabi-gcc").arg("-print-file-name=nano.specs"))?;
+        match Path::new(specs.trim()).is_absolute() {
+            true => Ok(()),
+            false => Err("arm-none-eabi-gcc has no C library".to_owned()),
+        }
+    })
 }
 
 /// `Ok` where all tools are there, installed just now where need be and possible.
@@ -50,9 +44,28 @@ fn missing_for_c() -> Result<(), String> {
 /// # Errors
 /// What is missing, and what to do about it.
 pub fn ensure() -> Result<(), String> {
-    let Err(why) = missing() else { return Ok(()) };
-    install_packages(&PACKAGES).map_err(|remedy| format!("{why}; {remedy}"))?;
-    missing()
+    ensured(&PACKAGES, || {
+        TRIPLES.iter().try_for_each(|triple| Toolchain::find(triple).map(drop))?;
+        answer(&PROGRAMS)
+    })
+}
+
+/// `Ok` where `is_there` says so, before or after these packages of Debian are installed.
+///
+/// # Errors
+/// What is missing, and what to do about it.
+pub fn ensured(packages: &[&str], is_there: impl Fn() -> Result<(), String>) -> Result<(), String> {
+    let Err(why) = is_there() else { return Ok(()) };
+    install_packages(packages).map_err(|remedy| format!("{why}; {remedy}"))?;
+    is_there()
+}
+
+/// `Ok` where each of these programs tells its version.
+///
+/// # Errors
+/// The first that does not.
+pub fn answer(programs: &[&str]) -> Result<(), String> {
+    programs.iter().try_for_each(|program| output(Command::new(program).arg("--version")).map(drop))
 }
 
 /// Installs packages of Debian; `Err` with what to do where that is not possible.
@@ -78,14 +91,4 @@ pub fn install_packages(packages: &[&str]) -> Result<(), String> {
     };
     apt(&["update"])?;
     apt(&[&["install", "-y", "--no-install-recommends"], packages].concat())
-}
-
-fn missing() -> Result<(), String> {
-    for triple in TRIPLES {
-        Toolchain::find(triple)?;
-    }
-    for program in PROGRAMS {
-        output(Command::new(program).arg("--version"))?;
-    }
-    Ok(())
 }

@@ -3,8 +3,7 @@
 use serde::Serialize;
 
 use crate::chosen::WorstCase;
-use crate::ticks::{Ticks, text};
-use crate::values::Values;
+use crate::ticks::{Ticks, Values, text};
 
 /// A tick and what it was given.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -2,11 +2,11 @@
 //! their time so far.
 
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use crate::error::{Result, failed};
+use crate::error::Result;
 use crate::mutant::Mutant;
+use crate::shared::each;
 use crate::suite::{Ended, Test};
 
 /// The fate of a mutant.
@@ -61,22 +61,7 @@ impl<'a> Judge<'a> {
 
     /// Judges mutants that have a switch, several at a time; the outcomes are in the same order.
     pub fn all(&self, mutants: &[&Mutant], workers: usize) -> Result<Vec<(Outcome, String)>> {
-        let next = AtomicUsize::new(0);
-        let outcomes = Mutex::new(vec![None; mutants.len()]);
-        std::thread::scope(|scope| {
-            for _ in 0..workers {
-                scope.spawn(|| {
-                    loop {
-                        let at = next.fetch_add(1, Ordering::Relaxed);
-                        let Some(mutant) = mutants.get(at) else { break };
-                        let outcome = self.one(mutant).ok();
-                        outcomes.lock().unwrap()[at] = outcome;
-                    }
-                });
-            }
-        });
-        let outcomes = outcomes.into_inner()?.into_iter();
-        outcomes.collect::<Option<_>>().ok_or_else(|| failed("a test could not be run"))
+        each(mutants, workers, |_, mutant| self.one(mutant))
     }
 
     /// The outcome and the test that decided.

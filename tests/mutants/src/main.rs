@@ -13,6 +13,7 @@ mod edits;
 mod error;
 mod judge;
 mod mutant;
+mod shared;
 mod suite;
 mod switch;
 mod tree;

@@ -4,13 +4,12 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use serde::Deserialize;
 
 use crate::error::{Result, failed};
+use crate::shared::each;
 
 /// The crates of the kernel, with the tests that judge: those that need the host would take minutes to build, and kill
 /// no more.
@@ -55,28 +54,11 @@ pub enum Ended {
 /// Builds and measures; the fastest test is the first.
 pub fn suite(tree: &Path, target: &Path, workers: usize) -> Result<Vec<Test>> {
     let tests = list(tree, target)?;
-    let (next, measured) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
-    let problem = Mutex::new(None);
-    std::thread::scope(|scope| {
-        for worker in 0..workers {
-            let (next, measured, problem, tests) = (&next, &measured, &problem, &tests);
-            let reached = target.join(format!("reached-{worker}"));
-            scope.spawn(move || {
-                while let Some(test) = tests.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    match measure(test, &reached) {
-                        Ok(Some(test)) => measured.lock().unwrap().push(test),
-                        Ok(None) => {}
-                        Err(error) => *problem.lock().unwrap() = Some(error.to_string()),
-                    }
-                }
-            });
-        }
-    });
-    if let Some(problem) = problem.into_inner()? {
-        return Err(failed(problem));
-    }
-    let mut measured = measured.into_inner()?;
-    measured.sort_by_key(|test: &Test| test.takes);
+    let measured = each(&tests, workers, |worker, test| {
+        measure(test, &target.join(format!("reached-{worker}")))
+    })?;
+    let mut measured: Vec<Test> = measured.into_iter().flatten().collect();
+    measured.sort_by_key(|test| test.takes);
     Ok(measured)
 }
 

@@ -14,14 +14,13 @@ use std::path::Path;
 use std::process::Command;
 
 use super::package::{Package, write};
-use super::program::{play, sources};
+use super::program::played;
 use crate::modules::{ROWS, Row};
 use crate::record;
 use crate::steps::Steps;
-use signorini_image::board::{M4F_192K, emulator};
+use signorini_image::board::M4F_192K;
 use signorini_image::library::Library;
-use signorini_image::ticks::Ticks;
-use signorini_image::toolchain::{Toolchain, first_words, output};
+use signorini_image::toolchain::output;
 
 const RECORD: &str = "tests/firmware/c.txt";
 
@@ -60,9 +59,10 @@ pub fn run(steps: &mut Steps) {
         if !wrong.is_empty() {
             return Err(format!("{}; {MOST} are allowed", wrong.join("; ")));
         }
+        let versions = record::versions_with_gcc()?;
         match count {
-            1 => record::compare_part(RECORD, &versions()?, &table),
-            _ => record::compare(RECORD, &versions()?, &table, bless),
+            1 => record::compare_part(RECORD, &versions, &table),
+            _ => record::compare(RECORD, &versions, &table, bless),
         }
         .map(drop)
     });
@@ -137,9 +137,8 @@ fn median(counts: &[i64]) -> i64 {
 
 /// Instructions of each tick.
 fn counts(package: &Package, library: &Path, call: &str, ticks: usize) -> Result<Vec<i64>, String> {
-    let memory = sources().join("netduinoplus2.ld");
-    let image = play(package, library, &[call, &format!("-DTICKS={ticks}")], &memory, &M4F_192K)?;
-    let counts = Ticks::parse(&M4F_192K.run(&image, true)?).numbers("instructions")?;
+    let defines = [call, &format!("-DTICKS={ticks}")];
+    let counts = played(package, library, &defines, &M4F_192K)?.numbers("instructions")?;
     match counts.len() == ticks {
         true => Ok(counts.iter().map(|&count| count as i64).collect()),
         false => Err(format!("{} of {ticks} ticks are counted", counts.len())),
@@ -155,12 +154,6 @@ fn flash(library: &Path) -> Result<u64, String> {
         (Some(text), Some(data)) => Ok(text + data),
         _ => Err(format!("`{line}` has no sizes")),
     }
-}
-
-fn versions() -> Result<String, String> {
-    let rustc = Toolchain::find("thumbv7em-none-eabihf")?.version()?;
-    let gcc = output(Command::new("arm-none-eabi-gcc").arg("-dumpfullversion"))?;
-    Ok(format!("{rustc}, {}, GCC {}", emulator()?, first_words(&gcc, 1)))
 }
 
 #[cfg(test)]

@@ -1,12 +1,11 @@
 //! The program that a bake writes beside a library, as its user builds and runs it: by CMake, to its end.
 
-use std::fs;
 use std::process::Command;
 
 use super::package::Package;
+use super::program::configure;
 use crate::modules::row;
 use crate::steps::Steps;
-use signorini_image::toolchain::output;
 
 /// What it says last: 40 steps, one of which hangs on a board, until the watchdog resets it.
 const LAST: [(&str, &str); 3] = [
@@ -34,9 +33,7 @@ pub fn run(steps: &mut Steps) {
 
 fn check(package: &Package, word: &str, last: &str) -> Result<(), String> {
     let build = package.folder.join("build");
-    let _ = fs::remove_dir_all(&build);
-    let mut configure = Command::new("cmake");
-    output(configure.arg("-S").arg(package.folder.join("example")).arg("-B").arg(&build))?;
+    configure(&package.folder.join("example"), &build, &[])?;
     let mut run = Command::new("timeout");
     run.args([LIMIT, "cmake", "--build"]).arg(&build).args(["--target", "run"]);
     let ran = run.output().map_err(|error| format!("timeout: {error}"))?;

@@ -5,6 +5,7 @@ use std::process::Command;
 
 use super::package::{Package, machine};
 use super::program::{WARNINGS, sources};
+use crate::caught::caught;
 use crate::modules::row;
 use crate::steps::Steps;
 use signorini_image::library::{MACHINES, Machine};
@@ -86,10 +87,6 @@ fn refusals() -> Result<(), String> {
 
 fn refused(word: &str, arm: bool, flags: &[&str]) -> Result<(), String> {
     let told = compile_for(&both(machine(word)?)?, arm, flags, "c99");
-    let what = flags.join(" ");
-    match told {
-        Err(why) if why.contains("liblevee.a is built for: ") => Ok(()),
-        Err(why) => Err(format!("{word} with {what}: refused for another reason: {why}")),
-        Ok(()) => Err(format!("{word} with {what}: not refused")),
-    }
+    let judged = caught(told, &["liblevee.a is built for: "]);
+    judged.map_err(|why| format!("{word} with {}: {why}", flags.join(" ")))
 }

@@ -1,10 +1,9 @@
 //! Several controllers in one program, found by CMake: states that are saved, damaged, exchanged and refused.
 
-use std::fs;
 use std::process::Command;
 
 use super::package::{folder, machine};
-use super::program::sources;
+use super::program::{configure, sources};
 use crate::modules::ROWS;
 use crate::steps::Steps;
 use signorini_image::cargo::root;
@@ -30,18 +29,18 @@ fn check(word: &str) -> Result<(), String> {
     let packages = packages.into_iter().map(|row| row?.package(word));
     let packages: Vec<_> = packages.collect::<Result<_, String>>()?;
     let build = folder().join(word).join("states");
-    let _ = fs::remove_dir_all(&build);
     let places: Vec<_> =
         packages.iter().map(|package| package.folder.display().to_string()).collect();
-    let mut configure = Command::new("cmake");
-    configure.arg("-S").arg(sources()).arg("-B").arg(&build);
-    configure.arg(format!("-DPACKAGES={}", places.join(";")));
-    configure.arg(format!("-DPEERS={}", root().join("tests/firmware/peers").display()));
+    let mut defines = vec![
+        format!("-DPACKAGES={}", places.join(";")),
+        format!("-DPEERS={}", root().join("tests/firmware/peers").display()),
+    ];
     if machine.board.is_some() {
         let toolchain = packages[0].folder.join("example/toolchain.cmake");
-        configure.arg("-DBOARD=ON").arg(format!("-DCMAKE_TOOLCHAIN_FILE={}", toolchain.display()));
+        let toolchain = format!("-DCMAKE_TOOLCHAIN_FILE={}", toolchain.display());
+        defines.extend(["-DBOARD=ON".to_owned(), toolchain]);
     }
-    output(&mut configure)?;
+    configure(&sources(), &build, &defines)?;
     let mut make = Command::new("cmake");
     // What a compiler says goes to either of the two.
     output(make.arg("--build").arg(&build).args(["--", "--no-print-directory"]))?;

@@ -15,12 +15,13 @@ mod target;
 
 use std::process::{Command, ExitCode};
 
+use crate::command::command;
 use crate::steps::{Steps, Tally};
 use options::{HELP, Options};
 use record::Record;
 use signorini_image::cargo::{cargo, run as run_command, target_dir};
-use signorini_image::toolchain::output;
-use signorini_image::tools::install_packages;
+use signorini_image::toolchain::{host, output};
+use signorini_image::tools::{answer, ensured};
 use target::{Run, Target};
 
 /// Executions of each target where nothing else is asked for.
@@ -40,24 +41,7 @@ const FLAGS: &str = "-Cpasses=sancov-module \
 
 /// The verb.
 pub fn run(words: &[&str]) -> ExitCode {
-    if words.iter().any(|word| ["--help", "-h"].contains(word)) {
-        print!("{HELP}");
-        return ExitCode::SUCCESS;
-    }
-    let options = match Options::parse(words) {
-        Ok(options) => options,
-        Err(why) => {
-            eprintln!("error: {why}\n\n{HELP}");
-            return ExitCode::from(2);
-        }
-    };
-    match fuzz(&options) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(why) => {
-            eprintln!("error: {why}");
-            ExitCode::FAILURE
-        }
-    }
+    command(words, HELP, Options::parse, |options| Ok(fuzz(&options)?))
 }
 
 /// Corpora and found cases, and a bounded run of each target, as a step of `cargo xtask test`.
@@ -94,22 +78,12 @@ fn fuzz(options: &Options) -> Result<(), String> {
 }
 
 fn build() -> Result<(), String> {
-    let has_compiler = || output(Command::new("c++").arg("--version"));
-    if let Err(why) = has_compiler() {
-        install_packages(&["g++"]).map_err(|remedy| format!("{why}; {remedy}"))?;
-        has_compiler()?;
-    }
+    ensured(&["g++"], || answer(&["c++"]))?;
     let mut command = cargo(&["build", "--release", "--locked", "--manifest-path", MANIFEST]);
+    // Named, the target keeps the flags from build scripts.
     command.env("RUSTFLAGS", FLAGS).args(["--target", &host()?, "--target-dir"]);
     command.arg(target_dir("fuzz"));
     run_command(command)
-}
-
-/// The triple of this machine: named, it keeps the flags from build scripts.
-fn host() -> Result<String, String> {
-    let about = output(Command::new("rustc").arg("-vV"))?;
-    let host = about.lines().find_map(|line| line.strip_prefix("host: "));
-    host.map(str::to_owned).ok_or_else(|| "rustc names no host".to_owned())
 }
 
 fn today() -> Result<String, String> {

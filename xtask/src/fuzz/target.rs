@@ -5,8 +5,8 @@ use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use super::host;
 use signorini_image::cargo::{root, target_dir};
+use signorini_image::toolchain::host;
 
 /// An entry function of `signorini_tests::hostile` under libFuzzer.
 #[derive(Debug, Clone, Copy)]

@@ -2,7 +2,6 @@
 //!
 //! Source files are read as syntax; tests within them may do as they like.
 
-mod answers;
 mod first_lines;
 mod rules;
 mod sources;

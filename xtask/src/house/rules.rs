@@ -1,9 +1,6 @@
 //! The rules. Each returns those that break it, by file and name.
 
-use syn::visit_mut::{self, VisitMut};
-
-use super::answers;
-use super::sources::{Source, beyond_one, found_in};
+use super::sources::{Function, Source};
 
 /// A rule.
 pub struct Rule {
@@ -15,152 +12,108 @@ pub struct Rule {
 
 /// The rules that hold.
 pub const RULES: [Rule; 6] = [
-    Rule { name: "one struct owns u, flux, status and bound", broken_by: answers::structs },
-    Rule { name: "a model has one session", broken_by: answers::sessions },
+    Rule { name: "one struct owns u, flux, status and bound", broken_by: answers },
+    Rule { name: "a model has one session", broken_by: sessions },
     Rule { name: "no text in bake holds Rust of a tick", broken_by: ticks_as_text },
     Rule { name: "solve does not know bake", broken_by: solve_with_bake },
     Rule { name: "one function decides what a parallelogram is", broken_by: parallelograms },
     Rule { name: "one function decides what an empty range of fluxes is", broken_by: empty_ranges },
 ];
 
+/// What is found in all files, by the file's path.
+fn found<'a>(
+    sources: impl IntoIterator<Item = &'a Source>,
+    of: impl Fn(&'a Source) -> Vec<String>,
+) -> Vec<String> {
+    let named = |source| of(source).into_iter().map(move |name| format!("{}: {name}", source.path));
+    sources.into_iter().flat_map(named).collect()
+}
+
+/// Those found, where there are more than one.
+fn beyond_one(found: Vec<String>) -> Vec<String> {
+    if found.len() > 1 { found } else { Vec::new() }
+}
+
+/// What an answer has, by the names that a field of it may have.
+const OF_AN_ANSWER: [&[&str]; 4] = [
+    &["u"],
+    &["flux", "fluxes", "tau"],
+    &["status", "ended"],
+    &["bound", "certificate", "verdict"],
+];
+
+/// Structs that own u, flux, status and bound, where there are more than one.
+fn answers(sources: &[Source]) -> Vec<String> {
+    let is_answer = |fields: &[String]| {
+        let has = |kind: &&[&str]| fields.iter().any(|name| kind.contains(&name.as_str()));
+        OF_AN_ANSWER.iter().all(has)
+    };
+    beyond_one(found(sources, |source| {
+        let own = source.structs.iter().filter(|(_, fields)| is_answer(fields));
+        own.map(|(name, _)| name.clone()).collect()
+    }))
+}
+
+/// The models, by the type that plays each over time.
+const SESSIONS: [&str; 4] = ["Condensed", "Full", "KernelTick", "Solves"];
+
+/// Sessions beside the one that each model has.
+fn sessions(sources: &[Source]) -> Vec<String> {
+    let found = found(sources, |source| {
+        let own = source.traits.iter().filter(|(of, _)| of == "Session");
+        own.map(|(_, name)| format!("Session for {name}")).collect()
+    });
+    let mut known = SESSIONS.to_vec();
+    let is_beside = |found: &String| {
+        let at = known.iter().position(|one| found.rsplit(' ').next() == Some(one));
+        at.map(|at| known.swap_remove(at)).is_none()
+    };
+    found.into_iter().filter(is_beside).collect()
+}
+
 /// Functions of a controller that are written once, in the kernel.
 const OF_A_TICK: [&str; 5] = ["tick", "tick_within", "reset", "advance", "solve"];
 
 /// Texts of bake with a function of a tick in them.
 fn ticks_as_text(sources: &[Source]) -> Vec<String> {
-    let bake: Vec<_> =
-        sources.iter().filter(|source| source.path.starts_with("host/bake/")).cloned().collect();
-    found_in(&bake, |texts: Texts| texts.0)
-}
-
-#[derive(Default)]
-struct Texts(Vec<String>);
-
-impl VisitMut for Texts {
-    fn visit_lit_str_mut(&mut self, text: &mut syn::LitStr) {
-        self.look_at(&text.value());
-    }
-
-    /// Texts within macros are tokens.
-    fn visit_macro_mut(&mut self, of: &mut syn::Macro) {
-        let words = of.tokens.to_string();
-        words.split('"').skip(1).step_by(2).for_each(|text| self.look_at(text));
-    }
-
-    /// Documentation is text, too.
-    fn visit_attribute_mut(&mut self, _: &mut syn::Attribute) {}
-}
-
-impl Texts {
-    fn look_at(&mut self, text: &str) {
-        let names = text.split("fn ").skip(1).filter_map(|rest| {
+    let bake = sources.iter().filter(|source| source.path.starts_with("host/bake/"));
+    found(bake, |source| {
+        let names = source.texts.iter().flat_map(|text| text.split("fn ").skip(1));
+        let names = names.filter_map(|rest| {
             rest.split(|letter: char| !letter.is_alphanumeric() && letter != '_').next()
         });
         let of_a_tick = names.filter(|name| OF_A_TICK.contains(name));
-        self.0.extend(of_a_tick.map(|name| format!("a text has `fn {name}`")));
-    }
+        of_a_tick.map(|name| format!("a text has `fn {name}`")).collect()
+    })
 }
 
 /// Files of the solver, and of its command, that name bake.
 fn solve_with_bake(sources: &[Source]) -> Vec<String> {
-    let solve: Vec<_> = sources
-        .iter()
-        .filter(|source| {
-            source.path.starts_with("host/solve/") || source.path == "host/src/cli/solve.rs"
-        })
-        .cloned()
-        .collect();
-    found_in(&solve, |named: Bake| named.0.into_iter().take(1).collect())
-}
-
-#[derive(Default)]
-struct Bake(Vec<String>);
-
-impl VisitMut for Bake {
-    fn visit_ident_mut(&mut self, name: &mut syn::Ident) {
-        if name == "signorini_bake" {
-            self.0.push(name.to_string());
-        }
-    }
+    let solve = sources.iter().filter(|source| {
+        source.path.starts_with("host/solve/") || source.path == "host/src/cli/solve.rs"
+    });
+    found(solve, |source| source.names.get("signorini_bake").cloned().into_iter().collect())
 }
 
 /// Functions that answer whether a cell is a parallelogram.
 fn parallelograms(sources: &[Source]) -> Vec<String> {
-    let decides = |function: &Function| function.answers && function.name.contains("parallelogram");
-    beyond_one(functions(sources, decides))
+    beyond_one(functions(sources, |function| {
+        function.is_predicate && function.name.contains("parallelogram")
+    }))
 }
 
 /// Functions that refuse a range of fluxes as empty and do not ask the kernel's `settled`.
 fn empty_ranges(sources: &[Source]) -> Vec<String> {
-    functions(sources, |function| function.decides)
-}
-
-fn functions(sources: &[Source], is_asked: impl Fn(&Function) -> bool) -> Vec<String> {
-    found_in(sources, |all: Functions| {
-        all.0
-            .into_iter()
-            .filter(|function| is_asked(function))
-            .map(|function| function.name)
-            .collect()
+    functions(sources, |Function { body, .. }| {
+        body.made.contains("EmptyRange") && !body.names.contains("settled")
     })
 }
 
-/// A function and what it does.
-struct Function {
-    name: String,
-    /// Whether its answer is yes or no.
-    answers: bool,
-    /// Whether it refuses an empty range and asks no other function what that is.
-    decides: bool,
-}
-
-#[derive(Default)]
-struct Functions(Vec<Function>);
-
-impl Functions {
-    fn add(&mut self, signature: &syn::Signature, block: &syn::Block) {
-        let mut body = Body::default();
-        body.visit_block_mut(&mut block.clone());
-        let is_bool =
-            |of: &syn::Type| matches!(of, syn::Type::Path(path) if path.path.is_ident("bool"));
-        let answers = matches!(&signature.output, syn::ReturnType::Type(_, of) if is_bool(of));
-        self.0.push(Function {
-            name: signature.ident.to_string(),
-            answers,
-            decides: body.refuses && !body.asks,
-        });
-    }
-}
-
-impl VisitMut for Functions {
-    fn visit_item_fn_mut(&mut self, item: &mut syn::ItemFn) {
-        self.add(&item.sig, &item.block);
-    }
-
-    fn visit_impl_item_fn_mut(&mut self, item: &mut syn::ImplItemFn) {
-        self.add(&item.sig, &item.block);
-    }
-}
-
-/// What a function's body has.
-#[derive(Default)]
-struct Body {
-    /// An error of an empty range that is made.
-    refuses: bool,
-    /// A call of the function that decides what is one.
-    asks: bool,
-}
-
-impl VisitMut for Body {
-    /// An expression, and no pattern.
-    fn visit_expr_struct_mut(&mut self, made: &mut syn::ExprStruct) {
-        self.refuses |= made.path.segments.last().is_some_and(|last| last.ident == "EmptyRange");
-        visit_mut::visit_expr_struct_mut(self, made);
-    }
-
-    fn visit_ident_mut(&mut self, name: &mut syn::Ident) {
-        self.asks |= name == "settled";
-    }
+fn functions(sources: &[Source], is_asked: impl Fn(&Function) -> bool) -> Vec<String> {
+    found(sources, |source| {
+        let asked = source.functions.iter().filter(|function| is_asked(function));
+        asked.map(|function| function.name.clone()).collect()
+    })
 }
 
 #[cfg(test)]
@@ -223,5 +176,25 @@ mod tests {
         let second =
             "impl A { fn lo() -> R { if lo > hi { return Err(EmptyRange { contact: 0 }); } } }";
         assert_eq!(broken(empty_ranges, &[kernel[0], ("host/a.rs", second)]), ["host/a.rs: lo"]);
+    }
+
+    #[test]
+    fn a_second_answer_is_named() {
+        let one = ("host/a.rs", "struct A { u: V, flux: V, status: S, bound: B, sweeps: u32 }");
+        let part = ("host/b.rs", "struct B { u: V, flux: V, bound: B }");
+        assert_eq!(broken(answers, &[one, part]), Vec::<String>::new());
+        let second = ("kernel/c.rs", "mod a { struct C { ended: E, tau: V, u: V, verdict: B } }");
+        assert_eq!(broken(answers, &[one, part, second]), ["host/a.rs: A", "kernel/c.rs: C"]);
+    }
+
+    #[test]
+    fn a_second_session_is_named() {
+        let one = ("host/a.rs", "impl<R> Session for Full<R> {} impl Other for Full<u8> {}");
+        assert_eq!(broken(sessions, &[one]), Vec::<String>::new());
+        let second = ("host/b.rs", "impl crate::Session for Full<f32> {} impl Session for Fast {}");
+        assert_eq!(
+            broken(sessions, &[one, second]),
+            ["host/b.rs: Session for Full", "host/b.rs: Session for Fast"]
+        );
     }
 }

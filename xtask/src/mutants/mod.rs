@@ -10,10 +10,11 @@ use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
 
+use crate::command::command;
 use crate::counted::counted;
 use crate::steps::Steps;
 use record::{Record, Row, SOURCES, content, sources};
-use signorini_image::cargo::{cargo, root, run, run_with_lines, target_dir};
+use signorini_image::cargo::{cargo, root, run as run_cargo, run_with_lines, target_dir};
 use signorini_image::toolchain::output;
 use survivors::{Key, Survivors};
 
@@ -33,29 +34,24 @@ pub const MANIFEST: &str = "tests/mutants/Cargo.toml";
 const KILLED: usize = 95;
 
 /// The verb.
-pub fn command(words: &[&str]) -> ExitCode {
-    if words.iter().any(|word| ["--help", "-h"].contains(word)) {
-        print!("{HELP}");
-        return ExitCode::SUCCESS;
-    }
+pub fn run(words: &[&str]) -> ExitCode {
+    command(words, HELP, parse, |(force, named)| {
+        judge(&named, force)?;
+        Ok(check()?)
+    })
+}
+
+/// Whether all files are judged anew, and the files that are named.
+fn parse<'a>(words: &'a [&'a str]) -> Result<(bool, Vec<&'a str>), String> {
+    let is_source = |word: &str| {
+        let is_below = |folder: &&str| Path::new(word).starts_with(folder);
+        SOURCES.iter().any(is_below) && root().join(word).is_file()
+    };
     let (flags, named): (Vec<_>, Vec<&str>) = words.iter().partition(|word| word.starts_with('-'));
-    let wrong = flags.iter().find(|flag| **flag != "--force").copied().or_else(|| {
-        let is_source = |word: &&str| {
-            let is_below = |folder: &str| Path::new(word).starts_with(folder);
-            SOURCES.iter().any(|folder| is_below(folder)) && root().join(word).is_file()
-        };
-        named.iter().find(|word| !is_source(word)).copied()
-    });
-    if let Some(wrong) = wrong {
-        eprintln!("error: `{wrong}` is no source file of the kernel\n\n{HELP}");
-        return ExitCode::from(2);
-    }
-    match judge(&named, !flags.is_empty()).and_then(|()| check()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(why) => {
-            eprintln!("error: {why}");
-            ExitCode::FAILURE
-        }
+    let mut wrong = flags.iter().filter(|flag| **flag != "--force");
+    match wrong.next().or_else(|| named.iter().find(|word| !is_source(word))) {
+        Some(wrong) => Err(format!("`{wrong}` is no source file of the kernel")),
+        None => Ok((!flags.is_empty(), named)),
     }
 }
 
@@ -172,7 +168,7 @@ fn list(path: &Path) -> Result<(), String> {
     listing.args(crates.iter().flat_map(|name| ["--package", name]));
     if output(&mut cargo(&["mutants", "--version"])).is_err() {
         println!("installing cargo-mutants");
-        run(cargo(&["install", "--locked", "cargo-mutants"]))?;
+        run_cargo(cargo(&["install", "--locked", "cargo-mutants"]))?;
     }
     let json = output(&mut listing)?;
     fs::write(path, json).map_err(|error| format!("{}: {error}", path.display()))

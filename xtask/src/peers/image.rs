@@ -4,10 +4,9 @@ use std::path::Path;
 use std::process::Command;
 
 use super::sources::Code;
-use crate::symbols::sized;
 use signorini_image::board::{Build, M4F};
 use signorini_image::cargo::{root, run};
-use signorini_image::toolchain::output;
+use signorini_image::objects::{ARM, sections, symbols};
 
 /// Instructions a count of the board's clock.
 const UNIT: u64 = 40;
@@ -45,6 +44,14 @@ pub struct Measured {
     pub ticks: Vec<PeerTick>,
 }
 
+impl Measured {
+    /// x of every tick, a line each.
+    pub fn answers(&self) -> String {
+        let words = |tick: &PeerTick| tick.x.iter().map(|x| format!("{x:?} ")).collect::<String>();
+        self.ticks.iter().map(|tick| words(tick) + "\n").collect()
+    }
+}
+
 /// Builds and runs a peer.
 pub fn peer(name: &str, code: &Result<Code, String>, folder: &Path) -> Result<Measured, String> {
     let code = code.as_ref().map_err(Clone::clone)?;
@@ -70,7 +77,15 @@ pub fn peer(name: &str, code: &Result<Code, String>, folder: &Path) -> Result<Me
     link.args(["-lm", "-o"]).arg(&image);
     run(link)?;
     let (heap, ticks) = parse(&M4F.run(&image, true)?)?;
-    let [code, data, bss] = sections(&solver)?;
+    let sections = sections(&solver)?;
+    // Bytes of code, of initialised and of zeroed memory.
+    let [code, data, bss] = [".text", ".data", ".bss"].map(|kind| {
+        sections
+            .iter()
+            .filter(|(name, _)| name.starts_with(kind))
+            .map(|(_, size)| size)
+            .sum::<u64>()
+    });
     Ok(Measured { code, ram: data + bss + heap, ticks })
 }
 
@@ -90,7 +105,8 @@ pub fn kernel(folder: &Path, is_limited: bool) -> Result<Measured, String> {
     let own = |name: &str| {
         ["signorini_kernel", "signorini_contact", "5solve"].iter().any(|part| name.contains(part))
     };
-    let code = sized(&image)?.iter().filter(|(name, _)| own(name)).map(|(_, size)| size).sum();
+    let symbols = symbols(ARM, &image)?;
+    let code = symbols.iter().filter(|symbol| own(&symbol.name)).map(|symbol| symbol.size).sum();
     Ok(Measured { code, ram, ticks })
 }
 
@@ -109,19 +125,6 @@ fn tick(line: &str) -> Option<PeerTick> {
     let x: Option<_> = bits.split(' ').map(scalar).collect();
     // The clock says u32::MAX where it went round.
     (counts < u32::MAX).then_some(PeerTick { instructions: UNIT * u64::from(counts), x: x? })
-}
-
-/// Bytes of code, of initialised and of zeroed memory.
-fn sections(object: &Path) -> Result<[u64; 3], String> {
-    let table = output(Command::new("arm-none-eabi-size").arg("-A").arg(object))?;
-    let of = |kind: &str| {
-        let size = |line: &str| {
-            let mut words = line.split_whitespace();
-            words.next()?.starts_with(kind).then(|| words.next()?.parse::<u64>().ok())?
-        };
-        table.lines().filter_map(size).sum()
-    };
-    Ok([".text", ".data", ".bss"].map(of))
 }
 
 #[cfg(test)]

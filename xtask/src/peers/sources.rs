@@ -5,17 +5,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::python::environment;
 use signorini_image::cargo::{root, run, target_dir};
 use signorini_image::toolchain::output;
-use signorini_image::tools::install_packages;
 
 /// As `requirements.txt` pins them, with checksums.
 pub const VERSIONS: &str = "DAQP 0.7.2, OSQP 1.1.3";
 
 const DAQP: &str = "daqp-0.7.2";
-
-/// A compiler for ARM, its library, and what makes a Python environment.
-const PACKAGES: [&str; 3] = ["gcc-arm-none-eabi", "libnewlib-arm-none-eabi", "python3-venv"];
 
 /// What OSQP's generator imports and the metadata of DAQP's source asks for; none of it reaches a board.
 const TOOLS: [&str; 8] = [
@@ -40,36 +37,27 @@ pub struct Code {
     pub flags: &'static [&'static str],
 }
 
-/// The folder with the fetched sources and the Python environment.
+/// The folder with the fetched sources, and the Python that fetched them.
 #[derive(Debug, Clone)]
-pub struct Sources(PathBuf);
+pub struct Sources {
+    folder: PathBuf,
+    python: PathBuf,
+}
 
 impl Sources {
-    /// Installs and fetches what is not there yet.
+    /// Fetches what is not there yet.
     pub fn fetch() -> Result<Self, String> {
-        let missing = |program: &str| output(Command::new(program).arg("--version")).is_err();
-        let newlib = ["--specs=nosys.specs", "-print-file-name=libc.a"];
-        let newlib = output(Command::new("arm-none-eabi-gcc").args(newlib));
-        if missing("python3") || newlib.is_err() || newlib == Ok("libc.a\n".to_owned()) {
-            install_packages(&PACKAGES)?;
-        }
-        let sources = Self(target_dir("firmware").join("peers"));
-        let complete = sources.0.join("complete");
+        let folder = target_dir("firmware").join("peers");
+        fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
+        let python = environment("peers", &[&["--no-deps"][..], &TOOLS].concat(), &[])?;
+        let sources = Self { folder, python };
+        let complete = sources.folder.join("complete");
         if fs::read_to_string(&complete).ok().as_deref() != Some(VERSIONS) {
-            sources.python_environment()?;
+            println!("fetching {VERSIONS}");
             sources.pinned()?;
             fs::write(complete, VERSIONS).map_err(|error| error.to_string())?;
         }
         Ok(sources)
-    }
-
-    fn python_environment(&self) -> Result<(), String> {
-        fs::create_dir_all(&self.0).map_err(|error| error.to_string())?;
-        let mut command = Command::new("python3");
-        command.args(["-m", "venv", "--clear"]).arg(self.0.join("python"));
-        run(command)?;
-        let install = ["-m", "pip", "install", "--quiet", "--no-deps"];
-        self.python(install.into_iter().chain(TOOLS).map(OsStr::new))
     }
 
     /// DAQP as source, OSQP as a wheel, both with the checksums of `requirements.txt`.
@@ -77,24 +65,38 @@ impl Sources {
         let list = root().join("tests/firmware/peers/requirements.txt");
         let download = "-m pip download --quiet --no-deps --no-build-isolation --require-hashes";
         let download = download.split(' ').chain(["--no-binary", "daqp", "--only-binary", "osqp"]);
-        let places = [OsStr::new("-r"), list.as_os_str(), OsStr::new("-d"), self.0.as_os_str()];
+        let folder = self.folder.as_os_str();
+        let places = [OsStr::new("-r"), list.as_os_str(), OsStr::new("-d"), folder];
         self.python(download.map(OsStr::new).chain(places))?;
         let offline = "-m pip install --quiet --no-deps --no-index osqp --find-links";
-        self.python(offline.split(' ').map(OsStr::new).chain([self.0.as_os_str()]))?;
+        self.python(offline.split(' ').map(OsStr::new).chain([folder]))?;
         let mut unpack = Command::new("tar");
-        unpack.arg("xzf").arg(self.0.join(format!("{DAQP}.tar.gz"))).arg("-C").arg(&self.0);
+        unpack.arg("xzf").arg(self.folder.join(format!("{DAQP}.tar.gz"))).arg("-C").arg(folder);
         run(unpack)
     }
 
+    /// What `problem.py` prints of a header and another file: two numbers.
+    pub fn problem(&self, verb: &str, header: &Path, file: &Path) -> Result<[f64; 2], String> {
+        let said =
+            output(Command::new(&self.python).arg(script()).arg(verb).arg(header).arg(file))?;
+        let numbers: Vec<f64> = said.split_whitespace().filter_map(|x| x.parse().ok()).collect();
+        numbers.try_into().map_err(|_| format!("problem.py says `{said}`"))
+    }
+
+    /// `Ok` where it solves what is solved by hand.
+    pub fn check(&self) -> Result<(), String> {
+        output(Command::new(&self.python).arg(script()).arg("check")).map(drop)
+    }
+
     fn python<'a>(&self, words: impl IntoIterator<Item = &'a OsStr>) -> Result<(), String> {
-        let mut command = Command::new(self.0.join("python/bin/python"));
+        let mut command = Command::new(&self.python);
         command.args(words);
         run(command)
     }
 
     /// DAQP, with the flags of its own build.
     pub fn daqp(&self) -> Result<Code, String> {
-        let folder = self.0.join(DAQP).join("csrc");
+        let folder = self.folder.join(DAQP).join("csrc");
         Ok(Code {
             files: c_files(&folder.join("src"))?,
             headers: vec![folder.join("include")],
@@ -117,6 +119,10 @@ impl Sources {
         let headers = vec![code.clone(), code.join("inc/public"), code.join("inc/private")];
         Ok(Code { files, headers, flags: &[] })
     }
+}
+
+fn script() -> PathBuf {
+    root().join("tests/firmware/peers/problem.py")
 }
 
 /// The C files of a folder, in order: the image is to be the same every time.

@@ -8,9 +8,9 @@ use signorini_bake::emit::{Emitted, emit};
 use signorini_bake::setting;
 use signorini_files::atomic::write_atomically;
 use signorini_image::board::Board;
-use signorini_image::firmware::{Firmware, NoResult};
+use signorini_image::firmware::Firmware;
 use signorini_image::module::Module;
-use signorini_image::room::NoImage;
+use signorini_image::room::NoResult;
 use signorini_image::tools;
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
@@ -68,7 +68,7 @@ fn judged(found: std::result::Result<Firmware, NoResult>) -> Result<Measured> {
             Ok(()) => Ok(Measured::Runs(Box::new(firmware))),
             Err(why) => Err(Error::Check(why)),
         },
-        Err(why @ (NoResult::NoImage(NoImage::NoRoom { .. }) | NoResult::BeyondCounter)) => {
+        Err(why @ (NoResult::NoRoom { .. } | NoResult::BeyondCounter)) => {
             Ok(Measured::Impossible(why.to_string()))
         }
         Err(why) => Err(Error::Check(why.to_string())),
@@ -81,8 +81,7 @@ mod tests {
 
     #[test]
     fn no_room_and_no_count_are_reasons_and_nothing_else_is() {
-        let no_room = NoImage::NoRoom { memory: "RAM", missing: 77 };
-        let reason = judged(Err(no_room.into()));
+        let reason = judged(Err(NoResult::NoRoom { memory: "RAM", missing: 77 }));
         let said = "no room in RAM: 77 bytes are missing".to_owned();
         assert!(matches!(reason, Ok(Measured::Impossible(why)) if why == said));
         let reason = judged(Err(NoResult::BeyondCounter));

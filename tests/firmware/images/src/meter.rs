@@ -9,7 +9,7 @@ use core::hint::black_box;
 use signorini_kernel::Error;
 
 use crate::board::clock::{Clock, UNIT};
-use crate::board::stack;
+use crate::board::{self, stack};
 use crate::journal::Journal;
 
 /// Repetitions of a stage in one count.
@@ -26,12 +26,17 @@ pub struct Meter<'a, 'j> {
     kind: &'static str,
 }
 
-impl<'a, 'j> Meter<'a, 'j> {
-    /// A meter that has counted nothing.
-    pub fn new(clock: Clock, journal: &'a mut Journal<'j>) -> Self {
-        Self { clock, journal, kind: "" }
-    }
+/// Counts, prints and ends; with a failure where there is no clock or a stage refuses.
+pub fn run(count: impl FnOnce(&mut Meter) -> Result<(), Error>) -> ! {
+    let Some(clock) = Clock::start() else { board::end(false) };
+    board::run(|journal| {
+        if count(&mut Meter { clock, journal, kind: "" }).is_err() {
+            board::end(false);
+        }
+    })
+}
 
+impl Meter<'_, '_> {
     /// What the next counts are of.
     pub fn kind(&mut self, kind: &'static str) -> &mut Self {
         self.kind = kind;

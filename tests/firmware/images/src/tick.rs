@@ -10,7 +10,7 @@ use signorini_device::model::Model;
 use signorini_kernel::law::Law;
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::rows::{Row, Rows, TRIANGLES};
-use signorini_kernel::{Error, Real, assembly, contact, flux, psor};
+use signorini_kernel::{Error, assembly, contact, flux, psor};
 
 use crate::journal::{Bits, Journal};
 
@@ -32,7 +32,7 @@ pub struct Tick<
 }
 
 impl<
-    R: Real,
+    R: Bits,
     const WIDTH: usize,
     const CONTACT: bool,
     const N: usize,
@@ -88,18 +88,7 @@ impl<
             R::ZERO
         })
     }
-}
 
-impl<
-    R: Bits,
-    const WIDTH: usize,
-    const CONTACT: bool,
-    const N: usize,
-    const E: usize,
-    const T: usize,
-    const Q: usize,
-> Tick<R, WIDTH, CONTACT, N, E, T, Q>
-{
     /// The bytes that `docs/embedding.md` promises.
     pub fn formula() -> u32 {
         let wide = size_of::<R>() == 8;

@@ -3,7 +3,7 @@
 use cortex_m::peripheral::syst::SystClkSource;
 use cortex_m::peripheral::{SCB, SYST};
 
-use crate::budget::PERIOD;
+use crate::plant::PERIOD;
 
 /// Instructions a count: QEMU runs SysTick at 25 MHz, and with `-icount shift=0` a nanosecond passes
 /// with each instruction. On a real core, set the period by its clock.

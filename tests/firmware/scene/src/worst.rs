@@ -18,37 +18,26 @@ use signorini_contact::Condensed;
 use signorini_contact::dense::blocks::padded;
 use signorini_contact::dense::tableau::InitialTableau;
 use signorini_contact::method::TwoPhases;
-use signorini_kernel::report::{Ended, Report};
+use signorini_kernel::report::Ended;
 use signorini_kernel::{Error, Real as _};
 
 use crate::loads::loads;
-use crate::scene::{CONTACT, Inputs, Scalar};
+use crate::scene::{CONTACT, Controller, Inputs, Scalar};
+use crate::tick;
 
 /// At least so many ticks.
 const TICKS: u32 = 10_000;
 /// With more edges than these not every set is tried.
 const FEW: usize = 12;
 
-/// A controller whose state can be chosen.
-pub trait Starts {
-    /// Whether a flux has a limit.
-    fn are_limited() -> bool;
-
-    /// The state before a tick with these inputs: an edge is above its gap, on it or below it by the sign of its side.
-    ///
-    /// # Errors
-    /// Those of the tick.
-    fn begin(&mut self, inputs: Inputs, sides: &[Scalar; CONTACT]) -> Result<(), Error>;
-
-    /// What `Controller::tick` does.
-    ///
-    /// # Errors
-    /// Those of the tick.
-    fn tick(&mut self, inputs: Inputs) -> Result<Report<Scalar>, Error>;
-}
-
-/// Tries ticks from starts of every kind, and tells what the worst took.
-pub fn search<S: Starts>(journal: &mut Journal, controller: &mut S) {
+/// Tries ticks from starts of every kind, and tells what the worst took. `begin` makes the state before a tick with these inputs:
+/// an edge is above its gap, on it or below it by the sign of its side; below where a flux has a limit alone.
+pub fn search(
+    journal: &mut Journal,
+    controller: &mut Controller,
+    is_limited: bool,
+    mut begin: impl FnMut(&mut Controller, Inputs, &[Scalar; CONTACT]) -> Result<(), Error>,
+) {
     let Some(clock) = Clock::start() else { return };
     let empty = clock.measure(1, || black_box(())).unwrap_or(0);
     let sets = if CONTACT <= FEW { 1 << CONTACT } else { TICKS };
@@ -57,13 +46,14 @@ pub fn search<S: Starts>(journal: &mut Journal, controller: &mut S) {
     while tried < TICKS {
         for set in 0..sets {
             let Some(inputs) = inputs.next() else { return };
-            let mut report = None;
-            let begun = controller.begin(inputs, &sides::<S>(&mut draw, set));
-            let counts = clock.measure(1, || report = controller.tick(inputs).ok());
-            let (Ok(()), Some(report), Some(counts)) = (begun, report, counts) else {
+            let mut answer = None;
+            let begun = begin(controller, inputs, &sides(&mut draw, set, is_limited));
+            let counts = clock.measure(1, || answer = tick(controller, inputs).ok());
+            let (Ok(()), Some(answer), Some(counts)) = (begun, answer, counts) else {
                 journal.text("a tick fails");
                 return;
             };
+            let report = black_box(answer).report;
             tried += 1;
             exchanges = exchanges.max(report.exchanges);
             instructions = instructions.max((counts - empty) * UNIT);
@@ -77,7 +67,7 @@ pub fn search<S: Starts>(journal: &mut Journal, controller: &mut S) {
 }
 
 /// Sides of all edges: those of set `set` are open where there are few, of one that is drawn elsewhere.
-fn sides<S: Starts>(draw: &mut Draw, set: u32) -> [Scalar; CONTACT] {
+fn sides(draw: &mut Draw, set: u32, is_limited: bool) -> [Scalar; CONTACT] {
     let mut open = [false; CONTACT];
     if CONTACT <= FEW {
         open.iter_mut().enumerate().for_each(|(at, open)| *open = set >> at & 1 == 1);
@@ -88,18 +78,17 @@ fn sides<S: Starts>(draw: &mut Draw, set: u32) -> [Scalar; CONTACT] {
     let balance = 3.0 * draw.uniform();
     open.map(|open| match open {
         false => Scalar::ZERO,
-        true if S::are_limited() && draw.uniform() < balance => -Scalar::ONE,
+        true if is_limited && draw.uniform() < balance => -Scalar::ONE,
         true => Scalar::ONE,
     })
 }
 
 /// Every second time an arc of neighbours, else each edge with a probability that is drawn too.
 fn draw_open(draw: &mut Draw, open: &mut [bool; CONTACT]) {
-    let mut part = || (draw.uniform() + 1.0) / 2.0;
-    let (is_arc, first, share) = (part() < 0.5, part(), part());
+    let (is_arc, first, share) = (draw.part() < 0.5, draw.part(), draw.part());
     for (at, open) in (0..).zip(open.iter_mut()) {
         let place = at as f32 / CONTACT as f32;
-        *open = if is_arc { (first..=first + share).contains(&place) } else { part() < share };
+        *open = if is_arc { (first..=first + share).contains(&place) } else { draw.part() < share };
     }
 }
 

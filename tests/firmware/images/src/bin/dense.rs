@@ -14,10 +14,8 @@ use signorini_contact::dense::rule::{Largest, Phases};
 use signorini_contact::dense::tableau::{InitialTableau, Tableau};
 use signorini_contact::dense::{Iterate, pivoting, sor};
 use signorini_contact::factor::Factor;
-use signorini_firmware::board;
-use signorini_firmware::board::clock::Clock;
 use signorini_firmware::journal::Bits;
-use signorini_firmware::meter::Meter;
+use signorini_firmware::meter::{Meter, run};
 use signorini_firmware::plate::fill;
 use signorini_firmware::stages::cut;
 use signorini_kernel::Error;
@@ -32,17 +30,12 @@ const fn triangle(order: usize) -> usize {
 
 #[entry]
 fn main() -> ! {
-    let Some(clock) = Clock::start() else { board::end(false) };
-    board::run(|journal| {
-        let mut meter = Meter::new(clock, journal);
-        let counted = stages::<f32>(meter.kind("f32, n = 8"), 8)
-            .and_then(|()| stages::<f32>(meter.kind("f32, n = 16"), 16))
-            .and_then(|()| stages::<f32>(meter.kind("f32, n = 32"), 32))
-            .and_then(|()| stages::<f32>(meter.kind("f32, n = 64"), 64))
-            .and_then(|()| stages::<f64>(meter.kind("f64, n = 64"), 64));
-        if counted.is_err() {
-            board::end(false);
-        }
+    run(|meter| {
+        stages::<f32>(meter.kind("f32, n = 8"), 8)?;
+        stages::<f32>(meter.kind("f32, n = 16"), 16)?;
+        stages::<f32>(meter.kind("f32, n = 32"), 32)?;
+        stages::<f32>(meter.kind("f32, n = 64"), 64)?;
+        stages::<f64>(meter.kind("f64, n = 64"), 64)
     })
 }
 

@@ -13,11 +13,9 @@ use signorini_contact::dense::blocks::{SIDE, count};
 use signorini_device::sparse::elimination::PatternBuffers;
 use signorini_device::sparse::factor::FactorBuffers;
 use signorini_device::sparse::{Balance, Factor, Pattern};
-use signorini_firmware::board;
-use signorini_firmware::board::clock::Clock;
 use signorini_firmware::grid::{COLUMNS, EDGES, Grid, SQUARES, column};
 use signorini_firmware::journal::Bits;
-use signorini_firmware::meter::Meter;
+use signorini_firmware::meter::{Meter, run};
 use signorini_firmware::stages::cut;
 use signorini_kernel::assembly;
 use signorini_kernel::csr::Csr;
@@ -32,21 +30,11 @@ const ENTRIES: usize = 16_384;
 
 #[entry]
 fn main() -> ! {
-    let Some(clock) = Clock::start() else { board::end(false) };
-    board::run(|journal| {
-        let mut meter = Meter::new(clock, journal);
-        let counted =
-            stages::<f32, { TRIANGLES + 1 }, { 2 * SQUARES }, 0>(meter.kind("f32 triangles"))
-                .and_then(|()| stages::<f32, { QUADS + 1 }, 0, SQUARES>(meter.kind("f32 quads")))
-                .and_then(|()| {
-                    stages::<f64, { TRIANGLES + 1 }, { 2 * SQUARES }, 0>(
-                        meter.kind("f64 triangles"),
-                    )
-                })
-                .and_then(|()| stages::<f64, { QUADS + 1 }, 0, SQUARES>(meter.kind("f64 quads")));
-        if counted.is_err() {
-            board::end(false);
-        }
+    run(|meter| {
+        stages::<f32, { TRIANGLES + 1 }, { 2 * SQUARES }, 0>(meter.kind("f32 triangles"))?;
+        stages::<f32, { QUADS + 1 }, 0, SQUARES>(meter.kind("f32 quads"))?;
+        stages::<f64, { TRIANGLES + 1 }, { 2 * SQUARES }, 0>(meter.kind("f64 triangles"))?;
+        stages::<f64, { QUADS + 1 }, 0, SQUARES>(meter.kind("f64 quads"))
     })
 }
 

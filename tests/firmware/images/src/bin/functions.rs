@@ -10,9 +10,7 @@ use core::hint::black_box;
 
 use cortex_m_rt::entry;
 use micromath::{F32, F32Ext};
-use signorini_firmware::board;
-use signorini_firmware::board::clock::Clock;
-use signorini_firmware::meter::Meter;
+use signorini_firmware::meter::{Meter, run};
 use signorini_kernel::Error;
 
 /// Arguments of a count.
@@ -20,14 +18,9 @@ const COUNT: usize = 64;
 
 #[entry]
 fn main() -> ! {
-    let Some(clock) = Clock::start() else { board::end(false) };
-    board::run(|journal| {
-        let mut meter = Meter::new(clock, journal);
-        let counted =
-            accurate(meter.kind("f32 libm")).and_then(|()| fast(meter.kind("f32 micromath")));
-        if counted.is_err() {
-            board::end(false);
-        }
+    run(|meter| {
+        accurate(meter.kind("f32 libm"))?;
+        fast(meter.kind("f32 micromath"))
     })
 }
 

@@ -18,9 +18,7 @@ use signorini_contact::dense::ranges::Given;
 use signorini_contact::dense::rule::Phases;
 use signorini_contact::dense::tableau::{InitialTableau, Tableau};
 use signorini_contact::dense::{Iterate, pivoting};
-use signorini_firmware::board;
-use signorini_firmware::board::clock::Clock;
-use signorini_firmware::meter::Meter;
+use signorini_firmware::meter::{Meter, run};
 use signorini_firmware::plate::fill;
 use signorini_firmware::stages::cut;
 use signorini_kernel::Error;
@@ -33,16 +31,11 @@ const MODES: usize = 8;
 
 #[entry]
 fn main() -> ! {
-    let Some(clock) = Clock::start() else { board::end(false) };
-    board::run(|journal| {
-        let mut meter = Meter::new(clock, journal);
-        let counted = stages(meter.kind("limits, n = 8"), 8)
-            .and_then(|()| stages(meter.kind("limits, n = 16"), 16))
-            .and_then(|()| stages(meter.kind("limits, n = 32"), 32))
-            .and_then(|()| stages(meter.kind("limits, n = 64"), 64));
-        if counted.is_err() {
-            board::end(false);
-        }
+    run(|meter| {
+        stages(meter.kind("limits, n = 8"), 8)?;
+        stages(meter.kind("limits, n = 16"), 16)?;
+        stages(meter.kind("limits, n = 32"), 32)?;
+        stages(meter.kind("limits, n = 64"), 64)
     })
 }
 

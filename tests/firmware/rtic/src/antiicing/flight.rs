@@ -1,6 +1,8 @@
 //! Stands in for air data and bus voltages: a climb, a cruise in gusts with a generator out for a while, a descent.
 
-use crate::scene::Inputs;
+use signorini_board::draw::Draw;
+
+use super::scene::Inputs;
 
 /// Ticks of the flight.
 pub const TICKS: u32 = 600;
@@ -14,38 +16,25 @@ const OUT: core::ops::Range<u32> = 275..350;
 /// The flight, tick after tick.
 pub struct Flight {
     tick: u32,
-    seed: u32,
+    draw: Draw,
     gust: f32,
 }
 
 impl Flight {
     /// On the ground.
-    pub const START: Self = Self { tick: 0, seed: 1, gust: 0.0 };
-
-    /// Ticks so far.
-    pub fn ticks(&self) -> u32 {
-        self.tick
-    }
+    pub const START: Self = Self { tick: 0, draw: Draw::from_seed(1), gust: 0.0 };
 
     /// The inputs of the next tick.
     pub fn next(&mut self) -> Inputs {
         let height = height(self.tick);
-        self.gust = 0.9 * self.gust + 4.0 * (self.part() - 0.5);
+        self.gust = 0.9 * self.gust + 4.0 * (self.draw.part() - 0.5);
         let voltage = if OUT.contains(&self.tick) { 0.55 } else { 1.0 };
-        let mut supply = || voltage * (1.0 + 0.04 * (self.part() - 0.5));
+        let mut supply = || voltage * (1.0 + 0.04 * (self.draw.part() - 0.5));
         let (nose_supply, middle_supply, aft_supply) = (supply(), supply(), supply());
         self.tick += 1;
         let (airspeed, ambient) = (12.0 + 58.0 * height + self.gust, 6.0 - 38.0 * height);
         let inputs = Inputs { airspeed, ambient, nose_supply, middle_supply, aft_supply };
         inputs.clamped()
-    }
-
-    /// From [0, 1). Xorshift (Marsaglia) makes every run the same.
-    fn part(&mut self) -> f32 {
-        self.seed ^= self.seed << 13;
-        self.seed ^= self.seed >> 17;
-        self.seed ^= self.seed << 5;
-        (self.seed >> 8) as f32 / (1 << 24) as f32
     }
 }
 

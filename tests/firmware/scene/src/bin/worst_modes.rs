@@ -5,52 +5,32 @@
 #![no_std]
 #![no_main]
 
-use core::hint::black_box;
-
 use cortex_m_rt::entry;
 use signorini_board::run;
-use signorini_device::Error;
 use signorini_device::controller::Inputs as _;
-use signorini_device::kernel::report::Report;
-use signorini_scene::scene::{CONTACT, Controller, Inputs, SYSTEM, Scalar};
-use signorini_scene::worst::{Starts, exchange, search};
-
-/// The controller whose state is chosen, and how many ticks it has begun.
-struct Chosen {
-    controller: Controller,
-    begun: u32,
-}
+use signorini_scene::scene::{Controller, SYSTEM};
+use signorini_scene::worst::{exchange, search};
 
 #[entry]
 fn main() -> ! {
-    static mut CHOSEN: Chosen = Chosen { controller: Controller::new(), begun: 0 };
-    run(|journal| search(journal, CHOSEN))
-}
-
-impl Starts for Chosen {
-    fn are_limited() -> bool {
-        SYSTEM.model.spans.are_limited()
-    }
-
-    fn begin(&mut self, inputs: Inputs, sides: &[Scalar; CONTACT]) -> Result<(), Error> {
-        self.begun += 1;
-        if self.begun.is_multiple_of(2) {
-            return Ok(());
-        }
-        let storage = self.controller.storage_mut();
-        storage.iterate.set(&SYSTEM, &inputs.terms())?;
-        let (model, memory) = storage.iterate.at(&SYSTEM);
-        exchange(&model, storage.solver.0.two_phases(&model)?, sides)?;
-        if Self::are_limited() {
-            let x = memory.shared.iterate.x;
-            x.iter_mut().zip(sides).for_each(|(x, &side)| *x = side);
-        }
-        Ok(())
-    }
-
-    fn tick(&mut self, inputs: Inputs) -> Result<Report<Scalar>, Error> {
-        let answer = signorini_scene::tick(&mut self.controller, inputs)?;
-        black_box(answer.outputs);
-        Ok(answer.report)
-    }
+    static mut CONTROLLER: Controller = Controller::new();
+    let is_limited = SYSTEM.model.spans.are_limited();
+    let mut begun = 0_u32;
+    run(|journal| {
+        search(journal, CONTROLLER, is_limited, |controller, inputs, sides| {
+            begun += 1;
+            if begun.is_multiple_of(2) {
+                return Ok(());
+            }
+            let storage = controller.storage_mut();
+            storage.iterate.set(&SYSTEM, &inputs.terms())?;
+            let (model, memory) = storage.iterate.at(&SYSTEM);
+            exchange(&model, storage.solver.0.two_phases(&model)?, sides)?;
+            if is_limited {
+                let x = memory.shared.iterate.x;
+                x.iter_mut().zip(sides).for_each(|(x, &side)| *x = side);
+            }
+            Ok(())
+        });
+    })
 }

@@ -11,27 +11,46 @@
 //! A is the same everywhere, and loss and gap are constant along each segment: the bound of the error
 //! leaves nothing out.
 
-use signorini_bound::certificate::Verdict;
+mod mesh;
+mod sensor;
+
+use signorini_board::draw::Draw;
+use signorini_board::journal::Journal;
 use signorini_device::condition::{BoundaryEdge, Condition};
-use signorini_device::tick::{Deadline, Ended, Limits};
+use signorini_device::tick::{Deadline, Limits, Report};
 use signorini_device::workspace;
 use signorini_kernel::mesh::edges::{Block, EdgeCounts};
 use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::stiffness::Coefficient;
-use signorini_kernel::{Error, Mesh, Tensor};
+use signorini_kernel::{Error, Libm, Math, Mesh, Tensor};
 
-use crate::mesh::{CELLS, COLUMNS, HEIGHT, NODES, SIDE, TRIANGLES, VERTICES, WIDTH};
+use mesh::{BOUNDARY, CELLS, COLUMNS, HEIGHT, NODES, SIDE, TRIANGLES, VERTICES, WIDTH};
+
+/// Ticks of a run.
+pub const TICKS: u32 = 10_000;
+
+/// A sweep of this mesh: 8 600 instructions on a Cortex-M4F are 215 counts, and a few for the clock.
+/// Every run counts it before the first tick (`Costs::measure`), and fails where it is more.
+pub const SWEEP: u32 = 220;
+
+/// A certificate of this mesh and the report after it: 107 900 instructions are 2 698 counts. Every tick
+/// counts it, from the last look at the clock to the answer.
+pub const CERTIFICATE: u32 = 2720;
+
+/// From one tick to the next: so short that the deadline ends one tick in five. An overloaded tick
+/// has no time for a certificate, let alone a sweep.
+pub const PERIOD: u32 = if cfg!(feature = "overload") { CERTIFICATE / 2 } else { 13_100 };
 
 /// Memory of the skin.
-pub type Skin = workspace!(f32, u16: vertices NODES, triangles TRIANGLES, quads 0,
-                           boundary crate::mesh::BOUNDARY, ticks only);
+pub type Memory = workspace!(f32, u16: vertices NODES, triangles TRIANGLES, quads 0,
+                             boundary BOUNDARY, ticks only);
 
 /// W/mK
 const CONDUCTIVITY: f32 = 15.0;
 /// °C
 const STRUCTURE: f32 = 5.0;
 /// °C
-pub const MINIMUM: f32 = 2.0;
+const MINIMUM: f32 = 2.0;
 
 /// The best relaxation factor for this mesh, found by trying; new losses hardly move it.
 const OMEGA: f32 = 1.8;
@@ -44,40 +63,37 @@ pub const LIMITS: Limits<f32> = Limits { error: 0.1, share: 0.1, sweeps: 256 };
 /// The result of one tick.
 #[derive(Clone, Copy)]
 pub struct Answer {
-    /// What ended it.
-    pub ended: Ended,
-    /// Sweeps that it took.
-    pub sweeps: u32,
-    /// Power of the heater in W/m.
-    pub force: f32,
-    /// How wrong the temperatures can be, in the energy norm.
-    pub verdict: Verdict<f32>,
+    /// What the kernel says of it; the force is the power of the heater in W/m.
+    pub report: Report<f32>,
     /// ∫τ·∇u, with the flux τ of the certificate: the square of the energy norm, once solved.
-    pub energy: f32,
+    energy: f32,
     /// Temperatures of the heated segments in °C.
-    pub surface: [f32; COLUMNS],
+    surface: [f32; COLUMNS],
 }
 
 /// The skin with its present losses and temperatures.
 pub struct Plant {
     mesh: Mesh<'static, f32, u16>,
-    skin: &'static mut Skin,
+    skin: &'static mut Memory,
     counts: EdgeCounts,
+    /// Of the losses.
+    draw: Draw,
 }
 
 impl Plant {
     /// Numbers and fills in all that stays: once, before the ticks.
-    pub fn new(skin: &'static mut Skin) -> Result<Self, Error> {
+    pub fn new(skin: &'static mut Memory) -> Result<Self, Error> {
         let mesh = Mesh::new(&VERTICES, &CELLS, &[])?;
         let steel = Coefficient::Uniform(Tensor::scalar(CONDUCTIVITY));
         let counts = skin.build(&mesh, steel, |edge| Some(condition(edge, &[0.0; COLUMNS])))?;
         skin.set_relaxation(Relaxation::Fixed(OMEGA))?;
-        Ok(Self { mesh, skin, counts })
+        Ok(Self { mesh, skin, counts, draw: Draw::from_seed(1) })
     }
 
-    /// Takes new losses in W/m², one a segment.
-    pub fn set(&mut self, losses: &[f32; COLUMNS]) -> Result<(), Error> {
-        self.skin.set_conditions(&self.mesh, |edge| Some(condition(edge, losses)))
+    /// Reads new losses in W/m², one a segment.
+    pub fn advance(&mut self) -> Result<(), Error> {
+        let losses = sensor::read(&mut self.draw);
+        self.skin.set_conditions(&self.mesh, |edge| Some(condition(edge, &losses)))
     }
 
     /// The answer to the losses, from where the last one was.
@@ -87,14 +103,7 @@ impl Plant {
         deadline: &mut Deadline<impl FnMut() -> u32>,
     ) -> Result<Answer, Error> {
         let report = self.skin.tick(&self.mesh, limits, deadline)?;
-        Ok(Answer {
-            ended: report.ended,
-            sweeps: report.sweeps,
-            force: report.figures.force,
-            verdict: report.verdict,
-            energy: self.energy(),
-            surface: self.surface(),
-        })
+        Ok(Answer { report, energy: self.energy(), surface: self.surface() })
     }
 
     /// Temperatures of the heated segments.
@@ -125,5 +134,43 @@ fn condition(edge: &BoundaryEdge<f32, u16>, losses: &[f32; COLUMNS]) -> Conditio
             let loss = losses.get((x / SIDE) as usize).copied().unwrap_or_default();
             Condition::Contact { gap: MINIMUM, flux: -loss }
         }
+    }
+}
+
+/// What the answers were like.
+pub struct Judge {
+    answers: u32,
+    /// The largest bound of the error, in thousandths of the energy norm.
+    worst: u32,
+    /// The sum of the same.
+    sum: u32,
+}
+
+impl Judge {
+    /// No answers.
+    pub const NEW: Self = Self { answers: 0, worst: 0, sum: 0 };
+
+    /// Whether it is finite, nowhere too cold, and has a bound of its error: one that was cut short has to keep
+    /// this too.
+    pub fn is_sound(&mut self, answer: &Answer) -> bool {
+        let Answer { report, energy, surface } = answer;
+        let feasible = surface.iter().all(|&u| u.is_finite() && u >= MINIMUM);
+        // The wind never rests, so heat flows.
+        let sound = report.figures.force.is_finite() && *energy > 0.0;
+        let bound = report.verdict.certificate().filter(|bound| bound.total.is_finite());
+        let Some(bound) = bound.filter(|_| feasible && sound) else { return false };
+        let thousandths = (1000.0 * bound.total / Libm::sqrt(*energy)) as u32;
+        self.answers += 1;
+        self.worst = self.worst.max(thousandths);
+        self.sum += thousandths;
+        true
+    }
+
+    /// Prints bounds and the last force; whether the run has seen what it should.
+    pub fn tell(&self, last: &Answer, journal: &mut Journal) -> bool {
+        journal.count("worst bound, thousandths", self.worst);
+        journal.count("mean bound, thousandths", self.sum / self.answers.max(1));
+        journal.scalar("force", last.report.figures.force);
+        true
     }
 }

@@ -4,24 +4,25 @@ use cortex_m::peripheral::SYST;
 use signorini_device::tick::{Deadline, Limits};
 use signorini_kernel::Error;
 
-use crate::clock::count;
-use crate::mesh::COLUMNS;
-use crate::plant::Plant;
-
-/// A sweep of this mesh: 8 600 instructions on a Cortex-M4F are 215 counts, and a few for the clock.
-/// Every run counts it before the first tick ([`Costs::measure`]), and fails where it is more.
-pub const SWEEP: u32 = 220;
-
-/// A certificate of this mesh and the report after it: 107 900 instructions are 2 698 counts. Every tick
-/// counts it, from the last look at the clock to the answer.
-pub const CERTIFICATE: u32 = 2720;
-
-/// From one tick to the next: so short that the deadline ends one tick in five. An overloaded tick
-/// has no time for a certificate, let alone a sweep.
-pub const PERIOD: u32 = if cfg!(feature = "overload") { CERTIFICATE / 2 } else { 13_100 };
+use crate::clock::{count, elapsed};
+use crate::log::Times;
+use crate::plant::{Answer, CERTIFICATE, LIMITS, PERIOD, Plant, SWEEP};
 
 /// What the kernel may use; the rest is for publishing and for the task that checks.
 pub const BUDGET: u32 = PERIOD / 16 * 15;
+
+/// Sweeps until that buys nothing more or the budget does not cover another one.
+pub fn answer(plant: &mut Plant) -> Result<(Answer, Times), Error> {
+    let mut looked = 0;
+    let remaining = || {
+        looked = elapsed();
+        BUDGET.saturating_sub(looked)
+    };
+    let mut deadline = Deadline { remaining, sweep: SWEEP, certificate: CERTIFICATE };
+    let answer = plant.answer(LIMITS, &mut deadline)?;
+    let answered = elapsed();
+    Ok((answer, Times { looked, answered, ended: answered }))
+}
 
 /// What a sweep costs, as counted.
 pub struct Costs {
@@ -31,7 +32,6 @@ pub struct Costs {
 impl Costs {
     /// Counts sweeps while there are no ticks yet.
     pub fn measure(systick: &mut SYST, plant: &mut Plant) -> Result<Self, Error> {
-        plant.set(&[0.0; COLUMNS])?;
         let mut after = |sweeps| {
             let limits = Limits { error: 0.0, share: 0.0, sweeps };
             let (counts, answer) = count(systick, || plant.answer(limits, &mut Deadline::never()));
