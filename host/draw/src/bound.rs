@@ -1,9 +1,7 @@
 //! How wrong an answer can be, and why, for someone who does not know the theory.
 
-use std::fmt::Write;
-
 use super::ScenePanel;
-use super::prose::list;
+use super::markup::{enclosed, list};
 use super::scale::plain;
 use super::svg::escape;
 
@@ -13,18 +11,20 @@ pub fn bound(panel: &ScenePanel) -> String {
         let reason = panel.no_bound.as_deref().map_or_else(String::new, escape);
         return format!("<p class=\"caption\">No error bound: {reason}</p>\n");
     };
-    let mut html = String::from("<dl class=\"bound\">\n");
-    let mut entry = |name: &str, value: f64, words: &str| {
+    let terms = [
+        ("total", bound.total, TOTAL),
+        ("of u_h", bound.of_u, OF_U),
+        ("gap", bound.gap, "of the total, from mesh and solver together"),
+        ("algebraic", bound.algebraic, "the part of the total that more sweeps would remove"),
+        ("oscillation", bound.oscillation, "loads vary inside cells, the method sees their means"),
+        ("rounding", bound.rounding, "the most that the processor’s arithmetic can hide"),
+    ];
+    let entry = |(name, value, words)| {
         let (value, words) = (plain(value), escape(words));
-        let _ = writeln!(html, "<div><dt>{name}</dt><dd>{value}<span>{words}</span></dd></div>");
+        format!("<div><dt>{name}</dt><dd>{value}<span>{words}</span></dd></div>")
     };
-    entry("total", bound.total, TOTAL);
-    entry("of u_h", bound.of_u, OF_U);
-    entry("gap", bound.gap, "of the total, from mesh and solver together");
-    entry("algebraic", bound.algebraic, "the part of the total that more sweeps would remove");
-    entry("oscillation", bound.oscillation, "loads vary inside cells, the method sees their means");
-    entry("rounding", bound.rounding, "the most that the processor’s arithmetic can hide");
-    html + "</dl>\n" + &list("notes", &beside(panel, bound.total))
+    let terms = enclosed("<dl class=\"bound\">", terms.into_iter().map(entry), "</dl>");
+    terms + &list("notes", &beside(panel, bound.total))
 }
 
 /// The guarantees of the bounds.

@@ -2,9 +2,8 @@
 
 use std::fmt::Write;
 
-use super::frame::frame;
+use super::markup::{frame, list, unrolled};
 use super::outcome_map::{OutcomeMap, key, outcome_map};
-use super::prose::{list, unrolled};
 use super::svg::escape;
 use super::table::Table;
 

@@ -1,9 +1,8 @@
 //! The report: one HTML file a person wants to look at, complete in itself.
 //!
 //! ```text
-//! Report ─► page (HTML) ─┬─► section  a heading each, and the contents that link to them
-//!                        ├─► panel ─┬─► field    u as colour ◄ isobands; the flux ◄ arrows  ─┬─► plane
-//!                        │          ├─► mosaic   where the error comes from, cell by cell    ─┘
+//! Report ─► page (HTML) ─┬─► panel ─┬─► field    u as colour ◄ isobands; the flux ◄ arrows  ─┬─► plane
+//!                        │          │            where the error comes from, cell by cell    ─┘
 //!                        │          ├─► contact  λ and the opening along C
 //!                        │          └─► bound    how wrong it can be, and why, in words
 //!                        ├─► figure       a chart of two logarithmic axes, with a legend
@@ -12,7 +11,7 @@
 //! Chart ─► chart_file (SVG)             what changes from tick to tick, a diagram each
 //! axes   a diagram's scales, grid, lines and areas ◄ chart, figure, contact, pareto
 //! ```
-//! No two curves of a plot have the same colour and marker (`look`). What enumerates is a list (`prose`).
+//! No two curves of a plot have the same colour and marker (`look`). What enumerates is a list (`markup`).
 //! All pictures are SVG inside the page (`svg`, `scale`); no script, no font, no other file.
 //! Nothing here knows a solver or a scene: everything is plain data, filled by the program that ran one. Values that are
 //! not finite are never written: what they belong to is left out or shown as "–".
@@ -26,20 +25,17 @@ mod contact;
 mod extremes;
 mod field;
 mod figure;
-mod frame;
 mod isobands;
 mod lettering;
 mod look;
-mod mosaic;
+mod markup;
 mod outcome_map;
 mod outline;
 mod page;
 mod panel;
 mod pareto;
 mod plane;
-mod prose;
 mod scale;
-mod section;
 mod simplify;
 mod svg;
 mod table;

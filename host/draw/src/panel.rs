@@ -4,9 +4,8 @@ use std::fmt::Write;
 
 use super::bound::bound;
 use super::contact::contact;
-use super::field::field;
-use super::frame::mark;
-use super::mosaic::mosaic;
+use super::field::{errors, field};
+use super::markup::{enclosed, mark};
 use super::plane::class;
 use super::svg::escape;
 use super::{BoundaryKind, ContactState, ScenePanel};
@@ -31,11 +30,10 @@ pub fn panel((index, scene): (usize, &ScenePanel)) -> String {
 }
 
 fn solution_figure(scene: &ScenePanel) -> String {
-    let Some(field) = field(scene) else { return String::new() };
-    let notes: String =
-        field.notes.iter().map(|note| format!("<li>{}</li>", escape(note))).collect();
+    let Some((picture, notes)) = field(scene) else { return String::new() };
+    let notes: String = notes.iter().map(|note| format!("<li>{}</li>", escape(note))).collect();
     let legend = legend(scene);
-    format!("<figure>\n{}<ul class=\"legend\">{legend}{notes}</ul>\n</figure>\n", field.svg)
+    format!("<figure>\n{picture}<ul class=\"legend\">{legend}{notes}</ul>\n</figure>\n")
 }
 
 fn contact_figure(scene: &ScenePanel) -> String {
@@ -51,7 +49,7 @@ fn contact_figure(scene: &ScenePanel) -> String {
 }
 
 fn error_figure(scene: &ScenePanel) -> String {
-    let Some(map) = mosaic(scene) else { return String::new() };
+    let Some(map) = errors(scene) else { return String::new() };
     let notes = "<li>Colour shows each cell’s part of the gap, which tells where to refine.</li>\
                  <li>The squares of the parts add up to gap².</li>";
     format!("<figure>\n{map}<ul class=\"legend\">{notes}</ul>\n</figure>\n")
@@ -61,17 +59,12 @@ fn error_figure(scene: &ScenePanel) -> String {
 const LETTERS: usize = 24;
 
 fn facts(scene: &ScenePanel) -> String {
-    if scene.facts.is_empty() {
-        return String::new();
-    }
-    let mut html = String::from("<dl class=\"facts\">\n");
-    for (name, value) in &scene.facts {
+    let entry = |(name, value): &(String, String)| {
         // A sentence has a line of its own.
         let class = if value.chars().count() > LETTERS { " class=\"wide\"" } else { "" };
-        let (name, value) = (escape(name), escape(value));
-        let _ = writeln!(html, "<div{class}><dt>{name}</dt><dd>{value}</dd></div>");
-    }
-    html + "</dl>\n"
+        format!("<div{class}><dt>{}</dt><dd>{}</dd></div>", escape(name), escape(value))
+    };
+    enclosed("<dl class=\"facts\">", scene.facts.iter().map(entry), "</dl>")
 }
 
 /// The kinds of boundary that the scene has.

@@ -62,8 +62,7 @@ impl Plane {
         let (svg, right) = (&mut self.svg, left + BAR);
         for band in 0..count {
             let start = bottom + (top - bottom) * f64::from(band) / f64::from(count);
-            let mut path = Path::default();
-            path.polygon(&[[left, start], [right, start], [right, top], [left, top]]);
+            let path = Path::around(&[[left, start], [right, start], [right, top], [left, top]]);
             svg.fill(&band_color(band, count), &path);
         }
         svg.rectangle("frame", [left, bottom], [right, top]);
