@@ -54,29 +54,35 @@ impl Fault {
 
 /// One side of a cell; the order sorts by edge, then by cell.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct CellSide {
-    edge: [u32; 2],
-    cell: u32,
+pub(super) struct CellSide {
+    /// The vertices of its edge, the lower one first.
+    pub(super) edge: [u32; 2],
+    pub(super) cell: u32,
+    /// The corner that it begins at.
+    pub(super) side: usize,
     upward: bool,
+}
+
+/// The sides of all cells, those of one edge next to each other.
+pub(super) fn sides(mesh: &Mesh) -> Vec<CellSide> {
+    let mut sides = Vec::with_capacity(3 * mesh.triangles.len() + 4 * mesh.quads.len());
+    for (cell, corners) in (0..).zip(mesh.corners()) {
+        let following = corners.iter().cycle().skip(1);
+        let ends = corners.iter().zip(following).enumerate();
+        sides.extend(ends.map(|(side, (&from, &to))| {
+            let edge = [from.min(to), from.max(to)];
+            CellSide { edge, cell, side, upward: from < to }
+        }));
+    }
+    sides.sort_unstable();
+    sides
 }
 
 /// The edges of the mesh, lower vertex first, ascending, if its cells meet as they may.
 ///
 /// Cells must be counterclockwise and without a repeated vertex.
 pub fn edges(mesh: &Mesh) -> std::result::Result<Vec<[u32; 2]>, Fault> {
-    let mut sides = Vec::with_capacity(3 * mesh.triangles.len() + 4 * mesh.quads.len());
-    let triangles = mesh.triangles.iter().map(|cell| &cell[..]);
-    let cells = triangles.chain(mesh.quads.iter().map(|cell| &cell[..]));
-    for (cell, corners) in (0..).zip(cells) {
-        let following = corners.iter().cycle().skip(1);
-        sides.extend(corners.iter().zip(following).map(|(&from, &to)| CellSide {
-            edge: [from.min(to), from.max(to)],
-            cell,
-            upward: from < to,
-        }));
-    }
-    sides.sort_unstable();
-    sides.chunk_by(|a, b| a.edge == b.edge).map(edge_of).collect()
+    sides(mesh).chunk_by(|a, b| a.edge == b.edge).map(edge_of).collect()
 }
 
 /// The edges of a mesh that no file names: errors call cells and vertices by number.

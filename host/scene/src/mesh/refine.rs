@@ -23,11 +23,7 @@ pub const MOST_CELLS: usize = 4_000_000;
 /// Cells that don't meet as they may, curves off the edges, or more than [`MOST_CELLS`].
 pub fn refined(mesh: &Mesh) -> Result<Mesh> {
     let cells = 4 * mesh.cells();
-    if cells > MOST_CELLS {
-        let message =
-            format!("the refined mesh would have {cells} cells, expected at most 4000000");
-        return Err(InputError::new(message).hint("refine less often").into());
-    }
+    check_count(cells, "refine less often")?;
     let edges = numbered_edges(mesh)?;
     let halves = Halves { vertices: mesh.vertices.len(), edges: &edges };
     let centre = |quad: usize| (halves.vertices + edges.len() + quad) as u32;
@@ -44,6 +40,14 @@ pub fn refined(mesh: &Mesh) -> Result<Mesh> {
         surfaces: mesh.inherited(&origins),
         curves: mesh.curves.iter().map(|curve| halves.of_curve(curve)).collect::<Result<_>>()?,
     })
+}
+
+/// Refuses to make so many cells.
+pub(super) fn check_count(cells: usize, hint: &str) -> Result<()> {
+    let message =
+        format!("the refined mesh would have {cells} cells, expected at most {MOST_CELLS}");
+    let error = || InputError::new(message).hint(hint).into();
+    if cells > MOST_CELLS { Err(error()) } else { Ok(()) }
 }
 
 /// The mean of some of the vertices.

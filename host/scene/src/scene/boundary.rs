@@ -22,18 +22,18 @@ pub(super) fn read_boundary(table: &Table) -> Result<Boundary> {
 }
 
 fn read_dirichlet(table: &Table) -> Result<Condition> {
-    table.only("a dirichlet boundary", &["kind", "value"])?;
+    table.only("a dirichlet boundary", "kind, value")?;
     Ok(Condition::Dirichlet { value: table.require("value")?.expression(Variables::SpaceTime)? })
 }
 
 fn read_neumann(table: &Table) -> Result<Condition> {
-    table.only("a neumann boundary", &["kind", "flux"])?;
+    table.only("a neumann boundary", "kind, flux")?;
     Ok(Condition::Neumann { flux: table.require("flux")?.expression(Variables::SpaceTime)? })
 }
 
 /// The coefficient enters the matrix, which stays the same from tick to tick: no t in it.
 fn read_robin(table: &Table) -> Result<Condition> {
-    table.only("a robin boundary", &["kind", "coefficient", "ambient"])?;
+    table.only("a robin boundary", "kind, coefficient, ambient")?;
     let entry = table.require("coefficient")?;
     let coefficient = entry.expression(Variables::Space)?;
     if let Some(value) = coefficient.value.is_constant().filter(|&value| value < 0.0) {
@@ -45,7 +45,7 @@ fn read_robin(table: &Table) -> Result<Condition> {
 }
 
 fn read_contact(table: &Table) -> Result<Condition> {
-    table.only("a contact boundary", &["kind", "gap", "flux", "limit"])?;
+    table.only("a contact boundary", "kind, gap, flux, limit")?;
     let gap = table.expression_or_zero("gap", Variables::SpaceTime)?;
     let flux = table.end_of_range("flux", 0.0, Variables::SpaceTime)?;
     let limit = table.end_of_range("limit", f64::INFINITY, Variables::SpaceTime)?;

@@ -27,7 +27,7 @@ impl Material {
 
 /// Reads `[material.NAME]`.
 pub(super) fn read_material(table: &Table) -> Result<Material> {
-    table.only("a material", &["conductivity"])?;
+    table.only("a material", "conductivity")?;
     let entry = table.require("conductivity")?;
     let read = |entry: &Entry| entry.expression(Variables::Space);
     let entries = entry.array().unwrap_or_default();

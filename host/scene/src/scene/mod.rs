@@ -10,7 +10,7 @@
 //! | contact | u ≥ gap, σ·n ≥ flux, (u − gap)(σ·n − flux) = 0; with a limit, u may fall below the gap where σ·n = limit |
 //!
 //! text ─► `table`, `entry` (TOML with places) ─► `read`, `boundary`, `material`, `control`, `setting` (sections
-//! into the model below); a `fragment` gives a scene another setting. Every part of the model knows where it stands, so that whoever finds it wrong
+//! into the model below); a fragment gives a scene another setting. Every part of the model knows where it stands, so that whoever finds it wrong
 //! later, on the mesh or at a quadrature point, can still point at the line ([`Scene::error`]).
 //! The names are not compared with the mesh here.
 
@@ -18,8 +18,6 @@ mod boundary;
 mod control;
 mod document;
 mod entry;
-mod file;
-mod fragment;
 mod material;
 mod range;
 mod read;

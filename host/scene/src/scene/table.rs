@@ -30,19 +30,18 @@ impl<'a> Table<'a> {
         Self { document, name, entries }
     }
 
-    /// Refuses keys other than `allowed`; `what` names the table in the message.
-    pub fn only(&self, what: &str, allowed: &[&str]) -> Result<()> {
-        self.foreign(what, allowed).map_or(Ok(()), |error| {
-            Err(error.hint(format!("allowed here: {}", allowed.join(", "))).into())
-        })
+    /// Refuses keys other than `allowed`, a list with commas; `what` names the table in the message.
+    pub fn only(&self, what: &str, allowed: &str) -> Result<()> {
+        let hint = || format!("allowed here: {allowed}");
+        self.foreign(what, allowed).map_or(Ok(()), |error| Err(error.hint(hint()).into()))
     }
 
     /// The error of the first key that is not among `allowed`, still without a hint.
-    pub fn foreign(&self, what: &str, allowed: &[&str]) -> Option<InputError> {
+    pub fn foreign(&self, what: &str, allowed: &str) -> Option<InputError> {
         let foreign = self
             .entries
             .keys()
-            .filter(|key| !allowed.contains(&key.get_ref().as_ref()))
+            .filter(|key| !allowed.split(", ").any(|known| key.get_ref() == known))
             .min_by_key(|key| key.span().start);
         foreign.map(|key| {
             let at = self.locate(key.get_ref(), key.span(), ());

@@ -6,8 +6,8 @@
 //! A new cell lies in one old cell, but where closure was undone: there the old pieces of the same red
 //! cell are looked through. No search ever leaves it, so nothing crosses a slit.
 
-use super::conforming::Places;
-use super::edges::Edges;
+use super::forest::Edges;
+use super::stage::Places;
 use crate::mesh::Mesh;
 use crate::mesh::refine::mean;
 use crate::mesh::shape::direction;

@@ -10,8 +10,7 @@
 //! The children of a triangle are similar to it. Those of a quad are images of quarters of the unit
 //! square under the map of the whole, so that no Jacobian of theirs is less than a quarter of its least.
 
-use super::edges::{Edges, NONE};
-use super::forest::{Cell, Forest};
+use super::forest::{Cell, Edges, Forest, NONE};
 use crate::mesh::refine::mean;
 
 /// Vertices and edges while cells are refined.

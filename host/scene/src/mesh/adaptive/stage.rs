@@ -1,11 +1,13 @@
-//! One round's forest with the mesh that closure makes of it.
+//! One round's forest with the mesh that closure makes of it: its own cells, and the pieces of those with hanging
+//! nodes.
 
-use super::conforming::{self, Places, closed};
-use super::edges::{Edges, NONE};
-use super::forest::{Cell, Forest};
+use super::closure::Pieces;
+use super::forest::{Cell, Edges, Forest, NONE};
 use super::red::Grown;
-use crate::error::Result;
+use crate::error::{InputError, Result};
 use crate::mesh::check::{edge_number, numbered_edges};
+use crate::mesh::refine::{check_count, mean};
+use crate::mesh::shape::{Orientation, orientation};
 use crate::mesh::{Curve, Mesh};
 
 /// The state that a round begins with.
@@ -55,7 +57,7 @@ impl Stage {
             surfaces: Vec::new(),
             curves: base.curves.iter().zip(&curves).map(of_curve).collect(),
         };
-        conforming::check(&mesh)?;
+        check(&mesh)?;
         let mut next = Self { forest, curves, boundary, mesh, places };
         next.mesh.surfaces = base.inherited(&next.roots());
         let families = next.of_cells(&parents);
@@ -90,4 +92,62 @@ fn roots<const N: usize>(edges: &[[u32; 2]], cells: &[[u32; N]], first: u32) -> 
         Cell { corners, sides, root }
     };
     (first..).zip(cells).map(cell).collect()
+}
+
+/// Which conforming cells each cell of the forest consists of.
+#[derive(Debug, Clone)]
+pub(super) struct Places {
+    /// Where the triangles of each begin, then where the last ones end.
+    triangles: Vec<u32>,
+    /// The quads' pieces, all triangles counted before them.
+    quads: Vec<u32>,
+}
+
+impl Places {
+    /// The conforming cells that a cell of the forest consists of.
+    pub(super) fn of(&self, cell: u32) -> impl Iterator<Item = u32> + use<> {
+        let cell = cell as usize;
+        let triangles = self.triangles[cell]..self.triangles[cell + 1];
+        triangles.chain(self.quads[cell]..self.quads[cell + 1])
+    }
+}
+
+/// The cells of a forest closed, in the order of the forest.
+fn closed(vertices: &[[f64; 2]], forest: &Forest) -> (Pieces, Places) {
+    let mut pieces = Pieces::default();
+    let mut ends = vec![(0, 0)];
+    let midpoint = |side: u32| forest.edges.midpoint(side);
+    let end = |pieces: &Pieces| (pieces.triangles.len() as u32, pieces.quads.len() as u32);
+    for cell in &forest.triangles {
+        pieces.add_triangle(vertices, cell.corners, cell.sides.map(midpoint));
+        ends.push(end(&pieces));
+    }
+    for cell in &forest.quads {
+        pieces.add_quad(vertices, cell.corners, cell.sides.map(midpoint));
+        ends.push(end(&pieces));
+    }
+    let before = pieces.triangles.len() as u32;
+    let (triangles, quads) = ends.into_iter().map(|(t, q)| (t, before + q)).unzip();
+    (pieces, Places { triangles, quads })
+}
+
+/// Whether the mesh keeps its contract still: not too many cells, each strictly convex within rounding.
+///
+/// # Errors
+/// One that is not, with its place.
+fn check(mesh: &Mesh) -> Result<()> {
+    check_count(mesh.cells(), "refine fewer cells")?;
+    mesh.triangles.iter().try_for_each(|&cell| convex(&mesh.vertices, cell))?;
+    mesh.quads.iter().try_for_each(|&cell| convex(&mesh.vertices, cell))
+}
+
+fn convex<const N: usize>(vertices: &[[f64; 2]], cell: [u32; N]) -> Result<()> {
+    let points = cell.map(|vertex| vertices[vertex as usize]);
+    if orientation(&points) == Ok(Orientation::Counterclockwise) {
+        return Ok(());
+    }
+    let [x, y] = mean(vertices, cell);
+    let message =
+        format!("a cell at ({x}, {y}) is too small to be refined: rounding hides its shape");
+    Err(InputError::new(message).hint("refine less often, or move the origin nearer").into())
 }
