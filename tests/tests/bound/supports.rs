@@ -1,10 +1,9 @@
 //! Parts that only contact holds, and parts that nothing holds.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde_json::Value;
-use signorini_files::summary::Summary;
+use signorini_files::answer::Answer;
 use signorini_problem::Problem;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::structured::Cells;
@@ -95,16 +94,8 @@ fn summary(text: &str, mesh: Mesh) -> Value {
     let problem = Problem::new(&scene, mesh).expect("scene and mesh fit");
     let solution = solve(&problem, &Options::default()).expect("loads in balance");
     assert!(solution.converged() && solution.bound.is_none());
-    let summary = Summary::new(
-        &problem,
-        SolverKind::Kernel,
-        &solution,
-        None,
-        None,
-        BTreeMap::new(),
-        &BTreeMap::new(),
-    );
-    serde_json::from_str(&summary.json()).expect("valid JSON")
+    let answer = Answer::new(problem, solution, None, SolverKind::Kernel, None);
+    serde_json::from_str(&answer.expect("an answer").summary().json()).expect("valid JSON")
 }
 
 #[test]
