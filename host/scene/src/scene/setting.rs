@@ -48,7 +48,8 @@ pub(super) fn read_setting(table: &Table) -> Result<Setting> {
         omega: read(table, "omega", omega)?.unwrap_or(default.omega),
         sweeps: read(table, "sweeps", |entry| entry.whole(1..=u32::MAX))?,
         share: read(table, "share", |entry| entry.inside(0.0, 1.0))?,
-        certificate: read(table, "certificate", Entry::boolean)?.unwrap_or(default.certificate),
+        certificate: read(table, "certificate", |entry| entry.boolean())?
+            .unwrap_or(default.certificate),
     };
     match contradiction(&setting) {
         None => Ok(setting),
@@ -56,12 +57,8 @@ pub(super) fn read_setting(table: &Table) -> Result<Setting> {
     }
 }
 
-fn read<'a, T>(
-    table: &Table<'a>,
-    key: &str,
-    as_what: impl Fn(&Entry<'a>) -> Result<T>,
-) -> Result<Option<T>> {
-    table.get(key).as_ref().map(as_what).transpose()
+fn read<T>(table: &Table, key: &str, of: impl Fn(&Entry) -> Result<T>) -> Result<Option<T>> {
+    table.get(key).as_ref().map(of).transpose()
 }
 
 fn choice<T: Copy>(table: &Table, key: &str, choices: &[(&str, T)]) -> Result<Option<T>> {

@@ -10,9 +10,9 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
-use super::Located;
 use super::document::Document;
 use super::entry::Entry;
+use super::{Datum, Located};
 use crate::error::{InputError, Result};
 use crate::expression::{Expression, Variables};
 
@@ -73,11 +73,7 @@ impl<'a> Table<'a> {
     }
 
     /// An expression in `variables`, 0 if the key is absent.
-    pub fn expression_or_zero(
-        &self,
-        key: &str,
-        variables: Variables,
-    ) -> Result<Located<Expression>> {
+    pub fn expression_or_zero(&self, key: &str, variables: Variables) -> Result<Datum> {
         match self.get(key) {
             Some(entry) => entry.expression(variables),
             None => Ok(self.missing(key, Expression::constant(0.0))),
@@ -85,12 +81,7 @@ impl<'a> Table<'a> {
     }
 
     /// An end of a range: an expression in `variables` or an infinity, `default` if the key is absent.
-    pub fn end_of_range(
-        &self,
-        key: &str,
-        default: f64,
-        variables: Variables,
-    ) -> Result<Located<Expression>> {
+    pub fn end_of_range(&self, key: &str, default: f64, variables: Variables) -> Result<Datum> {
         match self.get(key) {
             Some(entry) => entry.end_of_range(variables),
             None => Ok(self.missing(key, Expression::constant(default))),

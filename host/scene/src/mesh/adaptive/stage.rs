@@ -35,14 +35,14 @@ impl Stage {
         let forest = Forest { edges: Edges::of(&edges), triangles, quads };
         let alone = |(_, cells): &(u32, [u32; 2])| cells[1] == NONE;
         let boundary = (0..).zip(forest.sharing()).filter(alone).map(|(edge, _)| edge).collect();
-        let (_, places) = closed(&base.vertices, &forest);
+        let (.., places) = closed(&base.vertices, &forest);
         Ok(Self { forest, curves, boundary, mesh: base.clone(), places })
     }
 
     /// The next stage, and for each of its mesh's cells the cell of this forest that it lies in.
     pub(super) fn next(&self, base: &Mesh, grown: Grown) -> Result<(Self, Vec<u32>)> {
         let Grown { vertices, forest, parents } = grown;
-        let (pieces, places) = closed(&vertices, &forest);
+        let (triangles, quads, places) = closed(&vertices, &forest);
         let curves: Vec<_> = self.curves.iter().map(|curve| forest.edges.halved(curve)).collect();
         let boundary = forest.edges.halved(&self.boundary);
         let of_curve = |(curve, edges): (&Curve, &Vec<u32>)| {
@@ -51,11 +51,11 @@ impl Stage {
             Curve { name: curve.name.clone(), edges }
         };
         let mesh = Mesh {
-            vertices,
-            triangles: pieces.triangles,
-            quads: pieces.quads,
-            surfaces: Vec::new(),
             curves: base.curves.iter().zip(&curves).map(of_curve).collect(),
+            vertices,
+            triangles,
+            quads,
+            surfaces: Vec::new(),
         };
         check(&mesh)?;
         let mut next = Self { forest, curves, boundary, mesh, places };
@@ -113,22 +113,23 @@ impl Places {
 }
 
 /// The cells of a forest closed, in the order of the forest.
-fn closed(vertices: &[[f64; 2]], forest: &Forest) -> (Pieces, Places) {
-    let mut pieces = Pieces::default();
+fn closed(vertices: &[[f64; 2]], forest: &Forest) -> (Vec<[u32; 3]>, Vec<[u32; 4]>, Places) {
+    let mut pieces = Pieces::over(vertices);
     let mut ends = vec![(0, 0)];
     let midpoint = |side: u32| forest.edges.midpoint(side);
     let end = |pieces: &Pieces| (pieces.triangles.len() as u32, pieces.quads.len() as u32);
     for cell in &forest.triangles {
-        pieces.add_triangle(vertices, cell.corners, cell.sides.map(midpoint));
+        pieces.add_triangle(cell.corners, cell.sides.map(midpoint));
         ends.push(end(&pieces));
     }
     for cell in &forest.quads {
-        pieces.add_quad(vertices, cell.corners, cell.sides.map(midpoint));
+        pieces.add_quad(cell.corners, cell.sides.map(midpoint));
         ends.push(end(&pieces));
     }
     let before = pieces.triangles.len() as u32;
-    let (triangles, quads) = ends.into_iter().map(|(t, q)| (t, before + q)).unzip();
-    (pieces, Places { triangles, quads })
+    let (of_triangles, of_quads) = ends.into_iter().map(|(t, q)| (t, before + q)).unzip();
+    let Pieces { triangles, quads, .. } = pieces;
+    (triangles, quads, Places { triangles: of_triangles, quads: of_quads })
 }
 
 /// Whether the mesh keeps its contract still: not too many cells, each strictly convex within rounding.
