@@ -57,7 +57,7 @@ fn is_in(values: &[f64], cell: usize, level: f64) -> bool {
 mod tests {
     use super::*;
     use crate::BoundTerms;
-    use crate::view::View;
+    use crate::plane::View;
 
     /// Four triangles around the centre of a square, one of them the other way round.
     fn square(indicators: [f64; 4], gap: f64) -> ScenePanel {

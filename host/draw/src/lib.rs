@@ -42,7 +42,6 @@ mod table;
 #[cfg(test)]
 mod tests;
 mod tradeoff;
-mod view;
 
 pub use chart::{Band, Chart, Curve, Strip, chart_file};
 pub use extremes::{Extremes, ExtremesStudy, extremes_page};
@@ -188,21 +187,12 @@ impl ContactState {
     /// Every state, in the order in which they are drawn.
     pub const ALL: [Self; 3] = [Self::Open, Self::Saturated, Self::Touching];
 
-    /// The class of its line.
-    fn class(self) -> &'static str {
+    /// The class of its line, and the words of a legend.
+    fn look(self) -> [&'static str; 2] {
         match self {
-            Self::Open => "open",
-            Self::Touching => "active",
-            Self::Saturated => "saturated",
-        }
-    }
-
-    /// The words of a legend.
-    fn label(self) -> &'static str {
-        match self {
-            Self::Open => "open",
-            Self::Touching => "in contact",
-            Self::Saturated => "at the limit",
+            Self::Open => ["open", "open"],
+            Self::Touching => ["active", "in contact"],
+            Self::Saturated => ["saturated", "at the limit"],
         }
     }
 }
@@ -225,4 +215,15 @@ pub enum BoundaryKind {
     Neumann,
     /// The outward flux in proportion to ambient − u.
     Robin,
+}
+
+impl BoundaryKind {
+    /// The class of its line, and the words of a legend.
+    fn look(self) -> [&'static str; 2] {
+        match self {
+            Self::Dirichlet => ["dirichlet", "Dirichlet"],
+            Self::Neumann => ["neumann", "Neumann"],
+            Self::Robin => ["robin", "Robin"],
+        }
+    }
 }

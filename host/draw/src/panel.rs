@@ -6,7 +6,6 @@ use super::bound::bound;
 use super::contact::contact;
 use super::field::{errors, field};
 use super::markup::{enclosed, mark};
-use super::plane::class;
 use super::svg::escape;
 use super::{BoundaryKind, ContactState, ScenePanel};
 
@@ -41,9 +40,11 @@ fn contact_figure(scene: &ScenePanel) -> String {
     let exact = scene.contact.iter().any(|edge| !edge.exact_multiplier.is_empty());
     let exact = if exact { entry("exact-key", "exact λ") } else { String::new() };
     let discrete = entry("multiplier-key", "discrete λ");
-    let mut zones = entry("zone-key", ContactState::Touching.label());
+    let [touching, saturated] =
+        [ContactState::Touching, ContactState::Saturated].map(|state| state.look()[1]);
+    let mut zones = entry("zone-key", touching);
     if scene.contact.iter().any(|edge| edge.state == ContactState::Saturated) {
-        zones += &entry("saturated-zone-key", ContactState::Saturated.label());
+        zones += &entry("saturated-zone-key", saturated);
     }
     format!("<figure>\n{picture}<ul class=\"legend\">{discrete}{exact}{zones}</ul>\n</figure>\n")
 }
@@ -69,22 +70,13 @@ fn facts(scene: &ScenePanel) -> String {
 
 /// The kinds of boundary that the scene has.
 fn legend(scene: &ScenePanel) -> String {
-    let mut html = String::new();
-    for state in [ContactState::Touching, ContactState::Open, ContactState::Saturated] {
-        if scene.contact.iter().any(|edge| edge.state == state) {
-            html += &entry(&format!("{}-key", state.class()), state.label());
-        }
-    }
-    for (kind, text) in [
-        (BoundaryKind::Dirichlet, "Dirichlet"),
-        (BoundaryKind::Neumann, "Neumann"),
-        (BoundaryKind::Robin, "Robin"),
-    ] {
-        if scene.boundary.iter().any(|edge| edge.kind == kind) {
-            html += &entry(&format!("{}-key", class(kind)), text);
-        }
-    }
-    html
+    let states = [ContactState::Touching, ContactState::Open, ContactState::Saturated];
+    let states =
+        states.into_iter().filter(|state| scene.contact.iter().any(|of| of.state == *state));
+    let kinds = [BoundaryKind::Dirichlet, BoundaryKind::Neumann, BoundaryKind::Robin];
+    let kinds = kinds.into_iter().filter(|kind| scene.boundary.iter().any(|of| of.kind == *kind));
+    let looks = states.map(ContactState::look).chain(kinds.map(BoundaryKind::look));
+    looks.map(|[class, words]| entry(&format!("{class}-key"), words)).collect()
 }
 
 fn entry(key: &str, text: &str) -> String {
