@@ -3,8 +3,7 @@
 //! ```text
 //! Report ─► page (HTML) ─┬─► panel ─┬─► field    u as colour ◄ isobands; the flux ◄ arrows  ─┬─► plane
 //!                        │          │            where the error comes from, cell by cell    ─┘
-//!                        │          ├─► contact  λ and the opening along C
-//!                        │          └─► bound    how wrong it can be, and why, in words
+//!                        │          └─► contact  λ and the opening along C
 //!                        ├─► figure       a chart of two logarithmic axes, with a legend
 //!                        ├─► tradeoff     settings: what they cost, how wrong they are ─► pareto
 //!                        └─► extremes     numbers pushed until something gives ─► outcome_map
@@ -18,7 +17,6 @@
 
 mod arrows;
 mod axes;
-mod bound;
 mod chart;
 mod colormap;
 mod contact;
