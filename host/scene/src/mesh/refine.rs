@@ -30,8 +30,8 @@ pub fn refined(mesh: &Mesh) -> Result<Mesh> {
     let triangles = mesh.triangles.iter().flat_map(|&corners| halves.of_triangle(corners));
     let quads = mesh.quads.iter().enumerate();
     let quads = quads.flat_map(|(quad, &corners)| halves.of_quad(corners, centre(quad)));
-    let midpoints = edges.iter().map(|&ends| mean(&mesh.vertices, ends));
-    let centres = mesh.quads.iter().map(|&corners| mean(&mesh.vertices, corners));
+    let midpoints = edges.iter().map(|ends| mean(&mesh.vertices, ends));
+    let centres = mesh.quads.iter().map(|corners| mean(&mesh.vertices, corners));
     let origins: Vec<_> = (0..cells as u32).map(|cell| cell / 4).collect();
     Ok(Mesh {
         vertices: mesh.vertices.iter().copied().chain(midpoints).chain(centres).collect(),
@@ -51,10 +51,10 @@ pub(super) fn check_count(cells: usize, hint: &str) -> Result<()> {
 }
 
 /// The mean of some of the vertices.
-pub(super) fn mean<const N: usize>(vertices: &[[f64; 2]], corners: [u32; N]) -> [f64; 2] {
-    let share = 1.0 / N as f64;
-    let points = corners.map(|vertex| vertices[vertex as usize]);
-    [0, 1].map(|axis| points.iter().map(|point| share * point[axis]).sum())
+pub(super) fn mean(vertices: &[[f64; 2]], corners: &[u32]) -> [f64; 2] {
+    let share = 1.0 / corners.len() as f64;
+    let part = |axis: usize| corners.iter().map(move |&at| share * vertices[at as usize][axis]);
+    [0, 1].map(|axis| part(axis).sum())
 }
 
 /// The midpoints of edges.

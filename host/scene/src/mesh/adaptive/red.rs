@@ -74,7 +74,7 @@ impl Growth {
     fn quad(&mut self, cell: &Cell<4>) -> [Cell<4>; 4] {
         let Cell { corners: [a, b, c, d], sides, root } = *cell;
         let [l, m, n, o] = sides.map(|side| self.midpoint(side));
-        let z = self.vertex(mean(&self.vertices, cell.corners));
+        let z = self.vertex(mean(&self.vertices, &cell.corners));
         let [lz, mz, nz, oz] = [l, m, n, o].map(|middle| self.edges.add([middle, z]));
         let ends = [[a, b], [b, c], [c, d], [d, a]];
         let [[al, bl], [bm, cm], [cn, dn], [d_o, ao]] = self.halves(ends, sides);
@@ -90,7 +90,7 @@ impl Growth {
     /// The midpoint of an edge, made where there was none.
     fn midpoint(&mut self, edge: u32) -> u32 {
         self.edges.midpoint(edge).unwrap_or_else(|| {
-            let midpoint = self.vertex(mean(&self.vertices, self.edges.ends(edge)));
+            let midpoint = self.vertex(mean(&self.vertices, &self.edges.ends(edge)));
             self.edges.halve(edge, midpoint);
             midpoint
         })

@@ -138,16 +138,12 @@ fn closed(vertices: &[[f64; 2]], forest: &Forest) -> (Vec<[u32; 3]>, Vec<[u32; 4
 /// One that is not, with its place.
 fn check(mesh: &Mesh) -> Result<()> {
     check_count(mesh.cells(), "refine fewer cells")?;
-    mesh.triangles.iter().try_for_each(|&cell| convex(&mesh.vertices, cell))?;
-    mesh.quads.iter().try_for_each(|&cell| convex(&mesh.vertices, cell))
-}
-
-fn convex<const N: usize>(vertices: &[[f64; 2]], cell: [u32; N]) -> Result<()> {
-    let points = cell.map(|vertex| vertices[vertex as usize]);
-    if orientation(&points) == Ok(Orientation::Counterclockwise) {
-        return Ok(());
-    }
-    let [x, y] = mean(vertices, cell);
+    let is_convex = |cell: &&[u32]| {
+        let points: Vec<_> = cell.iter().map(|&vertex| mesh.vertices[vertex as usize]).collect();
+        orientation(&points) == Ok(Orientation::Counterclockwise)
+    };
+    let Some(wrong) = mesh.corners().find(|cell| !is_convex(cell)) else { return Ok(()) };
+    let [x, y] = mean(&mesh.vertices, wrong);
     let message =
         format!("a cell at ({x}, {y}) is too small to be refined: rounding hides its shape");
     Err(InputError::new(message).hint("refine less often, or move the origin nearer").into())
