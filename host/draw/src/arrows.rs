@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::ScenePanel;
+use super::plane::View;
 use super::svg::Path;
-use super::view::View;
 
 /// Pixels from one arrow to the next.
 const SPACING: f64 = 30.0;

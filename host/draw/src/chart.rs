@@ -1,7 +1,6 @@
 //! Curves over one quantity: a chart, whose strips stand on top of each other over the same axis.
 
 use super::axes::{Axes, with_zero};
-use super::frame::STYLE;
 use super::lettering::{shortened, width};
 use super::look::Look;
 use super::scale::{Scale, extent};
@@ -76,9 +75,7 @@ pub fn chart_file(chart: &Chart) -> String {
     let shown: Vec<&Strip> = chart.strips.iter().filter(|strip| range(strip).is_some()).collect();
     let bottom = TOP + STEP * shown.len() as f64 - (STEP - HEIGHT);
     let label = format!("{}: over {}", chart.title, chart.across);
-    let mut svg = Svg::new(WIDTH, bottom + FOOT, &label);
-    svg.style(STYLE);
-    svg.rectangle("sheet", [0.0, 0.0], [WIDTH, bottom + FOOT]);
+    let mut svg = Svg::alone(WIDTH, bottom + FOOT, &label);
     svg.text("title", [18.0, 28.0], Anchor::Start, &chart.title);
     let across = Scale::linear(extent(chart.at.iter().copied()).unwrap_or_default(), SIDES);
     for (at, strip) in shown.iter().enumerate() {

@@ -2,9 +2,8 @@
 
 use std::fmt::Write;
 
-use super::frame::frame;
+use super::markup::{frame, list, unrolled};
 use super::outcome_map::{OutcomeMap, key, outcome_map};
-use super::prose::{list, unrolled};
 use super::svg::escape;
 use super::table::Table;
 
@@ -73,11 +72,8 @@ fn study(study: &ExtremesStudy) -> String {
     }
     html += "<div class=\"maps\">\n";
     for (heading, map) in &study.maps {
-        let heading = if heading.is_empty() {
-            String::new()
-        } else {
-            format!("<h4>{}</h4>\n", escape(heading))
-        };
+        let title = || format!("<h4>{}</h4>\n", escape(heading));
+        let heading = if heading.is_empty() { String::new() } else { title() };
         let _ = write!(html, "<figure>\n{heading}{}</figure>\n", outcome_map(map));
     }
     html + "</div>\n</div>\n"

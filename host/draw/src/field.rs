@@ -1,4 +1,4 @@
-//! The solution over the plane: u as colour, σ = A∇u as arrows.
+//! The scene over the plane: u as colour with σ = A∇u as arrows, and where the error comes from, a colour a cell.
 
 use super::ScenePanel;
 use super::arrows::arrows;
@@ -11,16 +11,12 @@ const BANDS: u32 = 64;
 /// A range below this part of the values is rounding of f32, not a picture.
 const ROUNDING: f64 = 1e-6;
 
-/// A picture with what to say about it.
-pub struct Field {
-    /// The SVG element.
-    pub svg: String,
-    /// The |σ| of the longest arrows, and whether an axis is stretched.
-    pub notes: Vec<String>,
-}
+/// Classes of colour of the error's map; each costs outlines.
+const CLASSES: u32 = 24;
 
-/// The picture of a scene; `None` when its vertices span no area.
-pub fn field(panel: &ScenePanel) -> Option<Field> {
+/// The picture of a scene, with the |σ| of the longest arrows and a note where an axis is stretched; `None` when its
+/// vertices span no area.
+pub fn field(panel: &ScenePanel) -> Option<(String, Vec<String>)> {
     let mut plane = Plane::new(panel, "the solution u over the plane")?;
     let surface = Surface::new(panel, &plane.view, panel.vertex_u.iter().copied());
     if let Some([low, high]) = extent(surface.values()) {
@@ -33,5 +29,65 @@ pub fn field(panel: &ScenePanel) -> Option<Field> {
         plane.arrows = path;
         notes.insert(0, format!("arrows σ = A∇u, the longest |σ| ≥ {}", plain(full)));
     }
-    Some(Field { svg: plane.finish(panel), notes })
+    Some((plane.finish(panel), notes))
+}
+
+/// Where the error comes from: the root of each cell's part of gap². `None` without a bound, or where it is nothing
+/// but rounding.
+///
+/// As with the bands of u, all cells from a level on are one shape, painted over the one before: sides
+/// between cells of one colour are not written, and no seams show.
+pub fn errors(panel: &ScenePanel) -> Option<String> {
+    panel.bound.filter(|bound| bound.gap > bound.rounding)?;
+    let mut plane = Plane::new(panel, "what each cell contributes to the error bound")?;
+    let cells = Surface::new(panel, &plane.view, panel.vertices.iter().map(|_| 0.0));
+    let values: Vec<f64> = panel.indicators.iter().map(|square| square.max(0.0).sqrt()).collect();
+    let [_, most] = extent(values.iter().copied())?;
+    plane
+        .bands([0.0, most], CLASSES, "error", |level| cells.around(|at| is_in(&values, at, level)));
+    Some(plane.finish(panel))
+}
+
+/// Whether a cell has a value of at least `level`.
+fn is_in(values: &[f64], cell: usize, level: f64) -> bool {
+    values.get(cell).is_some_and(|&value| value.is_finite() && value >= level)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::BoundTerms;
+    use crate::plane::View;
+
+    /// Four triangles around the centre of a square, one of them the other way round.
+    fn square(indicators: [f64; 4], gap: f64) -> ScenePanel {
+        let bound = BoundTerms { total: gap, of_u: gap, gap, ..Default::default() };
+        ScenePanel {
+            vertices: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.5, 0.5]],
+            triangles: vec![[0, 1, 4], [2, 1, 4], [2, 3, 4], [3, 0, 4]],
+            indicators: indicators.to_vec(),
+            bound: Some(bound),
+            ..ScenePanel::default()
+        }
+    }
+
+    #[test]
+    fn cells_of_one_class_are_one_shape() {
+        let panel = square([1.0, 1.0, 1.0, 4.0], 1.0);
+        let view = View::new(&panel.vertices, [0.0, 0.0]).unwrap();
+        let cells = Surface::new(&panel, &view, [0.0; 5].into_iter());
+        let above = |level| cells.around(|at| is_in(&[1.0, 1.0, 1.0, 2.0], at, level));
+        let corners = |level| above(level).iter().map(Vec::len).collect::<Vec<_>>();
+        assert_eq!(corners(0.0), [4]);
+        assert_eq!(corners(1.5), [3]);
+        assert!(corners(2.5).is_empty());
+    }
+
+    #[test]
+    fn what_is_not_finite_is_left_out_and_no_bound_has_no_map() {
+        let broken = square([1.0, f64::NAN, f64::INFINITY, 4.0], 1.0);
+        assert!(errors(&broken).is_some_and(|svg| !svg.contains("NaN") && !svg.contains("inf")));
+        assert!(errors(&square([1.0; 4], 0.0)).is_none());
+        assert!(errors(&ScenePanel { bound: None, ..square([1.0; 4], 1.0) }).is_none());
+    }
 }

@@ -126,9 +126,8 @@ fn slope_triangles(axes: &mut Axes, slopes: &[(f64, [f64; 2], f64)]) {
             continue;
         }
         heights.push(start);
-        let mut path = Path::default();
-        path.polygon(&[[left, start + DROP], [right, start + DROP], [right, stop + DROP]]);
-        axes.svg.path("slope", &path);
+        let corners = [[left, start + DROP], [right, start + DROP], [right, stop + DROP]];
+        axes.svg.path("slope", &Path::around(&corners));
         let middle = [right + 5.0, 0.5 * (start + stop) + DROP + 4.0];
         axes.svg.text("slope-label", middle, Anchor::Start, &rate_label(rate));
     }

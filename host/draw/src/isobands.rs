@@ -15,7 +15,7 @@
 
 use super::ScenePanel;
 use super::outline::{Node, Segments, crossing, rim};
-use super::view::View;
+use super::plane::View;
 
 /// The cells of a scene as triangles in pixels, with values at their corners.
 #[derive(Debug, Default)]

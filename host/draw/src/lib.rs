@@ -1,52 +1,45 @@
 //! The report: one HTML file a person wants to look at, complete in itself.
 //!
 //! ```text
-//! Report ─► page (HTML) ─┬─► section  a heading each, and the contents that link to them
-//!                        ├─► panel ─┬─► field    u as colour ◄ isobands; the flux ◄ arrows  ─┬─► plane
-//!                        │          ├─► mosaic   where the error comes from, cell by cell    ─┘
-//!                        │          ├─► contact  λ and the opening along C
-//!                        │          └─► bound    how wrong it can be, and why, in words
+//! Report ─► page (HTML) ─┬─► panel ─┬─► field    u as colour ◄ isobands; the flux ◄ arrows  ─┬─► plane
+//!                        │          │            where the error comes from, cell by cell    ─┘
+//!                        │          └─► contact  λ and the opening along C
 //!                        ├─► figure       a chart of two logarithmic axes, with a legend
 //!                        ├─► tradeoff     settings: what they cost, how wrong they are ─► pareto
 //!                        └─► extremes     numbers pushed until something gives ─► outcome_map
 //! Chart ─► chart_file (SVG)             what changes from tick to tick, a diagram each
 //! axes   a diagram's scales, grid, lines and areas ◄ chart, figure, contact, pareto
 //! ```
-//! No two curves of a plot have the same colour and marker (`look`). What enumerates is a list (`prose`).
+//! No two curves of a plot have the same colour and marker (`look`). What enumerates is a list (`markup`).
 //! All pictures are SVG inside the page (`svg`, `scale`); no script, no font, no other file.
 //! Nothing here knows a solver or a scene: everything is plain data, filled by the program that ran one. Values that are
 //! not finite are never written: what they belong to is left out or shown as "–".
 
 mod arrows;
 mod axes;
-mod bound;
 mod chart;
 mod colormap;
 mod contact;
 mod extremes;
 mod field;
 mod figure;
-mod frame;
 mod isobands;
 mod lettering;
 mod look;
-mod mosaic;
+mod markup;
 mod outcome_map;
 mod outline;
 mod page;
 mod panel;
 mod pareto;
 mod plane;
-mod prose;
 mod scale;
-mod section;
 mod simplify;
 mod svg;
 mod table;
 #[cfg(test)]
 mod tests;
 mod tradeoff;
-mod view;
 
 pub use chart::{Band, Chart, Curve, Strip, chart_file};
 pub use extremes::{Extremes, ExtremesStudy, extremes_page};
@@ -192,21 +185,12 @@ impl ContactState {
     /// Every state, in the order in which they are drawn.
     pub const ALL: [Self; 3] = [Self::Open, Self::Saturated, Self::Touching];
 
-    /// The class of its line.
-    fn class(self) -> &'static str {
+    /// The class of its line, and the words of a legend.
+    fn look(self) -> [&'static str; 2] {
         match self {
-            Self::Open => "open",
-            Self::Touching => "active",
-            Self::Saturated => "saturated",
-        }
-    }
-
-    /// The words of a legend.
-    fn label(self) -> &'static str {
-        match self {
-            Self::Open => "open",
-            Self::Touching => "in contact",
-            Self::Saturated => "at the limit",
+            Self::Open => ["open", "open"],
+            Self::Touching => ["active", "in contact"],
+            Self::Saturated => ["saturated", "at the limit"],
         }
     }
 }
@@ -229,4 +213,15 @@ pub enum BoundaryKind {
     Neumann,
     /// The outward flux in proportion to ambient − u.
     Robin,
+}
+
+impl BoundaryKind {
+    /// The class of its line, and the words of a legend.
+    fn look(self) -> [&'static str; 2] {
+        match self {
+            Self::Dirichlet => ["dirichlet", "Dirichlet"],
+            Self::Neumann => ["neumann", "Neumann"],
+            Self::Robin => ["robin", "Robin"],
+        }
+    }
 }

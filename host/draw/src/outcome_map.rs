@@ -80,12 +80,10 @@ fn draw(svg: &mut Svg, square: &Square, [x, y]: [f64; 2]) {
         "certified-poor" => vec![[x0, y0], [x1 - 9.0, y0], [x1, y0 + 9.0], [x1, y1], [x0, y1]],
         _ => vec![[x0, y0], [x1, y0], [x1, y1], [x0, y1]],
     };
-    let mut path = Path::default();
-    path.polygon(&corners);
-    svg.explained(&format!("outcome {}", square.outcome), &path, &square.words);
+    let class = format!("outcome {}", square.outcome);
+    svg.explained(&class, &Path::around(&corners), &square.words);
     if square.outcome == "wrong" {
-        let mut cross = Path::default();
-        cross.line(&[[x1 - 8.0, y0 + 2.0], [x1 - 2.0, y0 + 8.0]]);
+        let mut cross = Path::through(&[[x1 - 8.0, y0 + 2.0], [x1 - 2.0, y0 + 8.0]]);
         cross.line(&[[x1 - 8.0, y0 + 8.0], [x1 - 2.0, y0 + 2.0]]);
         svg.path("outcome-cross", &cross);
     }

@@ -5,10 +5,8 @@ use std::fmt::Write;
 
 use super::extremes::extremes;
 use super::figure::figure;
-use super::frame::{frame, mark};
+use super::markup::{enclosed, frame, list, mark};
 use super::panel::panel;
-use super::prose::list;
-use super::section::{Section, contents, counted};
 use super::svg::escape;
 use super::tradeoff::tradeoff;
 use super::{Check, Mark, Report, ScenePanel};
@@ -40,8 +38,7 @@ fn sections(report: &Report) -> Vec<Section> {
 fn solutions(scenes: &[ScenePanel]) -> Option<Section> {
     let panels: String = scenes.iter().enumerate().map(panel).collect();
     let body = format!("{}<div class=\"panels\">\n{panels}</div>\n", scene_links(scenes));
-    let extent = counted(scenes.len(), "scene");
-    (!scenes.is_empty()).then_some(Section { id: "solutions", heading: "Solutions", extent, body })
+    section("solutions", "Solutions", scenes.len(), "scene", body)
 }
 
 /// Links to the panels, where there are several.
@@ -49,47 +46,32 @@ fn scene_links(scenes: &[ScenePanel]) -> String {
     if scenes.len() < 2 {
         return String::new();
     }
-    let mut html = String::from("<ul class=\"links\">\n");
-    for (at, scene) in scenes.iter().enumerate() {
-        let _ = writeln!(html, "<li><a href=\"#scene-{at}\">{}</a></li>", escape(&scene.name));
-    }
-    html + "</ul>\n"
+    let names = scenes.iter().map(|scene| escape(&scene.name)).enumerate();
+    let entries = names.map(|(at, name)| format!("<li><a href=\"#scene-{at}\">{name}</a></li>"));
+    enclosed("<ul class=\"links\">", entries, "</ul>")
 }
 
 fn runs(report: &Report) -> Option<Section> {
-    let count = report.table.rows.len();
     let body = report.table.html(&report.scenes);
-    let extent = counted(count, "run");
-    (count > 0).then_some(Section { id: "runs", heading: "Every run", extent, body })
+    section("runs", "Every run", report.table.rows.len(), "run", body)
 }
 
 fn further_checks(checks: &[Check]) -> Option<Section> {
-    let mut body = String::from("<ul class=\"checks\">\n");
-    for check in checks {
-        let (claim, found) = (escape(&check.claim), escape(&check.found));
-        let mark = mark(check.passed);
-        let _ = writeln!(body, "<li>{mark}<span>{claim}</span><em>{found}</em></li>");
-    }
-    body += "</ul>\n";
-    let extent = counted(checks.len(), "claim");
-    (!checks.is_empty()).then_some(Section {
-        id: "checks",
-        heading: "Further checks",
-        extent,
-        body,
-    })
+    let entry = |Check { claim, found, passed }: &Check| {
+        let (mark, claim, found) = (mark(*passed), escape(claim), escape(found));
+        format!("<li>{mark}<span>{claim}</span><em>{found}</em></li>")
+    };
+    let body = enclosed("<ul class=\"checks\">", checks.iter().map(entry), "</ul>");
+    section("checks", "Further checks", checks.len(), "claim", body)
 }
 
 fn rates(report: &Report) -> Option<Section> {
     let plots: Vec<String> = report.convergence.iter().filter_map(figure).collect();
-    let extent = counted(plots.len(), "plot");
     let body = format!("<div class=\"plots\">\n{}</div>\n", plots.concat());
-    let heading = "Convergence";
-    (!plots.is_empty()).then_some(Section { id: "convergence", heading, extent, body })
+    section("convergence", "Convergence", plots.len(), "plot", body)
 }
 
 fn cut_off(report: &Report) -> Option<Section> {
-    let count = report.cut_off.rows.len();
     let table = report.cut_off.html(&report.scenes);
     let plots: String = report.sweeps.iter().filter_map(figure).collect();
     let body = format!(
@@ -97,8 +79,7 @@ fn cut_off(report: &Report) -> Option<Section> {
          wrong the answer is then.</p>\n{}{table}<div class=\"plots\">\n{plots}</div>\n",
         list("notes", &CUT_OFF)
     );
-    let extent = counted(count, "scene");
-    (count > 0).then_some(Section { id: "cut-off", heading: "Cut off", extent, body })
+    section("cut-off", "Cut off", report.cut_off.rows.len(), "scene", body)
 }
 
 /// How to read the section.
@@ -122,6 +103,50 @@ fn pushed(report: &Report) -> Option<Section> {
     let maps = found.studies.iter().map(|study| study.maps.len()).sum();
     let extent = counted(maps, "map");
     Some(Section { id: "extremes", heading: "Extremes", extent, body: extremes(found) })
+}
+
+/// A part of the page with a heading.
+struct Section {
+    /// The name in links to it.
+    id: &'static str,
+    heading: &'static str,
+    /// How much there is of what.
+    extent: String,
+    /// Everything below the heading, as HTML.
+    body: String,
+}
+
+/// The section on so many of `noun`; none where there is none.
+fn section(
+    id: &'static str,
+    heading: &'static str,
+    count: usize,
+    noun: &str,
+    body: String,
+) -> Option<Section> {
+    (count > 0).then(|| Section { id, heading, extent: counted(count, noun), body })
+}
+
+impl Section {
+    fn html(&self) -> String {
+        let Self { id, heading, body, .. } = self;
+        format!("<section id=\"{id}\">\n<h2>{heading}</h2>\n{body}</section>\n")
+    }
+}
+
+/// Links to the sections, in their order; nothing where there is none.
+fn contents(sections: &[Section]) -> String {
+    let link = |Section { id, heading, extent, .. }: &Section| {
+        format!("<li><a href=\"#{id}\">{heading}</a><small>{extent}</small></li>")
+    };
+    let open = "<nav aria-label=\"Contents\">\n<h2>Contents</h2>\n<ul>";
+    enclosed(open, sections.iter().map(link), "</ul>\n</nav>")
+}
+
+/// `1 run`, `9 runs`
+fn counted(count: usize, noun: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {noun}{plural}")
 }
 
 fn header(report: &Report) -> String {
@@ -163,4 +188,15 @@ fn failures(noun: &str, passed: impl ExactSizeIterator<Item = bool>) -> Option<S
     let total = passed.len();
     let failed = passed.filter(|passed| !passed).count();
     (failed > 0).then(|| format!("{failed} of {}", counted(total, noun)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_section_no_contents() {
+        assert_eq!(contents(&[]), "");
+        assert_eq!([0, 1, 2].map(|count| counted(count, "run")), ["0 runs", "1 run", "2 runs"]);
+    }
 }

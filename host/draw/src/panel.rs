@@ -1,13 +1,12 @@
-//! One solved scene: its pictures side by side, its numbers below.
+//! One solved scene: its pictures side by side, its numbers below; how wrong an answer can be, and why, for someone who
+//! does not know the theory.
 
 use std::fmt::Write;
 
-use super::bound::bound;
 use super::contact::contact;
-use super::field::field;
-use super::frame::mark;
-use super::mosaic::mosaic;
-use super::plane::class;
+use super::field::{errors, field};
+use super::markup::{enclosed, list, mark};
+use super::scale::plain;
 use super::svg::escape;
 use super::{BoundaryKind, ContactState, ScenePanel};
 
@@ -31,11 +30,10 @@ pub fn panel((index, scene): (usize, &ScenePanel)) -> String {
 }
 
 fn solution_figure(scene: &ScenePanel) -> String {
-    let Some(field) = field(scene) else { return String::new() };
-    let notes: String =
-        field.notes.iter().map(|note| format!("<li>{}</li>", escape(note))).collect();
+    let Some((picture, notes)) = field(scene) else { return String::new() };
+    let notes: String = notes.iter().map(|note| format!("<li>{}</li>", escape(note))).collect();
     let legend = legend(scene);
-    format!("<figure>\n{}<ul class=\"legend\">{legend}{notes}</ul>\n</figure>\n", field.svg)
+    format!("<figure>\n{picture}<ul class=\"legend\">{legend}{notes}</ul>\n</figure>\n")
 }
 
 fn contact_figure(scene: &ScenePanel) -> String {
@@ -43,55 +41,87 @@ fn contact_figure(scene: &ScenePanel) -> String {
     let exact = scene.contact.iter().any(|edge| !edge.exact_multiplier.is_empty());
     let exact = if exact { entry("exact-key", "exact λ") } else { String::new() };
     let discrete = entry("multiplier-key", "discrete λ");
-    let mut zones = entry("zone-key", ContactState::Touching.label());
+    let [touching, saturated] =
+        [ContactState::Touching, ContactState::Saturated].map(|state| state.look()[1]);
+    let mut zones = entry("zone-key", touching);
     if scene.contact.iter().any(|edge| edge.state == ContactState::Saturated) {
-        zones += &entry("saturated-zone-key", ContactState::Saturated.label());
+        zones += &entry("saturated-zone-key", saturated);
     }
     format!("<figure>\n{picture}<ul class=\"legend\">{discrete}{exact}{zones}</ul>\n</figure>\n")
 }
 
 fn error_figure(scene: &ScenePanel) -> String {
-    let Some(map) = mosaic(scene) else { return String::new() };
+    let Some(map) = errors(scene) else { return String::new() };
     let notes = "<li>Colour shows each cell’s part of the gap, which tells where to refine.</li>\
                  <li>The squares of the parts add up to gap².</li>";
     format!("<figure>\n{map}<ul class=\"legend\">{notes}</ul>\n</figure>\n")
+}
+
+/// The caption of a panel's bound.
+fn bound(panel: &ScenePanel) -> String {
+    let Some(bound) = &panel.bound else {
+        let reason = panel.no_bound.as_deref().map_or_else(String::new, escape);
+        return format!("<p class=\"caption\">No error bound: {reason}</p>\n");
+    };
+    let terms = [
+        ("total", bound.total, TOTAL),
+        ("of u_h", bound.of_u, OF_U),
+        ("gap", bound.gap, "of the total, from mesh and solver together"),
+        ("algebraic", bound.algebraic, "the part of the total that more sweeps would remove"),
+        ("oscillation", bound.oscillation, "loads vary inside cells, the method sees their means"),
+        ("rounding", bound.rounding, "the most that the processor’s arithmetic can hide"),
+    ];
+    let entry = |(name, value, words)| {
+        let (value, words) = (plain(value), escape(words));
+        format!("<div><dt>{name}</dt><dd>{value}<span>{words}</span></dd></div>")
+    };
+    let terms = enclosed("<dl class=\"bound\">", terms.into_iter().map(entry), "</dl>");
+    terms + &list("notes", &beside(panel, bound.total))
+}
+
+/// The guarantees of the bounds.
+const TOTAL: &str =
+    "guaranteed: the continuous s and the flux τ, in the energy norm, are no further off than this";
+const OF_U: &str = "guaranteed: the means over the edges, in the energy norm, cell by cell, are no further off than this";
+
+/// How errors are weighed.
+const NORMS: [&str; 3] = [
+    "The energy norm of errors of s and u_h weighs the gradient by A: ‖A^½∇(u − s)‖, ‖A^½∇(u − u_h)‖.",
+    "The energy norm of errors of τ weighs the flux by A⁻¹: ‖A^−½(σ − τ)‖.",
+    "The total counts those of s and τ together, with what Robin edges add.",
+];
+
+/// How the terms are weighed, the total as a part of the solution, and the truth.
+fn beside(panel: &ScenePanel, total: f64) -> Vec<String> {
+    let part = 100.0 * total / panel.energy;
+    let size = part
+        .is_finite()
+        .then(|| format!("The total is {} % of the solution’s energy norm ‖A^½∇u‖.", plain(part)));
+    let truth = panel.error.map(|error| format!("In truth s and τ are {} off.", plain(error)));
+    NORMS.map(str::to_owned).into_iter().chain(size).chain(truth).collect()
 }
 
 /// Letters of a fact that a column has room for.
 const LETTERS: usize = 24;
 
 fn facts(scene: &ScenePanel) -> String {
-    if scene.facts.is_empty() {
-        return String::new();
-    }
-    let mut html = String::from("<dl class=\"facts\">\n");
-    for (name, value) in &scene.facts {
+    let entry = |(name, value): &(String, String)| {
         // A sentence has a line of its own.
         let class = if value.chars().count() > LETTERS { " class=\"wide\"" } else { "" };
-        let (name, value) = (escape(name), escape(value));
-        let _ = writeln!(html, "<div{class}><dt>{name}</dt><dd>{value}</dd></div>");
-    }
-    html + "</dl>\n"
+        format!("<div{class}><dt>{}</dt><dd>{}</dd></div>", escape(name), escape(value))
+    };
+    enclosed("<dl class=\"facts\">", scene.facts.iter().map(entry), "</dl>")
 }
 
 /// The kinds of boundary that the scene has.
 fn legend(scene: &ScenePanel) -> String {
-    let mut html = String::new();
-    for state in [ContactState::Touching, ContactState::Open, ContactState::Saturated] {
-        if scene.contact.iter().any(|edge| edge.state == state) {
-            html += &entry(&format!("{}-key", state.class()), state.label());
-        }
-    }
-    for (kind, text) in [
-        (BoundaryKind::Dirichlet, "Dirichlet"),
-        (BoundaryKind::Neumann, "Neumann"),
-        (BoundaryKind::Robin, "Robin"),
-    ] {
-        if scene.boundary.iter().any(|edge| edge.kind == kind) {
-            html += &entry(&format!("{}-key", class(kind)), text);
-        }
-    }
-    html
+    let states = [ContactState::Touching, ContactState::Open, ContactState::Saturated];
+    let states =
+        states.into_iter().filter(|state| scene.contact.iter().any(|of| of.state == *state));
+    let kinds = [BoundaryKind::Dirichlet, BoundaryKind::Neumann, BoundaryKind::Robin];
+    let kinds = kinds.into_iter().filter(|kind| scene.boundary.iter().any(|of| of.kind == *kind));
+    let looks = states.map(ContactState::look).chain(kinds.map(BoundaryKind::look));
+    looks.map(|[class, words]| entry(&format!("{class}-key"), words)).collect()
 }
 
 fn entry(key: &str, text: &str) -> String {

@@ -6,6 +6,9 @@
 
 use std::fmt::Write;
 
+/// The colours and measures of every page and picture.
+pub const STYLE: &str = include_str!("style.css");
+
 /// Where the text of a label lies relative to its anchor point.
 #[derive(Debug, Clone, Copy)]
 pub enum Anchor {
@@ -35,48 +38,43 @@ impl Svg {
         Self { text }
     }
 
-    /// Carries a style sheet inside, for a picture that stands outside of a page.
-    pub fn style(&mut self, sheet: &str) {
-        let _ = writeln!(self.text, "<style><![CDATA[\n{sheet}]]></style>");
+    /// An empty picture that stands outside of a page: on a sheet, with the style sheet inside.
+    pub fn alone(width: f64, height: f64, label: &str) -> Self {
+        let mut svg = Self::new(width, height, label);
+        let _ = writeln!(svg.text, "<style><![CDATA[\n{STYLE}]]></style>");
+        svg.rectangle("sheet", [0.0, 0.0], [width, height]);
+        svg
     }
 
     /// A path in the look of `class`.
     pub fn path(&mut self, class: &str, path: &Path) {
-        if !path.0.is_empty() {
-            let _ = writeln!(self.text, "<path class=\"{class}\" d=\"{}\"/>", path.0);
-        }
+        self.shape("class", class, path, "/>");
     }
 
     /// A path that says what it is when it is pointed at.
     pub fn explained(&mut self, class: &str, path: &Path, words: &str) {
-        if !path.0.is_empty() {
-            let (path, words) = (&path.0, escape(words));
-            let _ = writeln!(
-                self.text,
-                "<path class=\"{class}\" d=\"{path}\"><title>{words}</title></path>"
-            );
-        }
+        self.shape("class", class, path, &format!("><title>{}</title></path>", escape(words)));
     }
 
     /// A path filled with `color`.
     pub fn fill(&mut self, color: &str, path: &Path) {
-        if !path.0.is_empty() {
-            let _ = writeln!(self.text, "<path fill=\"{color}\" d=\"{}\"/>", path.0);
+        self.shape("fill", color, path, "/>");
+    }
+
+    fn shape(&mut self, attribute: &str, value: &str, Path(path): &Path, end: &str) {
+        if !path.is_empty() {
+            let _ = writeln!(self.text, "<path {attribute}=\"{value}\" d=\"{path}\"{end}");
         }
     }
 
     /// A line between two points.
     pub fn line(&mut self, class: &str, from: [f64; 2], to: [f64; 2]) {
-        let mut path = Path::default();
-        path.line(&[from, to]);
-        self.path(class, &path);
+        self.path(class, &Path::through(&[from, to]));
     }
 
     /// A rectangle given by two opposite corners.
     pub fn rectangle(&mut self, class: &str, [x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) {
-        let mut path = Path::default();
-        path.polygon(&[[x0, y0], [x1, y0], [x1, y1], [x0, y1]]);
-        self.path(class, &path);
+        self.path(class, &Path::around(&[[x0, y0], [x1, y0], [x1, y1], [x0, y1]]));
     }
 
     /// A line of text, its baseline at `at`.
@@ -116,6 +114,20 @@ impl Svg {
 pub struct Path(String);
 
 impl Path {
+    /// An open line through the points.
+    pub fn through(points: &[[f64; 2]]) -> Self {
+        let mut path = Self::default();
+        path.line(points);
+        path
+    }
+
+    /// A closed polygon.
+    pub fn around(points: &[[f64; 2]]) -> Self {
+        let mut path = Self::default();
+        path.polygon(points);
+        path
+    }
+
     /// Adds an open line through the points.
     pub fn line(&mut self, points: &[[f64; 2]]) {
         if points.len() < 2 || !points.as_flattened().iter().all(|value| value.is_finite()) {
@@ -194,9 +206,8 @@ mod tests {
 
     #[test]
     fn a_polygon_is_closed_and_a_line_is_not() {
-        let (mut polygon, mut line) = (Path::default(), Path::default());
-        polygon.polygon(&[[0.0, 0.0], [1.0, 0.0], [0.5, 1.0]]);
-        line.line(&[[0.0, 0.0], [1.0, 0.0]]);
+        let polygon = Path::around(&[[0.0, 0.0], [1.0, 0.0], [0.5, 1.0]]);
+        let line = Path::through(&[[0.0, 0.0], [1.0, 0.0]]);
         assert_eq!((polygon.0.as_str(), line.0.as_str()), ("M0 0 1 0 0.5 1Z", "M0 0 1 0"));
     }
 }

@@ -9,7 +9,7 @@ use std::fmt::Write;
 use std::iter::once;
 
 use super::ScenePanel;
-use super::frame::mark;
+use super::markup::mark;
 use super::svg::escape;
 
 /// A column: its name, whether its cells are words or numbers, and how a cell is read off a row.

@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
+use super::markup::{enclosed, list, unrolled};
 use super::pareto::{ParetoPlot, pareto};
-use super::prose::{list, unrolled};
 use super::svg::escape;
 use super::table::Table;
 
@@ -88,14 +88,8 @@ const COLUMNS: [&str; 4] = [
 ];
 
 fn findings(sentences: &[String]) -> String {
-    if sentences.is_empty() {
-        return String::new();
-    }
-    let mut html = String::from("<ul class=\"findings\">\n");
-    for sentence in sentences {
-        let _ = writeln!(html, "<li>{}</li>", unrolled(sentence));
-    }
-    html + "</ul>\n"
+    let entries = sentences.iter().map(|sentence| format!("<li>{}</li>", unrolled(sentence)));
+    enclosed("<ul class=\"findings\">", entries, "</ul>")
 }
 
 fn panel(scene: &TradePanel) -> String {

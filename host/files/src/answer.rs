@@ -7,7 +7,6 @@ use super::atomic::write_atomically;
 use super::contact::contact;
 use super::edges::edges_csv;
 use super::fields::{Drawn, picture};
-use super::summary::Summary;
 use super::vtu::contact_vtu;
 use signorini_intervals::Found;
 use signorini_problem::Problem;
@@ -55,12 +54,6 @@ impl Answer {
         let mut intervals = signorini_intervals::of_outputs(&problem, &solution);
         signorini_intervals::estimate(&problem, &outputs, &mut intervals);
         Ok(Self { problem, solution, energy_norm, asked, errors, outputs, intervals })
-    }
-
-    /// The contents of `summary.json`.
-    pub fn summary(&self) -> Summary {
-        let Self { problem, solution, energy_norm, asked, errors, outputs, intervals } = self;
-        Summary::new(problem, *asked, solution, *errors, *energy_norm, outputs.clone(), intervals)
     }
 
     /// Writes the files into a folder, `summary.json` last: whoever finds it finds the others.

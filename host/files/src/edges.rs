@@ -10,23 +10,8 @@ use signorini_solve::{ScalarKind, Solution};
 const PORTION: usize = 16_384;
 
 /// The columns.
-const COLUMNS: [&str; 15] = [
-    "x0",
-    "y0",
-    "x1",
-    "y1",
-    "kind",
-    "u_mean",
-    "flux_normal",
-    "boundary",
-    "psi",
-    "q",
-    "limit",
-    "lambda",
-    "state",
-    "left",
-    "right",
-];
+const COLUMNS: &str =
+    "x0,y0,x1,y1,kind,u_mean,flux_normal,boundary,psi,q,limit,lambda,state,left,right";
 
 /// The text of `edges.csv`.
 ///
@@ -45,7 +30,7 @@ pub fn edges_csv(problem: &Problem, solution: &Solution) -> Result<Vec<u8>> {
             .map_err(|error| Error::Check(format!("edges.csv: {error}")))
     };
     let mut portions = on_two_threads(&starts, rows, || ())?;
-    portions.insert(0, format!("{}\n", COLUMNS.join(",")).into_bytes());
+    portions.insert(0, format!("{COLUMNS}\n").into_bytes());
     Ok(portions.concat())
 }
 

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use super::answer::Answer;
 use signorini_certify::{ErrorBound, NoBound};
-use signorini_intervals::{Found, OutputBound};
-use signorini_problem::Problem;
+use signorini_intervals::OutputBound;
 use signorini_scene::scene::units::Units;
 use signorini_solve::norms::Errors;
-use signorini_solve::{Factored, Ran, ScalarKind, Seconds, Solution, SolverKind};
+use signorini_solve::{Factored, Ran, ScalarKind, Seconds, SolverKind};
 
 /// The object, keys in the order of the file.
 #[derive(Debug, Clone, Serialize)]
@@ -69,23 +69,16 @@ struct PartNames {
     up_to_a_constant: u32,
 }
 
-impl Summary {
-    /// Collects it.
-    pub fn new(
-        problem: &Problem,
-        solver: SolverKind,
-        solution: &Solution,
-        errors: Option<Errors>,
-        energy_norm: Option<f64>,
-        outputs: BTreeMap<String, Option<f64>>,
-        intervals: &BTreeMap<String, Found>,
-    ) -> Self {
+impl Answer {
+    /// The contents of `summary.json`.
+    pub fn summary(&self) -> Summary {
+        let Self { problem, solution, energy_norm, outputs, intervals, .. } = self;
         let counts = problem.topology.counts;
         let parts = solution.parts;
-        Self {
+        Summary {
             title: problem.scene.title.clone(),
             scalar: solution.scalar,
-            solver,
+            solver: self.asked,
             solver_used: solution.ran,
             status: solution.status.name(),
             unknowns: counts.unknowns(),
@@ -108,10 +101,10 @@ impl Summary {
             },
             error_bound: solution.bound,
             error_bound_reason: solution.no_bound.as_ref().map(NoBound::to_string),
-            energy_norm,
-            relative_error_bound: solution.relative_bound(energy_norm),
-            errors,
-            outputs,
+            energy_norm: *energy_norm,
+            relative_error_bound: solution.relative_bound(*energy_norm),
+            errors: self.errors,
+            outputs: outputs.clone(),
             output_bounds: intervals
                 .iter()
                 .map(|(name, found)| (name.clone(), found.clone().ok()))
@@ -124,7 +117,9 @@ impl Summary {
             seconds: solution.seconds,
         }
     }
+}
 
+impl Summary {
     /// The text of the file. Numbers that are not finite become null.
     pub fn json(&self) -> String {
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"

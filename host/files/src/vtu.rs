@@ -9,7 +9,7 @@ mod tests;
 
 use std::iter::repeat_n;
 
-use arrays::{array, in_space, of_file, reals, tensors};
+use arrays::{array, full, in_space, of_file, reals};
 
 /// The cell types of VTK: a line, and a triangle and a quad with counterclockwise vertices.
 const VTK_LINE: u8 = 3;
@@ -17,7 +17,7 @@ const VTK_TRIANGLE: u8 = 5;
 const VTK_QUAD: u8 = 9;
 
 /// Contents of the file. Cells are numbered triangles first, then quads.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Field<'a> {
     /// Vertex coordinates, as in the mesh file.
     pub vertices: &'a [[f64; 2]],
@@ -49,19 +49,12 @@ pub fn vtu(field: &Field) -> String {
     let mut file = begin(points, cells, &named(field.materials.iter().copied(), PLANE));
     section(&mut file, "Points", "", &[in_space("points", points, field.vertices)]);
     section(&mut file, "Cells", "", &topology(field));
-    let u = reals("u", cells, field.cell_u);
-    let region = match field.region.len() == cells {
-        true => {
-            array::<i32>("Int32", "region", 1, field.region.iter().map(|&region| region as i32))
-        }
-        false => String::new(),
-    };
     let of_cells = [
-        u,
+        reals("u", cells, field.cell_u),
         in_space("flux", cells, field.cell_flux),
         reals("indicator", cells, field.indicator),
-        tensors("conductivity", cells, field.conductivity),
-        region,
+        full("conductivity", cells, field.conductivity.iter().copied()),
+        full("region", cells, field.region.iter().map(|&region| [region as i32])),
     ];
     section(&mut file, "CellData", " Scalars=\"u\" Vectors=\"flux\"", &of_cells);
     let s = reals("u_continuous", points, field.vertex_s);
@@ -95,17 +88,17 @@ pub fn contact_vtu(contact: &Contact) -> String {
     section(&mut file, "Points", "", &[points]);
     let ends = (1..=edges as i64).map(|edge| 2 * edge);
     let topology = [
-        array::<i64>("Int64", "connectivity", 1, 0..2 * edges as i64),
-        array::<i64>("Int64", "offsets", 1, ends),
-        array::<u8>("UInt8", "types", 1, repeat_n(VTK_LINE, edges)),
+        array("connectivity", 1, 0..2 * edges as i64),
+        array("offsets", 1, ends),
+        array("types", 1, repeat_n(VTK_LINE, edges)),
     ];
     section(&mut file, "Cells", "", &topology);
     let boundary = contact.boundary.iter().map(|&boundary| boundary as i32);
     let data = [
         reals("lambda", edges, &contact.lambda),
         reals("gap", edges, &contact.gap),
-        array::<i8>("Int8", "state", 1, contact.state.iter().copied()),
-        array::<i32>("Int32", "boundary", 1, boundary),
+        array("state", 1, contact.state.iter().copied()),
+        array("boundary", 1, boundary),
     ];
     section(&mut file, "CellData", " Scalars=\"lambda\"", &data);
     file + END
@@ -144,9 +137,5 @@ fn topology(field: &Field) -> [String; 3] {
     let ends = (1..=triangles).map(|cell| 3 * cell);
     let ends = ends.chain((1..=quads).map(|cell| 3 * triangles + 4 * cell)).map(|end| end as i64);
     let types = repeat_n(VTK_TRIANGLE, triangles).chain(repeat_n(VTK_QUAD, quads));
-    [
-        array::<i64>("Int64", "connectivity", 1, corners),
-        array::<i64>("Int64", "offsets", 1, ends),
-        array::<u8>("UInt8", "types", 1, types),
-    ]
+    [array("connectivity", 1, corners), array("offsets", 1, ends), array("types", 1, types)]
 }

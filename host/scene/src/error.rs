@@ -34,13 +34,17 @@ pub enum Error {
 pub type Result<T> = std::result::Result<T, Error>;
 
 /// Wrong input: the culprit, what was expected, a hint.
-#[derive(Debug, Error)]
+#[derive(Debug, Default, Error, Diagnostic)]
 pub struct InputError {
     file: Option<PathBuf>,
     line: Option<usize>,
     message: String,
+    #[help]
     hint: Option<String>,
-    excerpt: Option<(NamedSource<Arc<str>>, SourceSpan)>,
+    #[source_code]
+    text: Option<NamedSource<Arc<str>>>,
+    #[label]
+    underlined: Option<SourceSpan>,
     /// The time of a scene at which it is wrong.
     time: Option<f64>,
 }
@@ -51,14 +55,7 @@ const LONGEST_EXCERPT: usize = 400;
 impl InputError {
     /// `message` names the culprit (`boundary.river.value`, `triangle 12`) and what was expected.
     pub fn new(message: impl Into<String>) -> Self {
-        Self {
-            file: None,
-            line: None,
-            message: message.into(),
-            hint: None,
-            excerpt: None,
-            time: None,
-        }
+        Self { message: message.into(), ..Self::default() }
     }
 
     /// The message, without its place.
@@ -97,7 +94,7 @@ impl InputError {
     /// Lays it on another line instead, of a file that is not shown.
     #[must_use]
     pub fn moved(self, file: &Path, line: usize) -> Self {
-        Self { file: Some(file.to_owned()), line: Some(line), excerpt: None, ..self }
+        Self { file: Some(file.to_owned()), line: Some(line), text: None, underlined: None, ..self }
     }
 
     /// The time of a scene at which it is wrong, if it is so at some times alone.
@@ -116,7 +113,8 @@ impl InputError {
             return self;
         }
         let name = self.file.as_deref().unwrap_or(Path::new("input")).display().to_string();
-        self.excerpt = Some((NamedSource::new(name, text.clone()), span.into()));
+        self.text = Some(NamedSource::new(name, text.clone()));
+        self.underlined = Some(span.into());
         self
     }
 }
@@ -131,21 +129,6 @@ impl fmt::Display for InputError {
             write!(f, " ")?;
         }
         f.write_str(&self.message)
-    }
-}
-
-impl Diagnostic for InputError {
-    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.hint.as_ref().map(|hint| Box::new(hint) as Box<dyn fmt::Display>)
-    }
-
-    fn source_code(&self) -> Option<&dyn miette::SourceCode> {
-        self.excerpt.as_ref().map(|(source, _)| source as &dyn miette::SourceCode)
-    }
-
-    fn labels(&self) -> Option<Box<dyn Iterator<Item = miette::LabeledSpan> + '_>> {
-        let (_, span) = self.excerpt.as_ref()?;
-        Some(Box::new(std::iter::once(miette::LabeledSpan::underline(*span))))
     }
 }
 

@@ -1,9 +1,7 @@
 //! Parts that only contact holds, and parts that nothing holds.
 
-use std::collections::BTreeMap;
-
 use serde_json::Value;
-use signorini_files::summary::Summary;
+use signorini_files::answer::Answer;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::structured::Cells;
 use signorini_solve::{Options, ScalarKind, SolverKind, solve};
@@ -91,16 +89,8 @@ fn summary(text: &str, mesh: Mesh) -> Value {
     let (_, problem) = posed(text, mesh);
     let solution = solve(&problem, &Options::default()).expect("loads in balance");
     assert!(solution.converged() && solution.bound.is_none());
-    let summary = Summary::new(
-        &problem,
-        SolverKind::Kernel,
-        &solution,
-        None,
-        None,
-        BTreeMap::new(),
-        &BTreeMap::new(),
-    );
-    serde_json::from_str(&summary.json()).expect("valid JSON")
+    let answer = Answer::new(problem, solution, None, SolverKind::Kernel, None);
+    serde_json::from_str(&answer.expect("an answer").summary().json()).expect("valid JSON")
 }
 
 #[test]

@@ -55,25 +55,19 @@ impl Key<'_> {
     }
 
     fn draw(&self, svg: &mut Svg, [x, y]: [f64; 2]) {
-        let mut path = Path::default();
         match *self {
             Self::Series(at, _) => Look::of(at).markers(svg, [[x + 10.0, y]]),
             Self::Front => {
-                path.line(&[
-                    [x, y - 4.0],
-                    [x + 10.0, y - 4.0],
-                    [x + 10.0, y + 4.0],
-                    [x + 20.0, y + 4.0],
-                ]);
-                svg.path("stair", &path);
+                let corners = [[0.0, -4.0], [10.0, -4.0], [10.0, 4.0], [20.0, 4.0]];
+                let corners = corners.map(|[right, down]| [x + right, y + down]);
+                svg.path("stair", &Path::through(&corners));
             }
             Self::Bound => {
                 svg.line("bound-line", [x + 10.0, y + 6.0], [x + 10.0, y - 5.0]);
                 svg.line("bound-cap", [x + 5.0, y - 5.0], [x + 15.0, y - 5.0]);
             }
             Self::Recommended => {
-                path.polygon(&circle([x + 10.0, y], 6.5));
-                svg.path("ring", &path);
+                svg.path("ring", &Path::around(&circle([x + 10.0, y], 6.5)));
             }
         }
     }

@@ -5,7 +5,6 @@ mod key;
 mod layout;
 
 use super::axes::Axes;
-use super::frame::STYLE;
 use super::look::{Look, MARKER};
 use super::scale::{Scale, has_logarithm};
 use super::svg::{Anchor, Path, Svg, circle};
@@ -57,32 +56,26 @@ const LETTERS: f64 = 11.5;
 
 /// The picture for a page; `None` without a point to draw.
 pub fn pareto(plot: &ParetoPlot) -> Option<String> {
-    draw(plot, false)
+    draw(plot, Svg::new)
 }
 
 /// The picture as a file of its own.
 pub fn pareto_file(plot: &ParetoPlot) -> String {
-    draw(plot, true).unwrap_or_else(|| {
-        let mut svg = Svg::new(WIDTH, 80.0, &plot.title);
-        svg.style(STYLE);
-        svg.rectangle("sheet", [0.0, 0.0], [WIDTH, 80.0]);
+    draw(plot, Svg::alone).unwrap_or_else(|| {
+        let mut svg = Svg::alone(WIDTH, 80.0, &plot.title);
         key::title(&mut svg, &plot.title);
         svg.text("quantity", [LEFT, 56.0], Anchor::Start, "no setting with a cost and an error");
         svg.finish()
     })
 }
 
-fn draw(plot: &ParetoPlot, alone: bool) -> Option<String> {
+fn draw(plot: &ParetoPlot, begin: fn(f64, f64, &str) -> Svg) -> Option<String> {
     let shown = shown(&plot.points);
     let keys = key::keys(plot, &shown);
     let top = key::bottom(&keys) + 34.0;
     let layout = Layout::new(&shown, top)?;
-    let mut svg =
-        Svg::new(WIDTH, layout.bottom + 46.0, &format!("{}: error over cost", plot.title));
-    if alone {
-        svg.style(STYLE);
-        svg.rectangle("sheet", [0.0, 0.0], [WIDTH, layout.bottom + 46.0]);
-    }
+    let label = format!("{}: error over cost", plot.title);
+    let mut svg = begin(WIDTH, layout.bottom + 46.0, &label);
     key::title(&mut svg, &plot.title);
     key::draw(&mut svg, &keys);
     axes(&mut svg, plot, &layout);
@@ -156,9 +149,7 @@ fn stair(svg: &mut Svg, layout: &Layout, shown: &[&ParetoPoint]) {
         corners.push([x, y]);
     }
     corners.extend(corners.last().map(|before| [RIGHT, before[1]]));
-    let mut path = Path::default();
-    path.line(&corners);
-    svg.path("stair", &path);
+    svg.path("stair", &Path::through(&corners));
 }
 
 /// The markers, those of the front above the others; bounds, leaders to names and the ring.
@@ -184,16 +175,13 @@ fn points(svg: &mut Svg, layout: &Layout, shown: &[&ParetoPoint]) {
         mark(svg, layout, point, "marker", 1.15 * MARKER);
     }
     for point in shown.iter().filter(|point| point.recommended) {
-        let mut ring = Path::default();
-        ring.polygon(&circle(layout.at(point), 8.5));
-        svg.path("ring", &ring);
+        svg.path("ring", &Path::around(&circle(layout.at(point), 8.5)));
     }
 }
 
 fn mark(svg: &mut Svg, layout: &Layout, point: &ParetoPoint, class: &str, radius: f64) {
     let look = Look::of(point.series);
-    let mut path = Path::default();
-    path.polygon(&look.marker(layout.at(point), radius));
+    let path = Path::around(&look.marker(layout.at(point), radius));
     let words = format!("{}: {}", point.name, point.note);
     svg.explained(&look.class(class), &path, &words);
 }

@@ -98,19 +98,7 @@ fn an_array_with_a_gap_is_left_out_and_the_rest_stays() {
 
 #[test]
 fn an_empty_mesh_is_still_a_file() {
-    let empty = Field {
-        vertices: &[],
-        triangles: &[],
-        quads: &[],
-        cell_u: &[],
-        cell_flux: &[],
-        indicator: &[],
-        conductivity: &[],
-        region: &[],
-        materials: &[],
-        vertex_s: &[],
-    };
-    assert!(vtu(&empty).contains("NumberOfPoints=\"0\" NumberOfCells=\"0\""));
+    assert!(vtu(&Field::default()).contains("NumberOfPoints=\"0\" NumberOfCells=\"0\""));
 }
 
 #[test]

@@ -107,7 +107,7 @@ fn power(a: F32, b: F32) -> F32 {
     if within { base.powf(b) } else { F32(base.0.powf(b.0)) }
 }
 
-/// f64.
+/// f64, as [`Arithmetic::Double`], known while compiling: vector units take several at once.
 pub(super) struct Doubles;
 
 impl Numbers for Doubles {
@@ -126,48 +126,29 @@ impl Numbers for Doubles {
     }
 }
 
-/// f32; rounding what f64 gives rounds sums, products and quotients correctly.
-pub(super) struct Singles;
-
-impl Numbers for Singles {
-    type Number = f32;
-
-    fn constant(&self, value: f64) -> f32 {
-        value as f32
-    }
-
-    fn unary(&self, operation: Unary, a: f32) -> f32 {
-        operation.apply(f64::from(a)) as f32
-    }
-
-    fn binary(&self, operation: Binary, a: f32, b: f32) -> f32 {
-        operation.apply(f64::from(a), f64::from(b)) as f32
-    }
-}
-
-/// f64 with one function from micromath.
-pub(super) struct Replaced(pub Elementary);
-
-impl Numbers for Replaced {
+/// Any arithmetic. In f32 each result is rounded: what f64 gives rounds sums, products and quotients correctly.
+impl Numbers for Arithmetic {
     type Number = f64;
 
     fn constant(&self, value: f64) -> f64 {
-        value
+        if *self == Self::Single { f64::from(value as f32) } else { value }
     }
 
     fn unary(&self, operation: Unary, a: f64) -> f64 {
-        if operation.elementary() == Some(self.0) {
-            f64::from(operation.fast(F32(a as f32)).0)
-        } else {
-            operation.apply(a)
+        match *self {
+            Self::Fast(function) if operation.elementary() == Some(function) => {
+                f64::from(operation.fast(F32(a as f32)).0)
+            }
+            _ => self.constant(operation.apply(a)),
         }
     }
 
     fn binary(&self, operation: Binary, a: f64, b: f64) -> f64 {
-        if operation.elementary() == Some(self.0) {
-            f64::from(operation.fast(F32(a as f32), F32(b as f32)).0)
-        } else {
-            operation.apply(a, b)
+        match *self {
+            Self::Fast(function) if operation.elementary() == Some(function) => {
+                f64::from(operation.fast(F32(a as f32), F32(b as f32)).0)
+            }
+            _ => self.constant(operation.apply(a, b)),
         }
     }
 }

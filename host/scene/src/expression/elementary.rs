@@ -45,18 +45,8 @@ impl Elementary {
 
     /// Its name in libm and micromath.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Sqrt => "sqrt",
-            Self::Sin => "sin",
-            Self::Cos => "cos",
-            Self::Tan => "tan",
-            Self::Asin => "asin",
-            Self::Acos => "acos",
-            Self::Atan => "atan",
-            Self::Atan2 => "atan2",
-            Self::Exp => "exp",
-            Self::Ln => "ln",
-            Self::Power => "powf",
-        }
+        const NAMES: [&str; 11] =
+            ["sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "ln", "powf"];
+        NAMES[self as usize]
     }
 }

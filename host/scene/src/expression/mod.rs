@@ -30,11 +30,11 @@ use std::fmt;
 use std::ops::Range;
 
 use dual::{Dual, Duals};
-use program::Program;
+use program::{Numbers, Program};
 use thiserror::Error;
 
 pub use arithmetic::Arithmetic;
-use arithmetic::{Doubles, Replaced, Singles};
+use arithmetic::Doubles;
 pub use elementary::Elementary;
 
 /// A parsed expression: evaluates without allocation, cannot fail.
@@ -104,8 +104,7 @@ impl Expression {
         let at = [x + 0.0, y + 0.0, t];
         match self.arithmetic {
             Arithmetic::Double => self.program.run(&Doubles, at),
-            Arithmetic::Single => f64::from(self.program.run(&Singles, at.map(|x| x as f32))),
-            Arithmetic::Fast(function) => self.program.run(&Replaced(function), at),
+            other => self.program.run(&other, at.map(|x| other.constant(x))),
         }
     }
 
@@ -115,13 +114,8 @@ impl Expression {
             return vec![value; points.len()];
         }
         match self.arithmetic {
-            Arithmetic::Double => self.program.run_all(&Doubles, points, t, |x| x, |x| x),
-            Arithmetic::Single => {
-                self.program.run_all(&Singles, points, t, |x| x as f32, f64::from)
-            }
-            Arithmetic::Fast(function) => {
-                self.program.run_all(&Replaced(function), points, t, |x| x, |x| x)
-            }
+            Arithmetic::Double => self.program.run_all(&Doubles, points, t),
+            other => self.program.run_all(&other, points, t),
         }
     }
 
@@ -130,23 +124,19 @@ impl Expression {
     /// At a kink: the derivative of `abs` and `sign` at 0 is 0, `min` and `max` take the argument
     /// that they return.
     pub fn gradient(&self, x: f64, y: f64, t: f64) -> (f64, [f64; 2]) {
-        let at = [
-            Dual { value: x + 0.0, gradient: [1.0, 0.0] },
-            Dual { value: y + 0.0, gradient: [0.0, 1.0] },
-            Dual { value: t, gradient: [0.0, 0.0] },
-        ];
-        let Dual { value, gradient } = self.program.run(&Duals, at);
+        let Dual { value, gradient } = self.dual([x, y, t], [[1.0, 0.0], [0.0, 1.0]]);
         (value, gradient)
     }
 
     /// The derivative along `direction`; what does not change along it contributes nothing, however steep it is across.
     pub fn slope(&self, x: f64, y: f64, t: f64, [dx, dy]: [f64; 2]) -> f64 {
-        let at = [
-            Dual { value: x + 0.0, gradient: [dx, 0.0] },
-            Dual { value: y + 0.0, gradient: [dy, 0.0] },
-            Dual { value: t, gradient: [0.0, 0.0] },
-        ];
-        self.program.run(&Duals, at).gradient[0]
+        self.dual([x, y, t], [[dx, 0.0], [dy, 0.0]]).gradient[0]
+    }
+
+    /// The value and its derivatives along two ways, on which x and y change so fast.
+    fn dual(&self, [x, y, t]: [f64; 3], [dx, dy]: [[f64; 2]; 2]) -> Dual {
+        let at = [(x + 0.0, dx), (y + 0.0, dy), (t, [0.0, 0.0])];
+        self.program.run(&Duals, at.map(|(value, gradient)| Dual { value, gradient }))
     }
 
     /// The value, if no variable occurs.

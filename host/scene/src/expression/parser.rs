@@ -70,7 +70,7 @@ impl Parser<'_> {
                 Binary::Power => self.nested(right)?,
                 _ => self.expression(right)?,
             }
-            self.program.binary(operation);
+            self.program.push(Step::Binary(operation));
         }
         Ok(())
     }
@@ -94,7 +94,7 @@ impl Parser<'_> {
                 self.advance()?;
                 self.nested(SIGNED)?;
                 if sign == '-' {
-                    self.program.unary(Unary::Negate);
+                    self.program.push(Step::Unary(Unary::Negate));
                 }
                 Ok(())
             }
@@ -136,10 +136,10 @@ impl Parser<'_> {
             }
         }
         match function {
-            Function::One(operation) => self.program.unary(operation),
+            Function::One(operation) => self.program.push(Step::Unary(operation)),
             _ if count < 2 => return Err(self.wrong_count(name, function)),
-            _ => {}
-        }
+            _ => None,
+        };
         self.expect(')')
     }
 
@@ -147,12 +147,12 @@ impl Parser<'_> {
     fn argument(&mut self, operation: Binary) -> Result<(), ParseError> {
         self.advance()?;
         self.nested(0)?;
-        self.program.binary(operation);
+        self.program.push(Step::Binary(operation));
         Ok(())
     }
 
     fn push(&mut self, operand: Step) -> Result<(), ParseError> {
-        self.program.operand(operand).ok_or_else(|| self.too_deep())?;
+        self.program.push(operand).ok_or_else(|| self.too_deep())?;
         self.advance()
     }
 

@@ -79,18 +79,8 @@ impl Program {
     pub fn at_time(&self, t: f64) -> Self {
         let mut builder = Builder::default();
         for &step in &self.steps {
-            match step {
-                Step::Variable(Variable::T) => builder.operand(Step::Constant(t)),
-                Step::Constant(_) | Step::Variable(_) => builder.operand(step),
-                Step::Unary(operation) => {
-                    builder.unary(operation);
-                    Some(())
-                }
-                Step::Binary(operation) => {
-                    builder.binary(operation);
-                    Some(())
-                }
-            };
+            let is_time = step == Step::Variable(Variable::T);
+            builder.push(if is_time { Step::Constant(t) } else { step });
         }
         builder.finish()
     }
@@ -152,29 +142,22 @@ pub(super) struct Builder {
 }
 
 impl Builder {
-    /// Pushes a constant or a variable; `None` if the stack is full.
-    pub fn operand(&mut self, step: Step) -> Option<()> {
-        self.steps.push(step);
-        self.height += 1;
-        (self.height <= STACK).then_some(())
-    }
-
-    pub fn unary(&mut self, operation: Unary) {
-        match self.steps.last_mut() {
-            Some(Step::Constant(value)) => *value = operation.apply(*value),
-            _ => self.steps.push(Step::Unary(operation)),
+    /// Adds a step; `None` if it is an operand and the stack is full.
+    pub fn push(&mut self, step: Step) -> Option<()> {
+        match step {
+            Step::Constant(_) | Step::Variable(_) => self.height += 1,
+            Step::Unary(_) => {}
+            Step::Binary(_) => self.height -= 1,
         }
-    }
-
-    pub fn binary(&mut self, operation: Binary) {
-        self.height -= 1;
-        match self.steps[..] {
-            [.., Step::Constant(left), Step::Constant(right)] => {
-                self.steps.truncate(self.steps.len() - 2);
-                self.steps.push(Step::Constant(operation.apply(left, right)));
+        match (step, &mut self.steps[..]) {
+            (Step::Unary(operation), [.., Step::Constant(a)]) => *a = operation.apply(*a),
+            (Step::Binary(operation), [.., Step::Constant(a), Step::Constant(b)]) => {
+                *a = operation.apply(*a, *b);
+                self.steps.pop();
             }
-            _ => self.steps.push(Step::Binary(operation)),
+            _ => self.steps.push(step),
         }
+        (self.height <= STACK).then_some(())
     }
 
     pub fn finish(self) -> Program {

@@ -32,21 +32,20 @@ impl<N: Numbers> Numbers for Several<'_, N> {
 
 impl Program {
     /// The results at many points; a coordinate −0.0 is read as 0.0.
-    pub(super) fn run_all<N: Numbers>(
+    pub(super) fn run_all(
         &self,
-        numbers: &N,
+        numbers: &impl Numbers<Number = f64>,
         points: &[[f64; 2]],
         t: f64,
-        narrow: impl Fn(f64) -> N::Number,
-        wide: impl Fn(N::Number) -> f64,
     ) -> Vec<f64> {
+        let t = [numbers.constant(t); LANES];
         let mut values = Vec::with_capacity(points.len());
         for points in points.chunks(LANES) {
             // The last lanes may have no point of their own.
-            let of = |lane: usize, k: usize| narrow(points[lane.min(points.len() - 1)][k] + 0.0);
-            let at = [from_fn(|lane| of(lane, 0)), from_fn(|lane| of(lane, 1)), [narrow(t); LANES]];
-            let found = self.run(&Several(numbers), at);
-            values.extend(found.into_iter().take(points.len()).map(&wide));
+            let of = |lane: usize, k: usize| points[lane.min(points.len() - 1)][k] + 0.0;
+            let [x, y] = [0, 1].map(|k| from_fn(|lane| numbers.constant(of(lane, k))));
+            let found = self.run(&Several(numbers), [x, y, t]);
+            values.extend(found.into_iter().take(points.len()));
         }
         values
     }

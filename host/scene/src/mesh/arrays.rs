@@ -52,11 +52,8 @@ impl Arrays {
         }
         if let Some(at) = self.points.iter().position(|point| point.iter().any(|x| !x.is_finite()))
         {
-            return Err(InputError::new(format!(
-                "point {at} is {:?}, expected numbers",
-                self.points[at]
-            ))
-            .into());
+            let message = format!("point {at} is {:?}, expected numbers", self.points[at]);
+            return Err(InputError::new(message).into());
         }
         let outside = |of: &str, vertices: &[u32]| -> Result<()> {
             let Some(vertex) = vertices.iter().find(|&&at| at as usize >= points) else {
@@ -66,8 +63,8 @@ impl Arrays {
             Err(InputError::new(message).hint("vertices count from 0").into())
         };
         let cells = self.triangles.iter().map(|of| &of[..]);
-        let cells = (0..).zip(cells.chain(self.quads.iter().map(|of| &of[..])));
-        for (at, cell) in cells {
+        let cells = cells.chain(self.quads.iter().map(|of| &of[..]));
+        for (at, cell) in (0..).zip(cells) {
             outside(&cell_name(self.triangles.len(), at), cell)?;
         }
         let lacking = self.curves.iter().map(|(name, of)| ("curve", name, "edge", of.is_empty()));

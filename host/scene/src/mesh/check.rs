@@ -8,45 +8,27 @@
 use super::{Curve, Mesh};
 use crate::error::{InputError, Result};
 
-/// Cells that meet in a way no plane mesh has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Fault {
-    /// Three cells at one edge.
-    Branching {
-        /// The vertices of the edge.
-        edge: [u32; 2],
-        /// The first three of its cells.
-        cells: [u32; 3],
-    },
-    /// Two cells on the same side of an edge.
-    Overlap {
-        /// The vertices of the edge.
-        edge: [u32; 2],
-        /// The two cells.
-        cells: [u32; 2],
-    },
+/// Cells that meet in a way no plane mesh has: three at one edge, or two on the same side of it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fault {
+    /// The vertices of the edge.
+    pub edge: [u32; 2],
+    /// The first three of its cells, or the two on the same side.
+    pub cells: Vec<u32>,
 }
 
 impl Fault {
-    /// The cell to be named first.
-    pub fn cell(&self) -> u32 {
-        match self {
-            Self::Branching { cells, .. } => cells[0],
-            Self::Overlap { cells, .. } => cells[0],
-        }
-    }
-
     /// The fault in words, with cells and vertices called as the caller knows them.
     pub fn describe(&self, cell: impl Fn(u32) -> String, vertex: impl Fn(u32) -> String) -> String {
-        let edge = |[a, b]: [u32; 2]| format!("the edge from {} to {}", vertex(a), vertex(b));
-        match *self {
-            Self::Branching { edge: ends, cells: [a, b, c] } => {
-                let (a, b, c) = (cell(a), cell(b), cell(c));
-                format!("{a}, {b} and {c} share {}, expected two at most", edge(ends))
+        let [from, to] = self.edge.map(vertex);
+        let cells: Vec<_> = self.cells.iter().map(|&at| cell(at)).collect();
+        match &cells[..] {
+            [a, b, c] => {
+                format!("{a}, {b} and {c} share the edge from {from} to {to}, expected two at most")
             }
-            Self::Overlap { edge: ends, cells: [a, b] } => {
-                let (a, b) = (cell(a), cell(b));
-                format!("{a} and {b} overlap: both lie on the same side of {}", edge(ends))
+            both => {
+                let both = both.join(" and ");
+                format!("{both} overlap: both lie on the same side of the edge from {from} to {to}")
             }
         }
     }
@@ -54,29 +36,35 @@ impl Fault {
 
 /// One side of a cell; the order sorts by edge, then by cell.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct CellSide {
-    edge: [u32; 2],
-    cell: u32,
+pub(super) struct CellSide {
+    /// The vertices of its edge, the lower one first.
+    pub(super) edge: [u32; 2],
+    pub(super) cell: u32,
+    /// The corner that it begins at.
+    pub(super) side: usize,
     upward: bool,
+}
+
+/// The sides of all cells, those of one edge next to each other.
+pub(super) fn sides(mesh: &Mesh) -> Vec<CellSide> {
+    let mut sides = Vec::with_capacity(3 * mesh.triangles.len() + 4 * mesh.quads.len());
+    for (cell, corners) in (0..).zip(mesh.corners()) {
+        let following = corners.iter().cycle().skip(1);
+        let ends = corners.iter().zip(following).enumerate();
+        sides.extend(ends.map(|(side, (&from, &to))| {
+            let edge = [from.min(to), from.max(to)];
+            CellSide { edge, cell, side, upward: from < to }
+        }));
+    }
+    sides.sort_unstable();
+    sides
 }
 
 /// The edges of the mesh, lower vertex first, ascending, if its cells meet as they may.
 ///
 /// Cells must be counterclockwise and without a repeated vertex.
 pub fn edges(mesh: &Mesh) -> std::result::Result<Vec<[u32; 2]>, Fault> {
-    let mut sides = Vec::with_capacity(3 * mesh.triangles.len() + 4 * mesh.quads.len());
-    let triangles = mesh.triangles.iter().map(|cell| &cell[..]);
-    let cells = triangles.chain(mesh.quads.iter().map(|cell| &cell[..]));
-    for (cell, corners) in (0..).zip(cells) {
-        let following = corners.iter().cycle().skip(1);
-        sides.extend(corners.iter().zip(following).map(|(&from, &to)| CellSide {
-            edge: [from.min(to), from.max(to)],
-            cell,
-            upward: from < to,
-        }));
-    }
-    sides.sort_unstable();
-    sides.chunk_by(|a, b| a.edge == b.edge).map(edge_of).collect()
+    sides(mesh).chunk_by(|a, b| a.edge == b.edge).map(edge_of).collect()
 }
 
 /// The edges of a mesh that no file names: errors call cells and vertices by number.
@@ -106,8 +94,8 @@ pub(super) fn edge_number(edges: &[[u32; 2]], curve: &Curve, [a, b]: [u32; 2]) -
 fn edge_of(sides: &[CellSide]) -> std::result::Result<[u32; 2], Fault> {
     let edge = sides[0].edge;
     match sides {
-        [a, b, c, ..] => Err(Fault::Branching { edge, cells: [a.cell, b.cell, c.cell] }),
-        [a, b] if a.upward == b.upward => Err(Fault::Overlap { edge, cells: [a.cell, b.cell] }),
+        [a, b, c, ..] => Err(Fault { edge, cells: vec![a.cell, b.cell, c.cell] }),
+        [a, b] if a.upward == b.upward => Err(Fault { edge, cells: vec![a.cell, b.cell] }),
         _ => Ok(edge),
     }
 }
@@ -129,7 +117,7 @@ mod tests {
     #[test]
     fn three_cells_at_an_edge() {
         let fault = edges(&mesh(&[[0, 1, 2], [1, 0, 3], [1, 0, 4]], &[])).unwrap_err();
-        assert_eq!(fault, Fault::Branching { edge: [0, 1], cells: [0, 1, 2] });
+        assert_eq!(fault, Fault { edge: [0, 1], cells: vec![0, 1, 2] });
         let text = fault.describe(|c| format!("T{c}"), |v| format!("v{v}"));
         assert_eq!(text, "T0, T1 and T2 share the edge from v0 to v1, expected two at most");
     }
@@ -137,7 +125,7 @@ mod tests {
     #[test]
     fn two_cells_on_the_same_side() {
         let fault = edges(&mesh(&[[0, 1, 2]], &[[0, 1, 3, 4]])).unwrap_err();
-        assert_eq!(fault, Fault::Overlap { edge: [0, 1], cells: [0, 1] });
+        assert_eq!(fault, Fault { edge: [0, 1], cells: vec![0, 1] });
     }
 
     #[test]

@@ -53,6 +53,12 @@ impl Mesh {
         self.triangles.len() + self.quads.len()
     }
 
+    /// The vertices of each cell.
+    pub fn corners(&self) -> impl Iterator<Item = &[u32]> {
+        let triangles = self.triangles.iter().map(|cell| &cell[..]);
+        triangles.chain(self.quads.iter().map(|cell| &cell[..]))
+    }
+
     /// The surfaces of a mesh whose cell `c` lies in cell `origins[c]` of this one.
     fn inherited(&self, origins: &[u32]) -> Vec<Surface> {
         let inherited = |surface: &Surface| {

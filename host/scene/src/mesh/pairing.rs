@@ -7,6 +7,7 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
+use super::check::{CellSide, sides};
 use super::matching::matching;
 use super::shape::{Orientation, direction, orientation};
 use super::{Curve, Mesh};
@@ -54,24 +55,16 @@ struct Candidate {
     quad: [u32; 4],
 }
 
-/// Side `side` of a triangle; the order sorts by edge, then by triangle.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct TriangleSide {
-    edge: [u32; 2],
-    triangle: u32,
-    side: usize,
-}
-
 /// All pairs that may be taken, the best first.
 fn candidates(mesh: &Mesh) -> Vec<Candidate> {
     let regions = regions(mesh);
-    let mut sides: Vec<_> = (0..).zip(&mesh.triangles).flat_map(sides).collect();
-    sides.sort_unstable();
+    let (sides, triangles) = (sides(mesh), mesh.triangles.len() as u32);
     let pairs = sides.chunk_by(|a, b| a.edge == b.edge).filter_map(|sides| {
         let &[first, second] = sides else { return None };
-        let [here, there] = [first, second].map(|side| &regions[side.triangle as usize]);
+        let [here, there] = [first, second].map(|side| &regions[side.cell as usize]);
         let divides = |curve: &Curve| curve.edges.binary_search(&first.edge).is_ok();
-        (here == there && !mesh.curves.iter().any(divides)).then_some([first, second])
+        let are_alike = second.cell < triangles && here == there;
+        (are_alike && !mesh.curves.iter().any(divides)).then_some([first, second])
     });
     let mut found: Vec<_> = pairs.filter_map(|pair| candidate(mesh, pair)).collect();
     found.sort_by_key(|candidate| (candidate.steps, candidate.triangles));
@@ -87,17 +80,10 @@ fn regions(mesh: &Mesh) -> Vec<Vec<usize>> {
     regions
 }
 
-fn sides((triangle, corners): (u32, &[u32; 3])) -> [TriangleSide; 3] {
-    std::array::from_fn(|side| {
-        let (a, b) = (corners[side], corners[(side + 1) % 3]);
-        TriangleSide { edge: [a.min(b), a.max(b)], triangle, side }
-    })
-}
-
 /// The quad around two triangles, if it is convex and not too skew.
-fn candidate(mesh: &Mesh, [first, second]: [TriangleSide; 2]) -> Option<Candidate> {
-    let [a, b, c] = mesh.triangles[first.triangle as usize];
-    let opposite = mesh.triangles[second.triangle as usize][(second.side + 2) % 3];
+fn candidate(mesh: &Mesh, [first, second]: [CellSide; 2]) -> Option<Candidate> {
+    let [a, b, c] = mesh.triangles[first.cell as usize];
+    let opposite = mesh.triangles[second.cell as usize][(second.side + 2) % 3];
     let quad = match first.side {
         0 => [a, opposite, b, c],
         1 => [a, b, opposite, c],
@@ -108,7 +94,7 @@ fn candidate(mesh: &Mesh, [first, second]: [TriangleSide; 2]) -> Option<Candidat
     if orientation(&points) != Ok(Orientation::Counterclockwise) || skew > MOST_SKEW {
         return None;
     }
-    let triangles = [first.triangle, second.triangle];
+    let triangles = [first.cell, second.cell];
     Some(Candidate { steps: (skew / STEP).round() as u32, triangles, quad })
 }
 

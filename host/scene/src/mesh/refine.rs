@@ -23,19 +23,15 @@ pub const MOST_CELLS: usize = 4_000_000;
 /// Cells that don't meet as they may, curves off the edges, or more than [`MOST_CELLS`].
 pub fn refined(mesh: &Mesh) -> Result<Mesh> {
     let cells = 4 * mesh.cells();
-    if cells > MOST_CELLS {
-        let message =
-            format!("the refined mesh would have {cells} cells, expected at most 4000000");
-        return Err(InputError::new(message).hint("refine less often").into());
-    }
+    check_count(cells, "refine less often")?;
     let edges = numbered_edges(mesh)?;
     let halves = Halves { vertices: mesh.vertices.len(), edges: &edges };
     let centre = |quad: usize| (halves.vertices + edges.len() + quad) as u32;
     let triangles = mesh.triangles.iter().flat_map(|&corners| halves.of_triangle(corners));
     let quads = mesh.quads.iter().enumerate();
     let quads = quads.flat_map(|(quad, &corners)| halves.of_quad(corners, centre(quad)));
-    let midpoints = edges.iter().map(|&ends| mean(&mesh.vertices, ends));
-    let centres = mesh.quads.iter().map(|&corners| mean(&mesh.vertices, corners));
+    let midpoints = edges.iter().map(|ends| mean(&mesh.vertices, ends));
+    let centres = mesh.quads.iter().map(|corners| mean(&mesh.vertices, corners));
     let origins: Vec<_> = (0..cells as u32).map(|cell| cell / 4).collect();
     Ok(Mesh {
         vertices: mesh.vertices.iter().copied().chain(midpoints).chain(centres).collect(),
@@ -46,11 +42,19 @@ pub fn refined(mesh: &Mesh) -> Result<Mesh> {
     })
 }
 
+/// Refuses to make so many cells.
+pub(super) fn check_count(cells: usize, hint: &str) -> Result<()> {
+    let message =
+        format!("the refined mesh would have {cells} cells, expected at most {MOST_CELLS}");
+    let error = || InputError::new(message).hint(hint).into();
+    if cells > MOST_CELLS { Err(error()) } else { Ok(()) }
+}
+
 /// The mean of some of the vertices.
-pub(super) fn mean<const N: usize>(vertices: &[[f64; 2]], corners: [u32; N]) -> [f64; 2] {
-    let share = 1.0 / N as f64;
-    let points = corners.map(|vertex| vertices[vertex as usize]);
-    [0, 1].map(|axis| points.iter().map(|point| share * point[axis]).sum())
+pub(super) fn mean(vertices: &[[f64; 2]], corners: &[u32]) -> [f64; 2] {
+    let share = 1.0 / corners.len() as f64;
+    let part = |axis: usize| corners.iter().map(move |&at| share * vertices[at as usize][axis]);
+    [0, 1].map(|axis| part(axis).sum())
 }
 
 /// The midpoints of edges.

@@ -5,9 +5,9 @@
 
 use super::table::Table;
 use super::units::Unit;
-use super::{Boundary, Condition, Field, Located};
+use super::{Boundary, Condition, Datum, Field};
 use crate::error::Result;
-use crate::expression::{Expression, Variables};
+use crate::expression::Variables;
 
 /// Reads `[boundary.NAME]`; a key of another kind is refused.
 pub(super) fn read_boundary(table: &Table) -> Result<Boundary> {
@@ -22,18 +22,18 @@ pub(super) fn read_boundary(table: &Table) -> Result<Boundary> {
 }
 
 fn read_dirichlet(table: &Table) -> Result<Condition> {
-    table.only("a dirichlet boundary", &["kind", "value"])?;
+    table.only("a dirichlet boundary", "kind, value")?;
     Ok(Condition::Dirichlet { value: table.require("value")?.expression(Variables::SpaceTime)? })
 }
 
 fn read_neumann(table: &Table) -> Result<Condition> {
-    table.only("a neumann boundary", &["kind", "flux"])?;
+    table.only("a neumann boundary", "kind, flux")?;
     Ok(Condition::Neumann { flux: table.require("flux")?.expression(Variables::SpaceTime)? })
 }
 
 /// The coefficient enters the matrix, which stays the same from tick to tick: no t in it.
 fn read_robin(table: &Table) -> Result<Condition> {
-    table.only("a robin boundary", &["kind", "coefficient", "ambient"])?;
+    table.only("a robin boundary", "kind, coefficient, ambient")?;
     let entry = table.require("coefficient")?;
     let coefficient = entry.expression(Variables::Space)?;
     if let Some(value) = coefficient.value.is_constant().filter(|&value| value < 0.0) {
@@ -45,7 +45,7 @@ fn read_robin(table: &Table) -> Result<Condition> {
 }
 
 fn read_contact(table: &Table) -> Result<Condition> {
-    table.only("a contact boundary", &["kind", "gap", "flux", "limit"])?;
+    table.only("a contact boundary", "kind, gap, flux, limit")?;
     let gap = table.expression_or_zero("gap", Variables::SpaceTime)?;
     let flux = table.end_of_range("flux", 0.0, Variables::SpaceTime)?;
     let limit = table.end_of_range("limit", f64::INFINITY, Variables::SpaceTime)?;
@@ -54,9 +54,9 @@ fn read_contact(table: &Table) -> Result<Condition> {
 }
 
 /// Refuses ends of a flux that leave nothing between them, and such that leave everything. What varies is checked on the mesh.
-fn check_range(table: &Table, ends: [&Located<Expression>; 2]) -> Result<()> {
+fn check_range(table: &Table, ends: [&Datum; 2]) -> Result<()> {
     let [least, most] = ends.map(|end| end.value.is_constant());
-    let error = |at: &Located<Expression>, message: String, hint: &str| {
+    let error = |at: &Datum, message: String, hint: &str| {
         Err(table.document.error(at, message).hint(hint.to_owned()).into())
     };
     if least == Some(f64::INFINITY) {
@@ -120,12 +120,12 @@ macro_rules! data_of {
 
 impl Condition {
     /// Its data, each with what it is.
-    pub fn data(&self) -> Vec<(Role, &Located<Expression>)> {
+    pub fn data(&self) -> Vec<(Role, &Datum)> {
         data_of!(self)
     }
 
     /// Its data, to be changed, each with what it is.
-    pub fn data_mut(&mut self) -> Vec<(Role, &mut Located<Expression>)> {
+    pub fn data_mut(&mut self) -> Vec<(Role, &mut Datum)> {
         data_of!(self)
     }
 
@@ -140,7 +140,7 @@ impl Condition {
     }
 
     /// The transfer coefficient h, if its kind has one: ∫h u² on its edges belongs to the energy norm then.
-    pub fn transfer(&self) -> Option<&Located<Expression>> {
+    pub fn transfer(&self) -> Option<&Datum> {
         match self {
             Self::Robin { coefficient, .. } => Some(coefficient),
             Self::Dirichlet { .. } | Self::Neumann { .. } | Self::Contact { .. } => None,
@@ -155,7 +155,7 @@ impl Condition {
     }
 
     /// The `field` of this boundary that an input may add to, if its kind has it.
-    pub fn field(&self, field: Field) -> Option<&Located<Expression>> {
+    pub fn field(&self, field: Field) -> Option<&Datum> {
         match field {
             Field::Coefficient => self.transfer(),
             Field::Flux
@@ -168,7 +168,7 @@ impl Condition {
     }
 
     /// The load `field` of this boundary, if its kind has it.
-    pub fn load(&self, field: Field) -> Option<&Located<Expression>> {
+    pub fn load(&self, field: Field) -> Option<&Datum> {
         self.data().into_iter().find_map(|(role, data)| (role == Role::Load(field)).then_some(data))
     }
 }

@@ -19,20 +19,19 @@ const FIELDS: [(&str, Field); 7] = [
 
 /// Reads `[input.NAME]`. The pattern has no t: what changes is the value that multiplies it.
 pub(super) fn read_input(table: &Table, boundaries: &[Boundary]) -> Result<Input> {
-    table.only("an input", &["of", "field", "pattern", "default", "range", "unit"])?;
-    let of = table.require("of")?;
-    let field = table.require("field")?;
-    check_field(&of, &field, boundaries)?;
-    check_finite(&of, &field, boundaries)?;
+    table.only("an input", "of, field, pattern, default, range, unit")?;
+    let (of, entry) = (table.require("of")?, table.require("field")?);
+    let field = entry.choice(&FIELDS)?;
+    check_field(&of, &entry, field.value, boundaries)?;
     let range = table.get("range");
-    if field.choice(&FIELDS)?.value == Field::Coefficient {
+    if field.value == Field::Coefficient {
         // What stands in the matrix is judged for all values.
         table.require("range")?;
     }
     let input = Input {
         name: table.name.clone(),
         of: of.text()?,
-        field: field.choice(&FIELDS)?,
+        field,
         pattern: table.require("pattern")?.expression(Variables::Space)?,
         default: table.get("default").map_or(Ok(0.0), |entry| entry.number())?,
         range: range.as_ref().map(InputRange::read).transpose()?,
@@ -48,65 +47,67 @@ pub(super) fn read_input(table: &Table, boundaries: &[Boundary]) -> Result<Input
     }
 }
 
-/// Refuses a field that `of` lacks: the source has f, a boundary the fields of its kind.
-fn check_field(of: &Entry, field: &Entry, boundaries: &[Boundary]) -> Result<()> {
-    let choice = field.choice(&FIELDS)?.value;
-    let (found, fields) = match (choice, of.text()?.value.as_str()) {
+/// Refuses a field that `of` lacks (the source has f, a boundary the fields of its kind), and an infinite end of a
+/// flux: nothing can be added to it.
+fn check_field(of: &Entry, entry: &Entry, field: Field, boundaries: &[Boundary]) -> Result<()> {
+    let (name, written) = (of.text()?.value, entry.text()?.value);
+    let (found, fields) = match (field, name.as_str()) {
         (Field::Source, "source") => return Ok(()),
         (_, "source") if !boundaries.iter().any(|known| known.name.value == "source") => {
             ("the source".to_owned(), "f".to_owned())
         }
         _ => {
             let condition = &find_boundary(of, boundaries)?.condition;
-            if condition.field(choice).is_some() {
-                return Ok(());
+            if let Some(base) = condition.field(field) {
+                let infinite = base.value.is_constant().filter(|value| value.is_infinite());
+                return infinite.map_or(Ok(()), |value| {
+                    let message = format!("{} is {value}, to which nothing can be added", base.key);
+                    let hint = format!("give [boundary.{name}] a finite `{written}`");
+                    Err(entry.error(message).hint(hint).into())
+                });
             }
             let has = |&&(_, field): &&(&str, Field)| condition.field(field).is_some();
             let names: Vec<_> = FIELDS.iter().filter(has).map(|(name, _)| *name).collect();
             (format!("a {} boundary", condition.kind()), names.join(", "))
         }
     };
-    let message = format!("{found} has no field `{}`", field.text()?.value);
-    Err(field.error(message).hint(format!("an input may act on its {fields}")).into())
+    let message = format!("{found} has no field `{written}`");
+    Err(entry.error(message).hint(format!("an input may act on its {fields}")).into())
 }
 
-/// Refuses to add to an infinite end of a flux.
-fn check_finite(of: &Entry, field: &Entry, boundaries: &[Boundary]) -> Result<()> {
-    let choice = field.choice(&FIELDS)?.value;
-    if choice == Field::Source {
-        return Ok(());
-    }
-    let base = find_boundary(of, boundaries)?.condition.field(choice);
-    match base.and_then(|base| Some((base, base.value.is_constant()?))) {
-        Some((base, value)) if value.is_infinite() => {
-            let message = format!("{} is {value}, to which nothing can be added", base.key);
-            let hint =
-                format!("give [boundary.{}] a finite `{}`", of.text()?.value, field.text()?.value);
-            Err(field.error(message).hint(hint).into())
-        }
-        _ => Ok(()),
-    }
-}
+/// The kinds of outputs, with words for each.
+const KINDS: [(&str, (&str, Quantity)); 7] = [
+    ("flux", ("a flux", Quantity::Flux)),
+    ("force", ("a force", Quantity::Force)),
+    ("length", ("a length", Quantity::Length)),
+    ("saturated", ("a saturated length", Quantity::Saturated)),
+    ("probe", ("a probe", Quantity::Probe { at: [0.0; 2] })),
+    ("mean", ("a mean", Quantity::Mean)),
+    ("bound", ("a bound", Quantity::Bound)),
+];
 
 /// Reads `[output.NAME]`.
 pub(super) fn read_output(table: &Table, boundaries: &[Boundary]) -> Result<Output> {
-    let kind = table.require("kind")?;
-    let read = kind.choice::<fn(&Table, &[Boundary]) -> Result<Measured>>(&[
-        ("flux", |table, boundaries| read_boundary(table, boundaries, "a flux", Quantity::Flux)),
-        ("force", |table, boundaries| read_contact(table, boundaries, "a force", Quantity::Force)),
-        ("length", |table, boundaries| {
-            read_contact(table, boundaries, "a length", Quantity::Length)
-        }),
-        ("saturated", |table, boundaries| {
-            read_contact(table, boundaries, "a saturated length", Quantity::Saturated)
-        }),
-        ("probe", read_probe),
-        ("mean", |table, boundaries| read_boundary(table, boundaries, "a mean", Quantity::Mean)),
-        ("bound", |table, _| {
-            table.only("a bound", &["kind", "unit"]).map(|()| (Quantity::Bound, None))
-        }),
-    ])?;
-    let (quantity, of) = (read.value)(table, boundaries)?;
+    let (what, mut quantity) = table.require("kind")?.choice(&KINDS)?.value;
+    let of = match &mut quantity {
+        Quantity::Bound => table.only(what, "kind, unit").map(|()| None)?,
+        Quantity::Probe { at } => {
+            table.only(what, "kind, at, unit")?;
+            let [x, y] = table.require("at")?.pair("x, y")?;
+            *at = [x.number()?, y.number()?];
+            None
+        }
+        Quantity::Flux | Quantity::Mean => {
+            table.only(what, "kind, of, unit")?;
+            let of = table.require("of")?;
+            find_boundary(&of, boundaries)?;
+            Some(of.text()?)
+        }
+        Quantity::Force | Quantity::Length | Quantity::Saturated => {
+            table.only(what, "kind, of, unit")?;
+            table.get("of").map(|of| contact(&of, boundaries)).transpose()?
+        }
+    };
     Ok(Output { name: table.name.clone(), quantity, of, unit: read_unit(table)? })
 }
 
@@ -124,41 +125,15 @@ fn read_unit(table: &Table) -> Result<Option<String>> {
     Ok(Some(unit))
 }
 
-type Measured = (Quantity, Option<Located<String>>);
-
-fn read_boundary(
-    table: &Table,
-    boundaries: &[Boundary],
-    what: &str,
-    quantity: Quantity,
-) -> Result<Measured> {
-    table.only(what, &["kind", "of", "unit"])?;
-    let of = table.require("of")?;
-    find_boundary(&of, boundaries)?;
-    Ok((quantity, Some(of.text()?)))
-}
-
-fn read_contact(
-    table: &Table,
-    boundaries: &[Boundary],
-    what: &str,
-    quantity: Quantity,
-) -> Result<Measured> {
-    table.only(what, &["kind", "of", "unit"])?;
-    let Some(of) = table.get("of") else { return Ok((quantity, None)) };
-    match &find_boundary(&of, boundaries)?.condition {
-        Condition::Contact { .. } => Ok((quantity, Some(of.text()?))),
+/// The name of a contact boundary.
+fn contact(of: &Entry, boundaries: &[Boundary]) -> Result<Located<String>> {
+    match &find_boundary(of, boundaries)?.condition {
+        Condition::Contact { .. } => of.text(),
         other => {
             let message = format!("expected a contact boundary, this one is {}", other.kind());
             Err(of.error(message).hint("without `of` it is taken over all contact").into())
         }
     }
-}
-
-fn read_probe(table: &Table, _: &[Boundary]) -> Result<Measured> {
-    table.only("a probe", &["kind", "at", "unit"])?;
-    let [x, y] = table.require("at")?.pair("x, y")?;
-    Ok((Quantity::Probe { at: [x.number()?, y.number()?] }, None))
 }
 
 /// The boundary that `of` names.
@@ -174,6 +149,8 @@ fn find_boundary<'a>(of: &Entry, boundaries: &'a [Boundary]) -> Result<&'a Bound
 fn list<'a>(names: impl Iterator<Item = &'a Located<String>>) -> String {
     names.map(|name| name.value.as_str()).collect::<Vec<_>>().join(", ")
 }
+
+const ABOUT_RANGES: &str = "a range in the scene says what the input may be";
 
 impl Scene {
     /// The first input that adds to a transfer coefficient.
@@ -230,11 +207,8 @@ impl Scene {
             false => Some(format!("{value} is not a finite number")),
         };
         wrong.map_or(Ok(()), |why| {
-            let hint = "a range in the scene says what the input may be";
-            Err(InputError::new(format!("input.{}: {why}", input.name.value))
-                .file(self.file())
-                .hint(hint)
-                .into())
+            let error = InputError::new(format!("input.{}: {why}", input.name.value));
+            Err(error.file(self.file()).hint(ABOUT_RANGES).into())
         })
     }
 
@@ -254,10 +228,7 @@ impl Scene {
             .filter(|value: &f64| value.is_finite())
             .ok_or_else(|| error(format!("`{value}` is not a finite number")))?;
         if let Some(refusal) = input.refusal(value) {
-            let hint = "a range in the scene says what the input may be";
-            return Err(InputError::new(format!("--input {assignment}: {refusal}"))
-                .hint(hint)
-                .into());
+            return Err(error(refusal).hint(ABOUT_RANGES).into());
         }
         input.default = value;
         Ok(())

@@ -6,8 +6,8 @@ use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
 use toml::de::{DeInteger, DeValue};
 
-use super::Located;
 use super::document::Document;
+use super::{Datum, Located};
 use crate::error::{Error, InputError, Result};
 use crate::expression::{Expression, Variables};
 
@@ -102,7 +102,7 @@ impl<'a> Entry<'a> {
     }
 
     /// A number, or a text that is an expression in `variables`.
-    pub fn expression(&self, variables: Variables) -> Result<Located<Expression>> {
+    pub fn expression(&self, variables: Variables) -> Result<Datum> {
         match self.at.value {
             DeValue::Integer(_) | DeValue::Float(_) => {
                 Ok(self.at.with(Expression::constant(self.number()?)))
@@ -122,7 +122,7 @@ impl<'a> Entry<'a> {
     }
 
     /// An expression, or "inf" or "-inf", with quotes or without.
-    pub fn end_of_range(&self, variables: Variables) -> Result<Located<Expression>> {
+    pub fn end_of_range(&self, variables: Variables) -> Result<Datum> {
         let word = match self.at.value {
             DeValue::String(text) => text.trim(),
             DeValue::Float(float) => float.as_str(),

@@ -10,7 +10,7 @@
 //! | contact | u ≥ gap, σ·n ≥ flux, (u − gap)(σ·n − flux) = 0; with a limit, u may fall below the gap where σ·n = limit |
 //!
 //! text ─► `table`, `entry` (TOML with places) ─► `read`, `boundary`, `material`, `control`, `setting` (sections
-//! into the model below); a `fragment` gives a scene another setting. Every part of the model knows where it stands, so that whoever finds it wrong
+//! into the model below); a fragment gives a scene another setting. Every part of the model knows where it stands, so that whoever finds it wrong
 //! later, on the mesh or at a quadrature point, can still point at the line ([`Scene::error`]).
 //! The names are not compared with the mesh here.
 
@@ -18,8 +18,6 @@ mod boundary;
 mod control;
 mod document;
 mod entry;
-mod file;
-mod fragment;
 mod material;
 mod range;
 mod read;
@@ -54,6 +52,9 @@ pub struct Located<T> {
     pub span: Range<usize>,
 }
 
+/// A datum of the scene: a number or an expression.
+pub type Datum = Located<Expression>;
+
 /// A scene file, read and checked as far as possible without its mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
@@ -68,7 +69,7 @@ pub struct Scene {
     /// The materials in the order of the file; at least one.
     pub materials: Vec<Material>,
     /// The load f in x, y, t; 0 by default.
-    pub source: Located<Expression>,
+    pub source: Datum,
     /// The boundary parts in the order of the file; at least one.
     pub boundaries: Vec<Boundary>,
     /// Loads that change at run time.
@@ -102,28 +103,28 @@ pub enum Condition {
     /// u = value.
     Dirichlet {
         /// The value u_D.
-        value: Located<Expression>,
+        value: Datum,
     },
     /// σ·n = flux.
     Neumann {
         /// The outward flux g.
-        flux: Located<Expression>,
+        flux: Datum,
     },
     /// σ·n = coefficient (ambient − u).
     Robin {
         /// The coefficient, ≥ 0; a constant one has been checked.
-        coefficient: Located<Expression>,
+        coefficient: Datum,
         /// The value that u relaxes to.
-        ambient: Located<Expression>,
+        ambient: Datum,
     },
     /// flux ≤ σ·n ≤ limit; σ·n = flux where u > gap, σ·n = limit where u < gap.
     Contact {
         /// The gap function ψ; 0 by default.
-        gap: Located<Expression>,
+        gap: Datum,
         /// The flux q without contact; 0 by default. −∞ where u ≤ gap.
-        flux: Located<Expression>,
+        flux: Datum,
         /// The most that the flux can be; ∞ by default, where u ≥ gap.
-        limit: Located<Expression>,
+        limit: Datum,
     },
 }
 
@@ -156,7 +157,7 @@ pub struct Input {
     /// The field it acts on; the boundary has it.
     pub field: Located<Field>,
     /// The pattern that its value multiplies, in x, y.
-    pub pattern: Located<Expression>,
+    pub pattern: Datum,
     /// Its value unless something else is set.
     pub default: f64,
     /// The range of its value; anything, where the scene does not say.
@@ -227,9 +228,9 @@ pub struct Time {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Exact {
     /// u.
-    pub u: Located<Expression>,
+    pub u: Datum,
     /// ∂u/∂x, ∂u/∂y.
-    pub gradient: [Located<Expression>; 2],
+    pub gradient: [Datum; 2],
 }
 
 impl Scene {

@@ -9,21 +9,7 @@ use crate::error::{InputError, Result};
 use crate::goal::Goal;
 use crate::setting::{CellKind, MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
 
-const KEYS: [&str; 13] = [
-    "refine",
-    "error",
-    "cells",
-    "element",
-    "scalar",
-    "math",
-    "model",
-    "solver",
-    "start",
-    "omega",
-    "sweeps",
-    "share",
-    "certificate",
-];
+const KEYS: &str = "refine, error, cells, element, scalar, math, model, solver, start, omega, sweeps, share, certificate";
 
 const CELLS: [(&str, CellKind); 2] =
     [("triangles", CellKind::Triangles), ("quads", CellKind::Quads)];
@@ -47,7 +33,7 @@ const FINEST: u32 = 6;
 
 /// Reads `[setting]`; what is left out is as in [`Setting::default`].
 pub(super) fn read_setting(table: &Table) -> Result<Setting> {
-    table.only("the setting", &KEYS)?;
+    table.only("the setting", KEYS)?;
     let default = Setting::default();
     let setting = Setting {
         refine: read(table, "refine", |entry| entry.whole(0..=FINEST))?.unwrap_or(default.refine),
@@ -62,7 +48,8 @@ pub(super) fn read_setting(table: &Table) -> Result<Setting> {
         omega: read(table, "omega", omega)?.unwrap_or(default.omega),
         sweeps: read(table, "sweeps", |entry| entry.whole(1..=u32::MAX))?,
         share: read(table, "share", |entry| entry.inside(0.0, 1.0))?,
-        certificate: read(table, "certificate", Entry::boolean)?.unwrap_or(default.certificate),
+        certificate: read(table, "certificate", |entry| entry.boolean())?
+            .unwrap_or(default.certificate),
     };
     match contradiction(&setting) {
         None => Ok(setting),
@@ -70,12 +57,8 @@ pub(super) fn read_setting(table: &Table) -> Result<Setting> {
     }
 }
 
-fn read<'a, T>(
-    table: &Table<'a>,
-    key: &str,
-    as_what: impl Fn(&Entry<'a>) -> Result<T>,
-) -> Result<Option<T>> {
-    table.get(key).as_ref().map(as_what).transpose()
+fn read<T>(table: &Table, key: &str, of: impl Fn(&Entry) -> Result<T>) -> Result<Option<T>> {
+    table.get(key).as_ref().map(of).transpose()
 }
 
 fn choice<T: Copy>(table: &Table, key: &str, choices: &[(&str, T)]) -> Result<Option<T>> {
@@ -106,103 +89,49 @@ fn error(table: &Table, key: &str, message: &str) -> InputError {
 
 /// The first key that contradicts another one, why, and what to do.
 fn contradiction(setting: &Setting) -> Option<(&'static str, &'static str, &'static str)> {
-    let Setting { scalar, math, model, start, omega, sweeps, share, certificate, .. } = *setting;
-    let exact = setting.solver == Some(Method::Exact);
+    const ONE: &str = "remove one of them";
+    const BOUND: &str = "write certificate = true, or a number of sweeps";
+    const NUMBER: &str = "remove it, or write a number of sweeps";
+    const SWEEP: &str = "remove it, or write solver = \"sweeps\"";
+    const EXACT: &str = "write solver = \"exact\", or take model = \"full\"";
+    const FACTOR: &str = "write solver = \"factor\", or take model = \"condensed\"";
+    const ONE_FORMAT: &str = "write f32 or f64, or solver = \"sweeps\"";
+    const FORMAT: &str = "write f32 or f64, or take model = \"full\"";
+    const FULL: &str = "remove it, or take model = \"full\"";
+    const SINGLE: &str = "write scalar = \"f32\", or math = \"libm\"";
+    let Setting { scalar, model, omega, certificate, .. } = *setting;
+    let twice = setting.error.is_some() && setting.refine > 0;
+    let [swept, shared] = [setting.sweeps.is_some(), setting.share.is_some()];
+    let [exact, factored] = [Method::Exact, Method::Factor].map(|of| setting.solver == Some(of));
     let condensed = model == Some(ModelKind::Condensed) || (exact && model.is_none());
-    let factored = setting.solver == Some(Method::Factor);
-    let full_only = "remove it, or take model = \"full\"";
+    let [mixed, fast] = [scalar == Some(Precision::Mixed), setting.math == MathKind::Micromath];
+    let [fixed, cold] = [matches!(omega, Omega::Fixed(_)), setting.start == Start::Cold];
+    let wide = scalar.is_some_and(|scalar| scalar != Precision::F32);
+    let of_bound = "a share of the error bound, which certificate = false leaves out";
+    let roots =
+        "the condensed model has no search for ω, the one that takes square roots of either kind";
     let rules = [
+        (twice, "refine", "excludes `error`, which says how fine the mesh becomes", ONE),
+        (swept && shared, "share", "excludes `sweeps`: one of them says when to stop", ONE),
+        (shared && !certificate, "share", of_bound, BOUND),
+        (shared && condensed, "share", "the condensed model has no share to stop at", NUMBER),
+        (factored && condensed, "solver", "a factor is for the full model", EXACT),
+        (exact && !condensed, "solver", "the exact method is for the condensed model", FACTOR),
+        (swept && exact, "sweeps", "the exact method takes no number of sweeps", SWEEP),
+        (swept && factored, "sweeps", "a factor takes no sweeps", SWEEP),
+        (shared && factored, "share", "a factor leaves nothing of the bound to sweeps", SWEEP),
+        (mixed && factored, "scalar", "a factor is for one number format", ONE_FORMAT),
+        (fixed && condensed, "omega", "the condensed model has its own relaxation factor", FULL),
+        (cold && condensed, "start", "the condensed model has no cold start", FULL),
+        (fast && condensed, "math", roots, FULL),
         (
-            setting.error.is_some() && setting.refine > 0,
-            "refine",
-            "excludes `error`, which says how fine the mesh becomes",
-            "remove one of them",
-        ),
-        (
-            sweeps.is_some() && share.is_some(),
-            "share",
-            "excludes `sweeps`: one of them says when to stop",
-            "remove one of them",
-        ),
-        (
-            share.is_some() && !certificate,
-            "share",
-            "a share of the error bound, which certificate = false leaves out",
-            "write certificate = true, or a number of sweeps",
-        ),
-        (
-            share.is_some() && condensed,
-            "share",
-            "the condensed model has no share to stop at",
-            "remove it, or write a number of sweeps",
-        ),
-        (
-            factored && condensed,
-            "solver",
-            "a factor is for the full model",
-            "write solver = \"exact\", or take model = \"full\"",
-        ),
-        (
-            exact && !condensed,
-            "solver",
-            "the exact method is for the condensed model",
-            "write solver = \"factor\", or take model = \"condensed\"",
-        ),
-        (
-            sweeps.is_some() && exact,
-            "sweeps",
-            "the exact method takes no number of sweeps",
-            "remove it, or write solver = \"sweeps\"",
-        ),
-        (
-            sweeps.is_some() && factored,
-            "sweeps",
-            "a factor takes no sweeps",
-            "remove it, or write solver = \"sweeps\"",
-        ),
-        (
-            share.is_some() && factored,
-            "share",
-            "a factor leaves nothing of the bound to sweeps",
-            "remove it, or write solver = \"sweeps\"",
-        ),
-        (
-            scalar == Some(Precision::Mixed) && factored,
-            "scalar",
-            "a factor is for one number format",
-            "write f32 or f64, or solver = \"sweeps\"",
-        ),
-        (
-            matches!(omega, Omega::Fixed(_)) && condensed,
-            "omega",
-            "the condensed model has its own relaxation factor",
-            full_only,
-        ),
-        (
-            start == Start::Cold && condensed,
-            "start",
-            "the condensed model has no cold start",
-            full_only,
-        ),
-        (
-            math == MathKind::Micromath && condensed,
-            "math",
-            "the condensed model has no search for ω, the one that takes square roots of either kind",
-            full_only,
-        ),
-        (
-            scalar == Some(Precision::Mixed) && condensed,
+            mixed && condensed,
             "scalar",
             "the condensed model is solved in one number format",
-            "write f32 or f64, or take model = \"full\"",
+            FORMAT,
         ),
-        (
-            math == MathKind::Micromath && scalar.is_some_and(|scalar| scalar != Precision::F32),
-            "math",
-            "micromath is for f32 alone",
-            "write scalar = \"f32\", or math = \"libm\"",
-        ),
+        (fast && wide, "math", "micromath is for f32 alone", SINGLE),
     ];
-    let broken = rules.into_iter().find(|(broken, ..)| *broken);
-    broken.map(|(_, key, message, hint)| (key, message, hint))
+    let (_, key, message, hint) = rules.into_iter().find(|(is_broken, ..)| *is_broken)?;
+    Some((key, message, hint))
 }

@@ -10,9 +10,9 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
-use super::Located;
 use super::document::Document;
 use super::entry::Entry;
+use super::{Datum, Located};
 use crate::error::{InputError, Result};
 use crate::expression::{Expression, Variables};
 
@@ -30,19 +30,18 @@ impl<'a> Table<'a> {
         Self { document, name, entries }
     }
 
-    /// Refuses keys other than `allowed`; `what` names the table in the message.
-    pub fn only(&self, what: &str, allowed: &[&str]) -> Result<()> {
-        self.foreign(what, allowed).map_or(Ok(()), |error| {
-            Err(error.hint(format!("allowed here: {}", allowed.join(", "))).into())
-        })
+    /// Refuses keys other than `allowed`, a list with commas; `what` names the table in the message.
+    pub fn only(&self, what: &str, allowed: &str) -> Result<()> {
+        let hint = || format!("allowed here: {allowed}");
+        self.foreign(what, allowed).map_or(Ok(()), |error| Err(error.hint(hint()).into()))
     }
 
     /// The error of the first key that is not among `allowed`, still without a hint.
-    pub fn foreign(&self, what: &str, allowed: &[&str]) -> Option<InputError> {
+    pub fn foreign(&self, what: &str, allowed: &str) -> Option<InputError> {
         let foreign = self
             .entries
             .keys()
-            .filter(|key| !allowed.contains(&key.get_ref().as_ref()))
+            .filter(|key| !allowed.split(", ").any(|known| key.get_ref() == known))
             .min_by_key(|key| key.span().start);
         foreign.map(|key| {
             let at = self.locate(key.get_ref(), key.span(), ());
@@ -74,11 +73,7 @@ impl<'a> Table<'a> {
     }
 
     /// An expression in `variables`, 0 if the key is absent.
-    pub fn expression_or_zero(
-        &self,
-        key: &str,
-        variables: Variables,
-    ) -> Result<Located<Expression>> {
+    pub fn expression_or_zero(&self, key: &str, variables: Variables) -> Result<Datum> {
         match self.get(key) {
             Some(entry) => entry.expression(variables),
             None => Ok(self.missing(key, Expression::constant(0.0))),
@@ -86,12 +81,7 @@ impl<'a> Table<'a> {
     }
 
     /// An end of a range: an expression in `variables` or an infinity, `default` if the key is absent.
-    pub fn end_of_range(
-        &self,
-        key: &str,
-        default: f64,
-        variables: Variables,
-    ) -> Result<Located<Expression>> {
+    pub fn end_of_range(&self, key: &str, default: f64, variables: Variables) -> Result<Datum> {
         match self.get(key) {
             Some(entry) => entry.end_of_range(variables),
             None => Ok(self.missing(key, Expression::constant(default))),

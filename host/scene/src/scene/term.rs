@@ -1,6 +1,6 @@
 //! A scene's loads as a sum: base + Σ input · pattern, and the scene that only some of these terms leave.
 
-use super::{Field, Located, Role, Scene};
+use super::{Datum, Field, Located, Role, Scene};
 use crate::expression::Expression;
 
 /// A term of the sum: 0 is the base, 1 + j what one unit of input j adds.
@@ -30,7 +30,7 @@ impl Scene {
     /// The scene as it stands at t = 0, for whoever knows no time.
     #[must_use]
     pub fn at_rest(mut self) -> Self {
-        let rest = |load: &mut Located<Expression>| load.value = load.value.at_time(0.0);
+        let rest = |load: &mut Datum| load.value = load.value.at_time(0.0);
         each_load(&mut self, rest);
         if let Some(exact) = &mut self.exact {
             rest(&mut exact.u);
@@ -41,7 +41,7 @@ impl Scene {
 }
 
 /// Visits the load f, then the loads of every boundary in the order of the file.
-pub fn each_load(scene: &mut Scene, mut each: impl FnMut(&mut Located<Expression>)) {
+pub fn each_load(scene: &mut Scene, mut each: impl FnMut(&mut Datum)) {
     each(&mut scene.source);
     for boundary in &mut scene.boundaries {
         for (role, data) in boundary.condition.data_mut() {
@@ -62,7 +62,7 @@ pub fn at_rest_warning(scene: &Scene) -> Option<String> {
 }
 
 /// The first load that depends on t.
-pub fn first_in_time(scene: &Scene) -> Option<Located<Expression>> {
+pub fn first_in_time(scene: &Scene) -> Option<Datum> {
     let mut first = None;
     each_load(&mut scene.clone(), |load| {
         if load.value.uses_time() && first.is_none() {

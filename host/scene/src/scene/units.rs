@@ -7,8 +7,7 @@
 //! and every number of its solution is that of the first one to the last bit, as long as none was
 //! too large or too small for the scalar: then only the second one can be computed.
 
-use super::{Field, Located, Material, Quantity, Scene};
-use crate::expression::Expression;
+use super::{Datum, Field, Material, Quantity, Scene};
 
 /// The unit of a datum of the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -66,7 +65,7 @@ impl Units {
     /// `scene` with its data, and its exact solution if it has one, in these units.
     pub fn scene(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
-        let times = |data: &mut Located<Expression>, unit: Unit| {
+        let times = |data: &mut Datum, unit: Unit| {
             data.value = data.value.times(1.0 / self.of(unit));
         };
         for (unit, data) in scene.materials.iter_mut().flat_map(Material::data_mut) {

@@ -6,8 +6,8 @@
 //! A new cell lies in one old cell, but where closure was undone: there the old pieces of the same red
 //! cell are looked through. No search ever leaves it, so nothing crosses a slit.
 
-use super::conforming::Places;
-use super::edges::Edges;
+use super::forest::Edges;
+use super::stage::Places;
 use crate::mesh::Mesh;
 use crate::mesh::refine::mean;
 use crate::mesh::shape::direction;
@@ -53,16 +53,13 @@ impl Before<'_> {
     ) -> Carried {
         let vertices = &mesh.vertices;
         let (of_triangles, of_quads) = families.split_at(mesh.triangles.len());
-        let triangles = || mesh.triangles.iter().zip(of_triangles);
-        let quads = || mesh.quads.iter().zip(of_quads);
-        let of_triangles = triangles().map(|(&cell, &of)| self.holder(of, mean(vertices, cell)));
-        let of_quads = quads().map(|(&cell, &of)| self.holder(of, mean(vertices, cell)));
+        let triangles = mesh.triangles.iter().zip(of_triangles);
+        let quads = mesh.quads.iter().zip(of_quads);
+        let cells = mesh.corners().zip(families);
         Carried {
-            cells: of_triangles.chain(of_quads).collect(),
-            triangle_sides: triangles()
-                .map(|(&cell, &of)| self.sides(of, vertices, cell))
-                .collect(),
-            quad_sides: quads().map(|(&cell, &of)| self.sides(of, vertices, cell)).collect(),
+            cells: cells.map(|(cell, &of)| self.holder(of, mean(vertices, cell))).collect(),
+            triangle_sides: triangles.map(|(&cell, &of)| self.sides(of, vertices, cell)).collect(),
+            quad_sides: quads.map(|(&cell, &of)| self.sides(of, vertices, cell)).collect(),
             boundary,
         }
     }
@@ -73,7 +70,7 @@ impl Before<'_> {
         vertices: &[[f64; 2]],
         cell: [u32; N],
     ) -> [u32; N] {
-        std::array::from_fn(|k| self.holder(family, mean(vertices, [cell[k], cell[(k + 1) % N]])))
+        std::array::from_fn(|k| self.holder(family, mean(vertices, &[cell[k], cell[(k + 1) % N]])))
     }
 
     /// The conforming cell, among those of one cell of the forest, in which a point lies deepest.

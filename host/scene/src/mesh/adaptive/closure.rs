@@ -22,21 +22,22 @@ const EQUAL: f64 = 1e-9;
 
 type Triangle = [u32; 3];
 
-/// The cells that closure makes, by kind.
-#[derive(Debug, Default)]
-pub(super) struct Pieces {
+/// The cells that closure makes of those over some vertices, by kind.
+#[derive(Debug)]
+pub(super) struct Pieces<'v> {
+    vertices: &'v [[f64; 2]],
     pub(super) triangles: Vec<Triangle>,
     pub(super) quads: Vec<[u32; 4]>,
 }
 
-impl Pieces {
+impl<'v> Pieces<'v> {
+    /// No cell.
+    pub(super) fn over(vertices: &'v [[f64; 2]]) -> Self {
+        Self { vertices, triangles: Vec::new(), quads: Vec::new() }
+    }
+
     /// Adds a triangle, divided at the nodes in its sides.
-    pub(super) fn add_triangle(
-        &mut self,
-        vertices: &[[f64; 2]],
-        corners: Triangle,
-        nodes: [Option<u32>; 3],
-    ) {
+    pub(super) fn add_triangle(&mut self, corners: Triangle, nodes: [Option<u32>; 3]) {
         for turn in 0..3 {
             let [a, b, c] = turned(corners, turn);
             match turned(nodes, turn) {
@@ -45,7 +46,7 @@ impl Pieces {
                 [Some(l), Some(m), None] => {
                     self.triangles.push([l, b, m]);
                     let cuts = [[[a, l, m], [a, m, c]], [[a, l, c], [l, m, c]]];
-                    self.triangles.extend(best(vertices, cuts));
+                    self.triangles.extend(self.best(cuts));
                 }
                 [Some(l), Some(m), Some(n)] => {
                     self.triangles.extend([[a, l, n], [l, b, m], [n, m, c], [m, n, l]]);
@@ -57,12 +58,7 @@ impl Pieces {
     }
 
     /// Adds a quad, divided at the nodes in its sides.
-    pub(super) fn add_quad(
-        &mut self,
-        vertices: &[[f64; 2]],
-        corners: [u32; 4],
-        nodes: [Option<u32>; 4],
-    ) {
+    pub(super) fn add_quad(&mut self, corners: [u32; 4], nodes: [Option<u32>; 4]) {
         for turn in 0..4 {
             let [a, b, c, d] = turned(corners, turn);
             match turned(nodes, turn) {
@@ -75,7 +71,7 @@ impl Pieces {
                     let at_d = [[a, l, d], [l, m, d], [m, c, d]];
                     let at_l = [[a, l, d], [l, m, c], [l, c, d]];
                     let at_m = [[a, l, m], [a, m, d], [m, c, d]];
-                    self.triangles.extend(best(vertices, [at_d, at_l, at_m]));
+                    self.triangles.extend(self.best([at_d, at_l, at_m]));
                 }
                 [Some(l), None, Some(n), None] => self.quads.extend([[a, l, n, d], [l, b, c, n]]),
                 [Some(l), Some(m), Some(n), None] => {
@@ -91,25 +87,21 @@ impl Pieces {
             return;
         }
     }
+
+    /// The cut whose least angle is largest; among equals the first.
+    fn best<const K: usize, const C: usize>(&self, cuts: [[Triangle; K]; C]) -> [Triangle; K] {
+        let sine = |&piece: &Triangle| least_sine(self.vertices, piece);
+        let least = |cut: &[Triangle; K]| cut.iter().map(sine).fold(1.0, f64::min);
+        let better = |best: [Triangle; K], cut: [Triangle; K]| {
+            if least(&cut) > (1.0 + EQUAL) * least(&best) { cut } else { best }
+        };
+        cuts[1..].iter().fold(cuts[0], |best, &cut| better(best, cut))
+    }
 }
 
 fn turned<T, const N: usize>(mut items: [T; N], turn: usize) -> [T; N] {
     items.rotate_left(turn);
     items
-}
-
-/// The cut whose least angle is largest; among equals the first.
-fn best<const K: usize, const C: usize>(
-    vertices: &[[f64; 2]],
-    cuts: [[Triangle; K]; C],
-) -> [Triangle; K] {
-    let least = |cut: &[Triangle; K]| {
-        cut.iter().map(|&piece| least_sine(vertices, piece)).fold(1.0, f64::min)
-    };
-    let better = |best: [Triangle; K], cut: [Triangle; K]| {
-        if least(&cut) > (1.0 + EQUAL) * least(&best) { cut } else { best }
-    };
-    cuts[1..].iter().fold(cuts[0], |best, &cut| better(best, cut))
 }
 
 /// The sine of the least angle, which is the least of the three sines.
@@ -184,14 +176,14 @@ mod tests {
         for _ in 0..200 {
             let points = drawn::<3>(&mut draw);
             for mask in 0..8 {
-                let mut pieces = Pieces::default();
-                pieces.add_triangle(&points, [0, 1, 2], nodes(mask));
+                let mut pieces = Pieces::over(&points);
+                pieces.add_triangle([0, 1, 2], nodes(mask));
                 assert_divided::<3>(&points, mask, &pieces);
             }
             let points = drawn::<4>(&mut draw);
             for mask in 0..16 {
-                let mut pieces = Pieces::default();
-                pieces.add_quad(&points, [0, 1, 2, 3], nodes(mask));
+                let mut pieces = Pieces::over(&points);
+                pieces.add_quad([0, 1, 2, 3], nodes(mask));
                 assert_divided::<4>(&points, mask, &pieces);
             }
         }
@@ -203,8 +195,8 @@ mod tests {
         for (top, cut) in [([-0.5, 1.0], [0, 4]), ([1.0, 0.3], [2, 3])] {
             let mut points = vec![[0.0, 0.0], [1.0, 0.0], top];
             points.extend([[0.5, 0.0], [0.5 * (1.0 + top[0]), 0.5 * top[1]]]);
-            let mut pieces = Pieces::default();
-            pieces.add_triangle(&points, [0, 1, 2], [Some(3), Some(4), None]);
+            let mut pieces = Pieces::over(&points);
+            pieces.add_triangle([0, 1, 2], [Some(3), Some(4), None]);
             let cut = |piece: &&Triangle| cut.iter().all(|end| piece.contains(end));
             assert_eq!(pieces.triangles.iter().filter(cut).count(), 2, "{top:?}");
         }
@@ -213,8 +205,8 @@ mod tests {
     #[test]
     fn a_square_with_a_node_keeps_its_symmetry() {
         let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.5, 0.0]];
-        let mut pieces = Pieces::default();
-        pieces.add_quad(&points, [0, 1, 2, 3], [Some(4), None, None, None]);
+        let mut pieces = Pieces::over(&points);
+        pieces.add_quad([0, 1, 2, 3], [Some(4), None, None, None]);
         assert_eq!(pieces.triangles, [[0, 4, 3], [4, 1, 2], [4, 2, 3]]);
     }
 }

@@ -10,8 +10,7 @@
 //! Each cell is refined once at most and asks its neighbours alone: the time is that of the cells refined.
 //! No rule speaks of vertices: edges suffice for shapes, since closure sees nothing but one cell.
 
-use super::edges::NONE;
-use super::forest::Forest;
+use super::forest::{Forest, NONE};
 
 /// Which cells of the forest to refine, those marked among them.
 pub(super) fn with_neighbours(forest: &Forest, marked: Vec<bool>) -> Vec<bool> {

@@ -13,8 +13,6 @@
 
 mod carried;
 mod closure;
-mod conforming;
-mod edges;
 mod forest;
 mod marking;
 mod red;

@@ -10,8 +10,7 @@
 //! The children of a triangle are similar to it. Those of a quad are images of quarters of the unit
 //! square under the map of the whole, so that no Jacobian of theirs is less than a quarter of its least.
 
-use super::edges::{Edges, NONE};
-use super::forest::{Cell, Forest};
+use super::forest::{Cell, Edges, Forest, NONE};
 use crate::mesh::refine::mean;
 
 /// Vertices and edges while cells are refined.
@@ -75,7 +74,7 @@ impl Growth {
     fn quad(&mut self, cell: &Cell<4>) -> [Cell<4>; 4] {
         let Cell { corners: [a, b, c, d], sides, root } = *cell;
         let [l, m, n, o] = sides.map(|side| self.midpoint(side));
-        let z = self.vertex(mean(&self.vertices, cell.corners));
+        let z = self.vertex(mean(&self.vertices, &cell.corners));
         let [lz, mz, nz, oz] = [l, m, n, o].map(|middle| self.edges.add([middle, z]));
         let ends = [[a, b], [b, c], [c, d], [d, a]];
         let [[al, bl], [bm, cm], [cn, dn], [d_o, ao]] = self.halves(ends, sides);
@@ -91,7 +90,7 @@ impl Growth {
     /// The midpoint of an edge, made where there was none.
     fn midpoint(&mut self, edge: u32) -> u32 {
         self.edges.midpoint(edge).unwrap_or_else(|| {
-            let midpoint = self.vertex(mean(&self.vertices, self.edges.ends(edge)));
+            let midpoint = self.vertex(mean(&self.vertices, &self.edges.ends(edge)));
             self.edges.halve(edge, midpoint);
             midpoint
         })

@@ -1,11 +1,13 @@
-//! One round's forest with the mesh that closure makes of it.
+//! One round's forest with the mesh that closure makes of it: its own cells, and the pieces of those with hanging
+//! nodes.
 
-use super::conforming::{self, Places, closed};
-use super::edges::{Edges, NONE};
-use super::forest::{Cell, Forest};
+use super::closure::Pieces;
+use super::forest::{Cell, Edges, Forest, NONE};
 use super::red::Grown;
-use crate::error::Result;
+use crate::error::{InputError, Result};
 use crate::mesh::check::{edge_number, numbered_edges};
+use crate::mesh::refine::{check_count, mean};
+use crate::mesh::shape::{Orientation, orientation};
 use crate::mesh::{Curve, Mesh};
 
 /// The state that a round begins with.
@@ -33,14 +35,14 @@ impl Stage {
         let forest = Forest { edges: Edges::of(&edges), triangles, quads };
         let alone = |(_, cells): &(u32, [u32; 2])| cells[1] == NONE;
         let boundary = (0..).zip(forest.sharing()).filter(alone).map(|(edge, _)| edge).collect();
-        let (_, places) = closed(&base.vertices, &forest);
+        let (.., places) = closed(&base.vertices, &forest);
         Ok(Self { forest, curves, boundary, mesh: base.clone(), places })
     }
 
     /// The next stage, and for each of its mesh's cells the cell of this forest that it lies in.
     pub(super) fn next(&self, base: &Mesh, grown: Grown) -> Result<(Self, Vec<u32>)> {
         let Grown { vertices, forest, parents } = grown;
-        let (pieces, places) = closed(&vertices, &forest);
+        let (triangles, quads, places) = closed(&vertices, &forest);
         let curves: Vec<_> = self.curves.iter().map(|curve| forest.edges.halved(curve)).collect();
         let boundary = forest.edges.halved(&self.boundary);
         let of_curve = |(curve, edges): (&Curve, &Vec<u32>)| {
@@ -49,13 +51,13 @@ impl Stage {
             Curve { name: curve.name.clone(), edges }
         };
         let mesh = Mesh {
-            vertices,
-            triangles: pieces.triangles,
-            quads: pieces.quads,
-            surfaces: Vec::new(),
             curves: base.curves.iter().zip(&curves).map(of_curve).collect(),
+            vertices,
+            triangles,
+            quads,
+            surfaces: Vec::new(),
         };
-        conforming::check(&mesh)?;
+        check(&mesh)?;
         let mut next = Self { forest, curves, boundary, mesh, places };
         next.mesh.surfaces = base.inherited(&next.roots());
         let families = next.of_cells(&parents);
@@ -90,4 +92,59 @@ fn roots<const N: usize>(edges: &[[u32; 2]], cells: &[[u32; N]], first: u32) -> 
         Cell { corners, sides, root }
     };
     (first..).zip(cells).map(cell).collect()
+}
+
+/// Which conforming cells each cell of the forest consists of.
+#[derive(Debug, Clone)]
+pub(super) struct Places {
+    /// Where the triangles of each begin, then where the last ones end.
+    triangles: Vec<u32>,
+    /// The quads' pieces, all triangles counted before them.
+    quads: Vec<u32>,
+}
+
+impl Places {
+    /// The conforming cells that a cell of the forest consists of.
+    pub(super) fn of(&self, cell: u32) -> impl Iterator<Item = u32> + use<> {
+        let cell = cell as usize;
+        let triangles = self.triangles[cell]..self.triangles[cell + 1];
+        triangles.chain(self.quads[cell]..self.quads[cell + 1])
+    }
+}
+
+/// The cells of a forest closed, in the order of the forest.
+fn closed(vertices: &[[f64; 2]], forest: &Forest) -> (Vec<[u32; 3]>, Vec<[u32; 4]>, Places) {
+    let mut pieces = Pieces::over(vertices);
+    let mut ends = vec![(0, 0)];
+    let midpoint = |side: u32| forest.edges.midpoint(side);
+    let end = |pieces: &Pieces| (pieces.triangles.len() as u32, pieces.quads.len() as u32);
+    for cell in &forest.triangles {
+        pieces.add_triangle(cell.corners, cell.sides.map(midpoint));
+        ends.push(end(&pieces));
+    }
+    for cell in &forest.quads {
+        pieces.add_quad(cell.corners, cell.sides.map(midpoint));
+        ends.push(end(&pieces));
+    }
+    let before = pieces.triangles.len() as u32;
+    let (of_triangles, of_quads) = ends.into_iter().map(|(t, q)| (t, before + q)).unzip();
+    let Pieces { triangles, quads, .. } = pieces;
+    (triangles, quads, Places { triangles: of_triangles, quads: of_quads })
+}
+
+/// Whether the mesh keeps its contract still: not too many cells, each strictly convex within rounding.
+///
+/// # Errors
+/// One that is not, with its place.
+fn check(mesh: &Mesh) -> Result<()> {
+    check_count(mesh.cells(), "refine fewer cells")?;
+    let is_convex = |cell: &&[u32]| {
+        let points: Vec<_> = cell.iter().map(|&vertex| mesh.vertices[vertex as usize]).collect();
+        orientation(&points) == Ok(Orientation::Counterclockwise)
+    };
+    let Some(wrong) = mesh.corners().find(|cell| !is_convex(cell)) else { return Ok(()) };
+    let [x, y] = mean(&mesh.vertices, wrong);
+    let message =
+        format!("a cell at ({x}, {y}) is too small to be refined: rounding hides its shape");
+    Err(InputError::new(message).hint("refine less often, or move the origin nearer").into())
 }

@@ -1,8 +1,8 @@
 //! From the lists of a file to a mesh that keeps its contract, whatever the format.
 //!
 //! ```text
-//! Draft: nodes, elements, groups ─► index ─► cells ─► sound ─► groups ─► Mesh
-//!                                        Arrays ──┘
+//! Draft: nodes, elements, groups ─► cells ─► sound ─► groups ─► Mesh
+//!                               Arrays ──┘
 //! ```
 //! Points are ignored, lines matter in a physical curve only, vertices without a cell are dropped,
 //! clockwise cells are turned round. A cell listed once for each of its physical surfaces is one
@@ -11,12 +11,10 @@
 mod cells;
 pub(super) mod draft;
 mod groups;
-mod index;
 pub(super) mod sound;
 
-use self::cells::Resolved;
+use self::cells::{NodeIndex, Resolved};
 use self::draft::{Draft, Kind, Node, Parsed};
-use self::index::NodeIndex;
 use self::sound::{Cells, Sound};
 use crate::error::InputError;
 use crate::mesh::{Curve, Mesh, Surface};

@@ -56,7 +56,7 @@ impl Cells<'_> {
         let mesh = Mesh { vertices, triangles, quads, ..Mesh::default() };
         let vertex = |at: u32| point(origins[at as usize]);
         let edges =
-            check::edges(&mesh).map_err(|fault| (fault.cell(), fault.describe(cell, vertex)))?;
+            check::edges(&mesh).map_err(|fault| (fault.cells[0], fault.describe(cell, vertex)))?;
         Ok(Sound { mesh, origins, numbers, edges })
     }
 }

@@ -108,19 +108,28 @@ impl<'a> Cursor<'a> {
         number.ok_or_else(|| self.expected((self.at - word.len()) as u32, what, word))
     }
 
-    fn take<const N: usize>(&mut self, what: &str) -> Parsed<[u8; N]> {
-        let bytes = self.rest().first_chunk().copied();
-        self.at += if bytes.is_some() { N } else { 0 };
-        bytes.ok_or_else(|| self.expected(self.at(), what, b""))
+    /// A word in ASCII, else N bytes, of which `number` takes the lowest first.
+    fn number<T: std::str::FromStr, const N: usize>(
+        &mut self,
+        what: &str,
+        number: fn([u8; N]) -> T,
+    ) -> Parsed<T> {
+        if self.encoding == Encoding::Ascii {
+            return self.parse(what);
+        }
+        let Some(mut bytes) = self.rest().first_chunk().copied() else {
+            return Err(self.expected(self.at(), what, b""));
+        };
+        self.at += N;
+        if self.encoding == Encoding::BigEndian {
+            bytes.reverse();
+        }
+        Ok(number(bytes))
     }
 
     /// A signed number, 32 bits in binary.
     pub(super) fn int(&mut self, what: &str) -> Parsed<i32> {
-        match self.encoding {
-            Encoding::Ascii => self.parse(what),
-            Encoding::LittleEndian => self.take(what).map(i32::from_le_bytes),
-            Encoding::BigEndian => self.take(what).map(i32::from_be_bytes),
-        }
+        self.number(what, i32::from_le_bytes)
     }
 
     /// A number that is not negative, 32 bits in binary.
@@ -132,20 +141,12 @@ impl<'a> Cursor<'a> {
 
     /// A number that is not negative, 64 bits in binary.
     pub(super) fn size(&mut self, what: &str) -> Parsed<u64> {
-        match self.encoding {
-            Encoding::Ascii => self.parse(what),
-            Encoding::LittleEndian => self.take(what).map(u64::from_le_bytes),
-            Encoding::BigEndian => self.take(what).map(u64::from_be_bytes),
-        }
+        self.number(what, u64::from_le_bytes)
     }
 
     /// A floating-point number, perhaps not finite.
     pub(super) fn float(&mut self, what: &str) -> Parsed<f64> {
-        match self.encoding {
-            Encoding::Ascii => self.parse(what),
-            Encoding::LittleEndian => self.take(what).map(f64::from_le_bytes),
-            Encoding::BigEndian => self.take(what).map(f64::from_be_bytes),
-        }
+        self.number(what, f64::from_le_bytes)
     }
 
     /// A count of records with at least so many numbers each.

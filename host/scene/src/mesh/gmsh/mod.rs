@@ -1,7 +1,7 @@
 //! Gmsh meshes: MSH 2.2 and 4.1, ASCII and binary in either byte order.
 //!
 //! ```text
-//! bytes ─► cursor ─► sections (format22, format41, names) ─► raw ─► [assemble](super::assemble) ─► Mesh
+//! bytes ─► cursor ─► sections (format22, format41) ─► raw ─► [assemble](super::assemble) ─► Mesh
 //! ```
 //! The sections may come in any order after `$MeshFormat`; those of no interest are passed over.
 //! [`mod@write`] makes a file of a mesh.
@@ -9,7 +9,6 @@
 mod cursor;
 mod format22;
 mod format41;
-mod names;
 mod raw;
 #[cfg(test)]
 mod tests;
@@ -105,7 +104,7 @@ fn section(
     name: &[u8],
 ) -> Parsed<bool> {
     let seen = match (name, format) {
-        (b"PhysicalNames", _) => raw.names.replace(names::names(cursor)?).is_some(),
+        (b"PhysicalNames", _) => raw.names.replace(raw::names(cursor)?).is_some(),
         (b"Nodes", Format::V22) => raw.nodes.replace(format22::nodes(cursor)?).is_some(),
         (b"Elements", Format::V22) => raw.elements.replace(format22::elements(cursor)?).is_some(),
         (b"Entities", Format::V41) => raw.entities.replace(format41::entities(cursor)?).is_some(),

@@ -38,16 +38,15 @@ fn catalogue(name: &str) -> Mesh {
 }
 
 fn cells(mesh: &Mesh) -> Vec<Vec<u32>> {
-    let triangles = mesh.triangles.iter().map(|cell| cell.to_vec());
-    triangles.chain(mesh.quads.iter().map(|cell| cell.to_vec())).collect()
+    mesh.corners().map(<[u32]>::to_vec).collect()
 }
 
-fn points(mesh: &Mesh, cell: &[u32]) -> Vec<[f64; 2]> {
+pub(super) fn points(mesh: &Mesh, cell: &[u32]) -> Vec<[f64; 2]> {
     cell.iter().map(|&vertex| mesh.vertices[vertex as usize]).collect()
 }
 
 /// The signed area, by triangles at the first corner: far from the origin Gauss's formula loses digits.
-fn area(corners: &[[f64; 2]]) -> f64 {
+pub(super) fn area(corners: &[[f64; 2]]) -> f64 {
     let ways: Vec<_> =
         corners.iter().map(|to| [to[0] - corners[0][0], to[1] - corners[0][1]]).collect();
     ways.windows(2).map(|pair| pair[0][0] * pair[1][1] - pair[0][1] * pair[1][0]).sum::<f64>() / 2.0
@@ -66,7 +65,7 @@ fn total(terms: &[f64]) -> f64 {
 }
 
 /// The areas of the surfaces, the lengths of the curves, and the area of the whole.
-fn measures(mesh: &Mesh) -> Vec<(String, f64)> {
+pub(super) fn measures(mesh: &Mesh) -> Vec<(String, f64)> {
     let areas: Vec<_> = cells(mesh).iter().map(|cell| area(&points(mesh, cell))).collect();
     let of_surface = |surface: &Surface| {
         let own: Vec<_> = surface.cells.iter().map(|&cell| areas[cell as usize]).collect();

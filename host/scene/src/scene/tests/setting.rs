@@ -180,28 +180,18 @@ fn a_fragment_changes_title_and_setting_alone() {
 
 #[test]
 fn a_wrong_fragment_is_named() {
-    for (text, expected) in [
-        (
-            "extends = 'base/levee.toml'\nmesh = 'other.msh'",
-            "fragment.toml:2: mesh: unknown key of a fragment",
-        ),
-        ("extends = 3", "fragment.toml:1: extends: expected a text, found the number 3"),
-        (
-            "extends = ''",
-            "fragment.toml:1: extends: expected the path of a scene file, found the text \"\"",
-        ),
-        (
-            "extends = 'fragment.toml'",
-            "fragment.toml:1: extends: fragment.toml extends another scene itself",
-        ),
-        (
-            "extends = 'base/levee.toml'\n[setting]\nsweeps = 0",
-            "fragment.toml:3: setting.sweeps: expected a whole number from 1 to 4294967295, found the number 0",
-        ),
-        ("title = 'x'\n[setting]", "fragment.toml:1: boundary: missing"),
-        ("extends = 'base'", "fragment.toml:1: extends: base is no file"),
-    ] {
-        assert_eq!(message(folder(text).path()), expected);
+    #[rustfmt::skip] // A table.
+    let cases = [
+        ("extends = 'base/levee.toml'\nmesh = 'other.msh'", "2: mesh: unknown key of a fragment"),
+        ("extends = 3", "1: extends: expected a text, found the number 3"),
+        ("extends = ''", "1: extends: expected the path of a scene file, found the text \"\""),
+        ("extends = 'fragment.toml'", "1: extends: fragment.toml extends another scene itself"),
+        ("extends = 'base/levee.toml'\n[setting]\nsweeps = 0", "3: setting.sweeps: expected a whole number from 1 to 4294967295, found the number 0"),
+        ("title = 'x'\n[setting]", "1: boundary: missing"),
+        ("extends = 'base'", "1: extends: base is no file"),
+    ];
+    for (text, expected) in cases {
+        assert_eq!(message(folder(text).path()), format!("fragment.toml:{expected}"));
     }
     let missing = message(folder("extends = 'levee.toml'").path());
     assert!(missing.starts_with("levee.toml: No such file"), "{missing}");

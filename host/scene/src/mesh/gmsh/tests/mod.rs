@@ -2,7 +2,6 @@
 
 mod encode;
 mod hostile;
-mod inside;
 mod real;
 mod rejected;
 mod valid;

@@ -4,6 +4,7 @@ use signorini_tolerances::scene::{DIGITS, MEASURE};
 use std::path::Path;
 
 use super::says_what_is_missing;
+use crate::mesh::tests::{area, measures, points};
 use crate::mesh::{Mesh, read};
 
 const KINDS: [&str; 2] = ["triangles", "mixed"];
@@ -14,49 +15,26 @@ fn path(kind: &str, variant: &str) -> std::path::PathBuf {
     folder.join(format!("{kind}-{variant}.msh"))
 }
 
-fn cell(mesh: &Mesh, cell: u32) -> &[u32] {
-    let cell = cell as usize;
-    match mesh.triangles.get(cell) {
-        Some(triangle) => triangle,
-        None => &mesh.quads[cell - mesh.triangles.len()],
-    }
-}
-
-/// The signed area by Gauss's formula.
-fn area(mesh: &Mesh, corners: &[u32]) -> f64 {
-    let point = |k: usize| mesh.vertices[corners[k % corners.len()] as usize];
-    let wedge = |k| point(k)[0] * point(k + 1)[1] - point(k)[1] * point(k + 1)[0];
-    (0..corners.len()).map(wedge).sum::<f64>() / 2.0
-}
-
-fn length(mesh: &Mesh, edges: &[[u32; 2]]) -> f64 {
-    let ends = |edge: &[u32; 2]| edge.map(|vertex| mesh.vertices[vertex as usize]);
-    edges.iter().map(ends).map(|[a, b]| (a[0] - b[0]).hypot(a[1] - b[1])).sum()
-}
-
 #[test]
 fn areas_lengths_and_names() {
+    let expected = [
+        ("domain", 3.0),
+        ("sand", 1.0),
+        ("contact zone", 3.0),
+        ("dirichlet \"ü\"", 1.0),
+        ("7", 1.0),
+        ("", 3.0),
+    ];
     for (kind, variant) in KINDS.iter().flat_map(|kind| VARIANTS.map(|variant| (kind, variant))) {
         let mesh = read(&path(kind, variant)).unwrap();
-        let cells = (mesh.triangles.len() + mesh.quads.len()) as u32;
         assert_eq!(mesh.quads.is_empty(), *kind == "triangles");
-        assert!((0..cells).all(|c| area(&mesh, cell(&mesh, c)) > 0.0));
-        let surfaces: Vec<_> = mesh
-            .surfaces
-            .iter()
-            .map(|s| (&*s.name, s.cells.iter().map(|&c| area(&mesh, cell(&mesh, c))).sum::<f64>()))
-            .collect();
-        let curves: Vec<_> =
-            mesh.curves.iter().map(|c| (&*c.name, length(&mesh, &c.edges))).collect();
-        let close = |found: &[(&str, f64)], expected: &[(&str, f64)]| {
-            assert_eq!(found.len(), expected.len(), "{kind} {variant}");
-            for (found, expected) in found.iter().zip(expected) {
-                assert_eq!(found.0, expected.0);
-                MEASURE.check(format_args!("{kind} {variant} {found:?}"), found.1 - expected.1);
-            }
-        };
-        close(&surfaces, &[("domain", 3.0), ("sand", 1.0)]);
-        close(&curves, &[("contact zone", 3.0), ("dirichlet \"ü\"", 1.0), ("7", 1.0)]);
+        assert!(mesh.corners().all(|cell| area(&points(&mesh, cell)) > 0.0));
+        let found = measures(&mesh);
+        assert_eq!(found.len(), expected.len(), "{kind} {variant}");
+        for ((name, size), expected) in found.iter().zip(expected) {
+            assert_eq!(name, expected.0);
+            MEASURE.check(format_args!("{kind} {variant} {name}"), size - expected.1);
+        }
     }
 }
 

@@ -3,21 +3,14 @@
 use signorini_tolerances::scene::PLACE;
 use std::collections::BTreeMap;
 
-use super::bases::all;
 use super::*;
-use crate::mesh::adaptive::{Carried, CarriedEdge};
+use crate::mesh::adaptive::CarriedEdge;
 
 /// The old mesh, the new one, and what says how they lie in each other, over three rounds of every base mesh.
 fn each_round(check: impl Fn(&str, &Mesh, &Mesh, &Carried)) {
-    for (what, base) in all() {
-        let (mut hierarchy, mut draw) = (Hierarchy::new(base).expect("a mesh"), Draw(3));
-        for _ in 0..3 {
-            let before = hierarchy.mesh().clone();
-            let marks = Target::Random(6).marks(&before, &mut draw);
-            let carried = hierarchy.refine(&marks).expect("a finer mesh");
-            check(&what, &before, hierarchy.mesh(), &carried);
-        }
-    }
+    rounds(Target::Random(6), 3, |Round { what, before, hierarchy, carried, .. }| {
+        check(what, before, hierarchy.mesh(), carried);
+    });
 }
 
 fn mean(points: &[[f64; 2]]) -> [f64; 2] {
@@ -55,41 +48,33 @@ fn old_cells_hold_the_middles_of_cells_and_sides() {
 
 #[test]
 fn cells_of_a_mesh_without_pieces_hold_their_new_cells_whole() {
-    for (what, base) in all() {
-        let mut hierarchy = Hierarchy::new(base.clone()).expect("a mesh");
-        let marks = Target::Random(4).marks(&base, &mut Draw(5));
-        let carried = hierarchy.refine(&marks).expect("a finer mesh");
+    rounds(Target::Random(4), 1, |Round { what, base, hierarchy, carried, .. }| {
         let mesh = hierarchy.mesh();
         assert_eq!(carried.cells, hierarchy.roots(), "{what}");
         let mut covered = vec![0.0; base.cells()];
         for (cell, &holder) in cells(mesh).iter().zip(&carried.cells) {
             let (cell, holder) = (points(mesh, cell), holder as usize);
-            let around = points(&base, &cells(&base)[holder]);
-            cell.iter().for_each(|&corner| assert_holds(&what, &around, corner));
+            let around = points(base, &cells(base)[holder]);
+            cell.iter().for_each(|&corner| assert_holds(what, &around, corner));
             covered[holder] += area(&cell);
         }
-        for (cell, covered) in cells(&base).iter().zip(covered) {
-            PLACE.check_relative(&what, covered, area(&points(&base, cell)));
+        for (cell, covered) in cells(base).iter().zip(covered) {
+            PLACE.check_relative(what, covered, area(&points(base, cell)));
         }
-    }
+    });
 }
 
 #[test]
 fn roots_are_covered_by_their_cells() {
-    for (what, base) in all() {
-        let (mut hierarchy, mut draw) = (Hierarchy::new(base.clone()).expect("a mesh"), Draw(6));
-        for _ in 0..3 {
-            let marks = Target::Random(6).marks(hierarchy.mesh(), &mut draw);
-            hierarchy.refine(&marks).expect("a finer mesh");
-        }
+    rounds(Target::Random(6), 3, |Round { what, base, hierarchy, .. }| {
         let mut covered = vec![0.0; base.cells()];
         for (cell, root) in cells(hierarchy.mesh()).iter().zip(hierarchy.roots()) {
             covered[root as usize] += area(&points(hierarchy.mesh(), cell));
         }
-        for (cell, covered) in cells(&base).iter().zip(covered) {
-            PLACE.check_relative(&what, covered, area(&points(&base, cell)));
+        for (cell, covered) in cells(base).iter().zip(covered) {
+            PLACE.check_relative(what, covered, area(&points(base, cell)));
         }
-    }
+    });
 }
 
 /// The cell of each boundary edge, and its side there.

@@ -6,9 +6,9 @@ mod rounds;
 mod shapes;
 
 use super::*;
-use crate::mesh::adaptive::Hierarchy;
+use crate::mesh::adaptive::{Carried, Hierarchy};
 
-use self::bases::Draw;
+use self::bases::{Draw, all};
 
 /// Which cells to refine in a round.
 #[derive(Debug, Clone, Copy)]
@@ -43,6 +43,32 @@ impl Target {
                 let least = away.iter().copied().fold(f64::INFINITY, f64::min);
                 away.iter().map(|&away| away <= least).collect()
             }
+        }
+    }
+}
+
+/// A round of refinement, just done.
+struct Round<'r> {
+    what: &'r str,
+    base: &'r Mesh,
+    before: &'r Mesh,
+    marks: &'r [bool],
+    carried: &'r Carried,
+    hierarchy: &'r Hierarchy,
+}
+
+/// So many rounds of refinement on every base mesh, with whatever `each` looks at after a round.
+fn rounds(target: Target, count: u32, mut each: impl FnMut(Round)) {
+    for (what, base) in all() {
+        let mut draw = Draw(base.cells() as u64);
+        let mut hierarchy = Hierarchy::new(base.clone()).expect("a mesh");
+        assert_eq!(hierarchy.mesh(), &base, "{what}");
+        for _ in 0..count {
+            let before = hierarchy.mesh().clone();
+            let marks = target.marks(&before, &mut draw);
+            let carried = hierarchy.refine(&marks).expect("a finer mesh");
+            let (base, before, marks, carried) = (&base, &before, &marks[..], &carried);
+            each(Round { what: &what, base, before, marks, carried, hierarchy: &hierarchy });
         }
     }
 }

@@ -1,25 +1,11 @@
 //! Every round keeps the domain with its names, and closure does not spread.
 
-use super::bases::{all, corner};
+use super::bases::corner;
 use super::*;
 use crate::mesh::gmsh::write;
 use crate::mesh::parse;
 use crate::mesh::refine::{MOST_CELLS, refined};
 use crate::mesh::structured::{Cells, grid};
-
-/// So many rounds of refinement on every base mesh, with whatever `each` looks at after a round.
-fn rounds(target: Target, rounds: u32, mut each: impl FnMut(&str, &Mesh, &Hierarchy, &[bool])) {
-    for (what, base) in all() {
-        let mut draw = Draw(base.cells() as u64);
-        let mut hierarchy = Hierarchy::new(base.clone()).expect("a mesh");
-        assert_eq!(hierarchy.mesh(), &base, "{what}");
-        for _ in 0..rounds {
-            let marks = target.marks(hierarchy.mesh(), &mut draw);
-            hierarchy.refine(&marks).expect("a finer mesh");
-            each(&what, &base, &hierarchy, &marks);
-        }
-    }
-}
 
 /// How many cells all rounds together may add for each that was marked: towards a point in a quad a round adds 43.
 const MOST_ADDED: usize = 48;
@@ -29,7 +15,7 @@ fn the_domain_keeps_its_names_and_sizes_and_cells_do_not_spread() {
     let point = Target::Point([0.1, 0.05]);
     for (target, count) in [(point, 16), (Target::Line(0.03), 6), (Target::Random(9), 6)] {
         let mut marked = 0;
-        rounds(target, count, |what, base, hierarchy, marks| {
+        rounds(target, count, |Round { what, base, hierarchy, marks, .. }| {
             let (mesh, what) = (hierarchy.mesh(), format!("{what} {target:?}"));
             assert_same_domain(&what, base, mesh);
             assert_eq!(mesh.vertices[..base.vertices.len()], base.vertices, "{what}");
@@ -86,7 +72,7 @@ fn exact(mesh: &Mesh) -> [Vec<(String, Vec<[u64; 2]>)>; 2] {
 fn equal_marks_give_equal_meshes_and_no_marks_change_nothing() {
     let run = || {
         let mut meshes = Vec::new();
-        rounds(Target::Random(5), 3, |_, _, hierarchy, _| meshes.push(hierarchy.mesh().clone()));
+        rounds(Target::Random(5), 3, |round| meshes.push(round.hierarchy.mesh().clone()));
         meshes
     };
     assert!(run() == run());
@@ -176,7 +162,7 @@ fn too_many_cells_are_refused() {
 
 #[test]
 fn every_round_is_written_and_read_back() {
-    rounds(Target::Random(6), 2, |what, _, hierarchy, _| {
+    rounds(Target::Random(6), 2, |Round { what, hierarchy, .. }| {
         let written = write::text(hierarchy.mesh());
         let read = parse(written.as_bytes());
         assert_eq!(read.as_ref().ok(), Some(hierarchy.mesh()), "{what}: {:?}", read.as_ref().err());

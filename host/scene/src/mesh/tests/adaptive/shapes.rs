@@ -8,7 +8,6 @@
 //! q = J/h², J the least turn of two sides that follow each other, h the longest side. The bounds are met without
 //! any room for rounding: where they are sharp, on squares, all coordinates are exact.
 
-use super::bases::all;
 use super::*;
 
 /// q of a quad.

@@ -1,19 +1,37 @@
-//! Sentences as readers like them: what is one of several stands on a line of its own.
+//! The frame of every page, the marks of checks, and sentences as readers like them: what is one of several stands
+//! on a line of its own.
 
-use std::fmt::Write;
+use super::svg::{STYLE, escape};
 
-use super::svg::escape;
+/// The page around its body.
+pub fn frame(title: &str, body: &str) -> String {
+    let title = escape(title);
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
+         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n{body}</body>\n</html>\n"
+    )
+}
+
+/// ✓ or ✗.
+pub fn mark(passed: bool) -> &'static str {
+    if passed {
+        "<span class=\"mark pass\" role=\"img\" aria-label=\"pass\">✓</span>"
+    } else {
+        "<span class=\"mark fail\" role=\"img\" aria-label=\"FAIL\">✗</span>"
+    }
+}
+
+/// Entries, a line each, between the tags `open` and `close`; nothing where there is no entry.
+pub fn enclosed(open: &str, entries: impl Iterator<Item = String>, close: &str) -> String {
+    let entries: String = entries.map(|entry| entry + "\n").collect();
+    if entries.is_empty() { entries } else { format!("{open}\n{entries}{close}\n") }
+}
 
 /// A list in the look of `class`, an entry a text.
 pub fn list(class: &str, texts: &[impl AsRef<str>]) -> String {
-    if texts.is_empty() {
-        return String::new();
-    }
-    let mut html = format!("<ul class=\"{class}\">\n");
-    for text in texts {
-        let _ = writeln!(html, "<li>{}</li>", escape(text.as_ref()));
-    }
-    html + "</ul>\n"
+    let entries = texts.iter().map(|text| format!("<li>{}</li>", escape(text.as_ref())));
+    enclosed(&format!("<ul class=\"{class}\">"), entries, "</ul>")
 }
 
 /// The text as HTML; where it enumerates, its parts become a list below what stands before the colon.
