@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::{ArgGroup, Args};
 
 use super::bake_c;
-use super::posed::promised_problem_of;
-use super::{scene_at, write_beside};
+use super::scene_arguments::{promised_problem_of, scene_at};
+use super::write_beside;
 use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::emit::{Emitted, emit};
 use signorini_bake::explain::{explanation, warnings};

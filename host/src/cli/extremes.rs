@@ -7,7 +7,7 @@ use std::time::Instant;
 use clap::Args;
 
 use signorini_draw::extremes_page;
-use signorini_files::atomic::write_atomically;
+use signorini_files::atomic::{writable, write_atomically};
 use signorini_lab::extremes::judge::Outcome;
 use signorini_lab::extremes::kept::Kept;
 use signorini_lab::extremes::random::row::Row;
@@ -67,7 +67,7 @@ impl Arguments {
             let error = InputError::new(format!("--only {only}: no case has this in its name"));
             return Err(error.hint("leave it out for a table of all studies").into());
         }
-        super::scene_arguments::writable("--out", &self.out)?;
+        writable("--out", &self.out)?;
         let bar = steps(plan.len());
         let kept = Kept::open(&self.out)?;
         let record = plan.run(&kept, || bar.inc(1));
@@ -95,7 +95,7 @@ impl Arguments {
     /// Whole scenes.
     fn at_random(self, count: u32) -> Result<u8> {
         let (seed, out) = (self.seed, &self.out);
-        super::scene_arguments::writable("--out", out)?;
+        writable("--out", out)?;
         let plan = match self.case {
             Some(case) => random::RandomPlan::one(seed, case),
             None => random::RandomPlan::new(seed, count),

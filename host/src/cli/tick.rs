@@ -6,8 +6,7 @@ use clap::Args;
 
 use super::honoured::check_ticks;
 use super::picture::picture;
-use super::posed::problem_of;
-use super::scene_arguments::SceneArguments;
+use super::scene_arguments::{SceneArguments, problem_of};
 use super::series::Series;
 use signorini_draw::chart_file;
 use signorini_files::atomic::write_atomically;

@@ -60,7 +60,7 @@ pub struct Size {
 ///
 /// # Errors
 /// The scene `meshes/catalogue/moving-tri.toml` is not there.
-pub fn sizes(progress: impl Fn(&str)) -> Result<Sizes> {
+pub fn sizes(mut progress: impl FnMut(&str)) -> Result<Sizes> {
     let scene = Scene::read(&root()?.join("meshes/catalogue/moving-tri.toml"))?;
     progress("building OSQP");
     let program = osqp::program();

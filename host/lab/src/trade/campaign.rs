@@ -13,12 +13,12 @@ use super::mpi;
 use super::record::Trade;
 use super::records::{RECORD, SIZES};
 use super::shard::Shard;
-use super::study::{Study, StudyState};
+use super::study::Study;
 use super::target::Target;
 use crate::baseline;
 use crate::checkout::root;
 use crate::checkout::scenes;
-use signorini_files::atomic::write_atomically;
+use signorini_files::atomic::{writable, write_atomically};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 
@@ -77,12 +77,7 @@ impl Campaign {
                 Some(out) if paths.len() == 1 => out.to_owned(),
                 out => out.unwrap_or(Path::new("out")).join(&name),
             };
-            if folder.ancestors().find(|path| path.exists()).is_some_and(|path| !path.is_dir()) {
-                let message =
-                    format!("--out {}: is a file, expected a directory", folder.display());
-                let hint = "name a directory, or one that does not exist yet";
-                return Err(InputError::new(message).hint(hint).into());
-            }
+            writable("--out", &folder)?;
             refuse_own(path, &folder)?;
             studies.push(Study::open(path, target, folder, with_peers)?);
         }
@@ -164,16 +159,13 @@ impl Campaign {
                 done(FinishedSetting { number: before + number, of: before + all, name });
             };
             match study.run(shard, by_scene, wish, &mut tell)? {
-                StudyState::Whole(trade) => ended.trades.push((study.folder.clone(), *trade)),
-                StudyState::Part => ended.left += 1,
+                Some(trade) => ended.trades.push((study.folder.clone(), trade)),
+                None => ended.left += 1,
             }
             before += of;
         }
         if let (Some(file), true) = (&self.sizes, shard.is_whole()) {
-            let done = std::cell::RefCell::new(done);
-            let tell = |name: &str| {
-                (done.borrow_mut())(FinishedSetting { number: before, of: before + 1, name });
-            };
+            let tell = |name: &str| done(FinishedSetting { number: before, of: before + 1, name });
             let sizes = baseline::sizes(tell)?;
             write_atomically(file, json(&sizes).as_bytes())?;
         }

@@ -1,6 +1,7 @@
 //! Studies for tests: plausible, deterministic, with everything in them.
 
 use super::record::{FunctionCost, Point, Recommendation, Skipped, Trade};
+use super::target::Target;
 use crate::baseline::record::{Baseline, PointError};
 use signorini_draw::plain;
 use signorini_scene::setting::Setting;
@@ -76,7 +77,7 @@ pub fn trade(scene: &str, count: usize) -> Trade {
         scene: scene.to_owned(),
         title: format!("A {scene} <after> rain & snow"),
         registers: "any x86-64".to_owned(),
-        target: "host".to_owned(),
+        target: Target::Host,
         truth: "against the mesh two levels finer".to_owned(),
         energy: 2.0,
         force: 0.8,

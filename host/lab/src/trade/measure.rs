@@ -1,7 +1,7 @@
 //! One setting measured: what a tick costs, and how far its answer is from the truth.
 
 use super::record::Point;
-use super::reference::{Approximation, ReferenceSolution};
+use super::reference::ReferenceSolution;
 use crate::baseline::record::PointError;
 
 use crate::cycles;
@@ -48,7 +48,7 @@ pub fn measure(problem: &Problem, truth: &ReferenceSolution) -> Result<Point> {
         };
         Ok((timing, session.answer(problem)?))
     })?;
-    let error = errors(problem, truth, &answer)?;
+    let error = truth.errors(problem, &answer)?;
     Ok(point(problem, &setting, timing, &answer, error))
 }
 
@@ -105,20 +105,6 @@ fn median(numbers: &mut [u64]) -> f64 {
 fn spread(sorted: &[u64]) -> f64 {
     let (Some(first), Some(last)) = (sorted.first(), sorted.last()) else { return 0.0 };
     (last - first) as f64 / (sorted[sorted.len() / 2] as f64).max(1.0)
-}
-
-fn errors(problem: &Problem, truth: &ReferenceSolution, answer: &Solution) -> Result<PointError> {
-    let certified = answer.bound.is_some().then(|| answer.certified.admissible());
-    truth.errors(
-        problem,
-        &Approximation {
-            u: &answer.u,
-            flux: &answer.flux,
-            force: answer.contact_force,
-            length: answer.contact_length,
-            certified,
-        },
-    )
 }
 
 fn point(

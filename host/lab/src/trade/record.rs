@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::target::Target;
 use crate::baseline::record::{Baseline, PointError};
 use signorini_scene::setting::Setting;
 
@@ -13,7 +14,7 @@ pub struct Trade {
     /// Its title.
     pub title: String,
     /// `host`, `m4f` or `m7`: whose cost decides.
-    pub target: String,
+    pub target: Target,
     /// The registers that this program was built for, where cycles were counted; empty in records that do not tell.
     #[serde(default)]
     pub registers: String,

@@ -67,6 +67,7 @@ fn read_record<T: DeserializeOwned>(path: &Path) -> Result<T> {
 #[cfg(test)]
 mod tests {
     use super::super::fixtures::trade;
+    use super::super::target::Target;
     use super::*;
 
     fn write(folder: &Path, trade: &Trade) -> PathBuf {
@@ -82,14 +83,14 @@ mod tests {
         let none = read(folder.path()).unwrap();
         assert!(none.host.is_empty() && none.m4f.is_empty());
         let (pit, levee) = (trade("pit", 3), trade("levee", 5));
-        let board = Trade { target: "m4f".to_owned(), ..trade("pit", 2) };
+        let board = Trade { target: Target::M4f, ..trade("pit", 2) };
         write(&folder.path().join("host"), &pit);
         write(&folder.path().join("host"), &levee);
         write(&folder.path().join("m4f"), &board);
         std::fs::write(folder.path().join("host/sizes.json"), "{}").unwrap();
         let found = read(folder.path()).unwrap();
         let known = |trades: &[Trade]| {
-            let known = trades.iter().map(|t| (t.scene.clone(), t.target.clone(), t.points.len()));
+            let known = trades.iter().map(|t| (t.scene.clone(), t.target, t.points.len()));
             known.collect::<Vec<_>>()
         };
         assert_eq!(known(&found.host), known(&[levee, pit]));

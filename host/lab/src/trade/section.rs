@@ -4,10 +4,11 @@ use std::collections::BTreeSet;
 
 use super::digits::{or_dash, percent};
 use super::front::sentence;
-use super::listings::{baselines, costs, front, math, skipped};
-use super::picture::{picture, target_name};
+use super::picture::picture;
 use super::record::{Point, Trade};
 use super::records::Records;
+use super::table::{baselines, costs, front, math, skipped};
+use super::target::Target;
 use super::verdict::{certificate, knob_values, sentences};
 use crate::baseline;
 use crate::baseline::record::Baseline;
@@ -74,7 +75,7 @@ fn summary(scenes: &[Scene]) -> Table {
             taken(scene[1], |_, point| point.name.clone())
         }),
     ];
-    columns.extend(costs("m4f").iter().map(|&(name, text)| {
+    columns.extend(costs(Target::M4f).iter().map(|&(name, text)| {
         Column::number(name, move |scene: &&Scene| taken(scene[1], |_, point| text(point)))
     }));
     columns.extend(["Clarabel", "OSQP"].map(|solver| {
@@ -114,7 +115,7 @@ fn study(trade: &Trade) -> TradeStudy {
     let truth = format!("Errors are distances to {}", trade.truth);
     let taken = trade.recommendation.point.as_ref().map(|point| sentence(trade, point));
     TradeStudy {
-        heading: format!("On the {}", target_name(&trade.target)),
+        heading: format!("On the {}", trade.target.title()),
         recommendation: taken.unwrap_or_else(|| trade.recommendation.text.clone()),
         notes: [truth].into_iter().chain(skipped(trade)).collect(),
         picture: picture(trade),
@@ -134,7 +135,7 @@ mod tests {
 
     #[test]
     fn a_row_a_scene_with_both_targets() {
-        let board = Trade { target: "m4f".to_owned(), ..trade("pit", 8) };
+        let board = Trade { target: Target::M4f, ..trade("pit", 8) };
         let records = Records {
             host: vec![trade("levee", 8), trade("pit", 8)],
             m4f: vec![board],
@@ -155,7 +156,7 @@ mod tests {
 
     #[test]
     fn what_would_not_fit_a_board_has_no_numbers_there() {
-        let mut board = Trade { target: "m4f".to_owned(), ..trade("pit", 8) };
+        let mut board = Trade { target: Target::M4f, ..trade("pit", 8) };
         board.recommendation.point = None;
         board.baselines.clear();
         let found = section(&Records { m4f: vec![board], ..Records::default() });
