@@ -10,6 +10,7 @@ use signorini_draw::extremes_page;
 use signorini_files::atomic::{writable, write_atomically};
 use signorini_lab::extremes::judge::Outcome;
 use signorini_lab::extremes::kept::Kept;
+use signorini_lab::extremes::random::record::Record;
 use signorini_lab::extremes::random::row::Row;
 use signorini_lab::extremes::section::section;
 use signorini_lab::extremes::{Plan, random, text};
@@ -102,7 +103,7 @@ impl Arguments {
         };
         let (bar, start) = (steps(plan.len()), Instant::now());
         let keep = |rows: &[Row]| {
-            let record = plan.record(start.elapsed().as_secs_f64(), rows);
+            let record = Record::new(seed, start.elapsed().as_secs_f64(), rows);
             write_atomically(&out.join("random.json"), record.json().as_bytes())?;
             write_atomically(&out.join("random.csv"), &random::row::csv(rows)?)
         };

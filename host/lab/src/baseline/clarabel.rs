@@ -12,7 +12,7 @@ use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SupportedConeT}
 use super::failed;
 use super::program::{Columns, Program};
 use super::quadratic::Quadratic;
-use super::timed_solver::{InitialGuess, Run, TimedSolver, counted};
+use super::series::{InitialGuess, Run, TimedSolver, counted};
 use signorini_scene::error::Result;
 
 /// The solver on its problem.

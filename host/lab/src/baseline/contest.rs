@@ -15,8 +15,7 @@
 use crate::baseline::record::Baseline;
 use signorini_scene::error::Result;
 
-use super::series::{Series, Task};
-use super::timed_solver::{InitialGuess, TimedSolver};
+use super::series::{InitialGuess, Series, Task, TimedSolver};
 
 /// Repeats of a solver alone, and of several in turns.
 const REPEATS: [usize; 2] = [5, 9];

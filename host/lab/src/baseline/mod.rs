@@ -26,8 +26,6 @@ pub mod sizes;
 mod table;
 #[cfg(test)]
 mod tests;
-mod timed_solver;
-mod verdict;
 
 use std::fmt::Display;
 

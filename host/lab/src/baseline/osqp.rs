@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 use super::failed;
 use super::program::{Columns, Program};
 use super::quadratic::Quadratic;
-use super::timed_solver::{InitialGuess, Run, TimedSolver};
+use super::series::{InitialGuess, Run, TimedSolver};
 use crate::checkout::root;
 use crate::cycles::IS_WIDE;
 use signorini_scene::error::Result;

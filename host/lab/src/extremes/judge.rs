@@ -28,7 +28,9 @@ pub const DIGITS: [f64; 2] = [1e-10, 1e-4];
 pub const FAR: f64 = 4.0;
 
 /// The worth of an answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default, Serialize, Deserialize,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
     /// Within [`USEFUL`] of the best that the grid allows, and certified.
@@ -38,6 +40,7 @@ pub enum Outcome {
     /// Refused, with a message.
     TypedError,
     /// Anything else.
+    #[default]
     Wrong,
 }
 

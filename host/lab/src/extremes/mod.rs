@@ -29,6 +29,7 @@ mod watch;
 
 use std::time::{Duration, Instant};
 
+use crate::record_file::word;
 use attempt::{Attempt, attempt};
 use case::ExtremeCase;
 use flush::flushed;
@@ -42,7 +43,6 @@ pub use table::text;
 
 use signorini_problem::threads::on_two_threads;
 use signorini_scene::error::{Error, Result};
-use signorini_solve::ScalarKind;
 
 /// Longer than any case takes by a factor of some ten, on a machine that has other work: what has no answer by then hangs.
 const LIMIT: Duration = Duration::from_secs(900);
@@ -130,33 +130,29 @@ fn measured(case: &ExtremeCase, attempt: Attempt) -> Result<(Attempt, Measured)>
 
 /// The numbers of a case; those that are not finite are left out.
 fn described(case: &ExtremeCase, answer: Option<&(Attempt, Measured)>) -> Row {
-    let (attempt, measured) = answer.map(|(attempt, measured)| (attempt, measured)).unzip();
-    let finite = |number: f64| number.is_finite().then_some(number);
-    let bound = measured.and_then(|measured| measured.bound).and_then(finite);
-    let error = measured.map(|measured| measured.error).and_then(finite);
-    let reference = measured.and_then(|measured| measured.reference);
-    let of_fields = measured.and_then(|measured| measured.of_fields);
-    Row {
+    let row = Row {
         axis: case.axis.clone(),
         value: case.value,
         axis2: case.across.as_ref().map(|(axis, _)| axis.clone()),
         value2: case.across.as_ref().map(|&(_, value)| value),
-        scalar: match case.scalar {
-            ScalarKind::F64 => "f64".to_owned(),
-            ScalarKind::F32 => "f32".to_owned(),
-        },
-        outcome: judge::Outcome::Wrong,
+        scalar: word(&case.scalar),
+        ..Row::default()
+    };
+    let Some((attempt, measured)) = answer else { return row };
+    let finite = |number: f64| number.is_finite().then_some(number);
+    let (bound, error) = (measured.bound.and_then(finite), finite(measured.error));
+    let [error_u, error_flux] = measured.of_fields.map_or([None; 2], |of| of.map(finite));
+    Row {
         error_over_bound: error.zip(bound).and_then(|(error, bound)| ratio(error, bound)),
-        sweeps: attempt.map(|attempt| attempt.answer.sweeps),
-        unknowns: attempt.map(|attempt| attempt.unknowns),
-        status: attempt.map(|attempt| attempt.answer.status.name().to_owned()),
+        sweeps: Some(attempt.answer.sweeps),
+        unknowns: Some(attempt.unknowns),
+        status: Some(attempt.answer.status.name().to_owned()),
         error,
         bound,
-        reference_bound: reference.and_then(|reference| reference.bound).and_then(finite),
-        energy: reference.map(|reference| reference.energy).and_then(finite),
-        error_u: of_fields.map(|[u, _]| u).and_then(finite),
-        error_flux: of_fields.map(|[_, flux]| flux).and_then(finite),
-        seconds: 0.0,
-        note: String::new(),
+        reference_bound: measured.reference.and_then(|of| of.bound).and_then(finite),
+        energy: measured.reference.and_then(|of| finite(of.energy)),
+        error_u,
+        error_flux,
+        ..row
     }
 }

@@ -5,8 +5,8 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::judge::{DIGITS, FAR, INTEGRATED, Outcome, USEFUL};
-use crate::csv_file::csv_file;
-use signorini_scene::error::{Error, Result};
+use crate::record_file;
+use signorini_scene::error::Result;
 
 /// The committed record, from the root of the checkout.
 pub const RECORD: &str = "host/benches/extremes/extremes.json";
@@ -32,7 +32,7 @@ pub struct Definition {
 }
 
 /// A case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Row {
     /// The axis, and which of several studies along it.
     pub axis: String,
@@ -97,6 +97,14 @@ pub fn definitions() -> Vec<Definition> {
 }
 
 impl Record {
+    /// The text of `extremes.csv`: the same cases.
+    ///
+    /// # Errors
+    /// Never for plain data.
+    pub fn csv(&self) -> Result<Vec<u8>> {
+        record_file::csv("extremes.csv", &self.cases)
+    }
+
     /// The text of `extremes.json`: a line per case.
     pub fn json(&self) -> String {
         let line = |value: serde_json::Result<String>| value.unwrap_or_default();
@@ -111,33 +119,22 @@ impl Record {
         )
     }
 
-    /// The text of `extremes.csv`: the same cases.
-    ///
-    /// # Errors
-    /// Never for plain data.
-    pub fn csv(&self) -> Result<Vec<u8>> {
-        csv_file("extremes.csv", &self.cases)
-    }
-
     /// Reads the record at `path`; none where there is no file.
     ///
     /// # Errors
     /// A file that is no record, with its name.
     pub fn read(path: &Path) -> Result<Option<Self>> {
-        if !path.is_file() {
-            return Ok(None);
-        }
-        let text = std::fs::read_to_string(path).map_err(Error::io(path))?;
-        serde_json::from_str(&text).map(Some).map_err(|cause| {
-            let name = path.display();
-            let hint = "run `signorini extremes` again";
-            Error::Check(format!("{name}: no record of extremes: {cause}; {hint}"))
-        })
+        record_file::read(path, "extremes", "signorini extremes")
     }
 
     /// How many cases have this outcome.
     pub fn count(&self, outcome: Outcome) -> usize {
         self.cases.iter().filter(|case| case.outcome == outcome).count()
+    }
+
+    /// How many cases ended in which way, in words.
+    pub fn counts(&self) -> String {
+        Outcome::ALL.map(|of| format!("{} {}", self.count(of), of.name())).join(", ")
     }
 
     /// The studies in their order: the axis, what it is crossed with, and the cases.
@@ -175,10 +172,9 @@ pub(super) fn fixture() -> Record {
             bound: solved.then_some(0.2),
             reference_bound: solved.then_some(0.2),
             energy: solved.then_some(1.0),
-            error_u: None,
-            error_flux: None,
             seconds: 0.25,
             note: if at.is_multiple_of(4) { String::new() } else { format!("note {at} & <more>") },
+            ..Row::default()
         }
     };
     let mut cases = Vec::new();

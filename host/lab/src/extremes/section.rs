@@ -21,9 +21,7 @@ pub fn section(record: &Record) -> Extremes {
 }
 
 fn summary(record: &Record) -> String {
-    let counts =
-        Outcome::ALL.map(|outcome| format!("{} {}", record.count(outcome), outcome.name()));
-    format!("{} cases in {:.0} s: {}.", record.cases.len(), record.seconds, counts.join(", "))
+    format!("{} cases in {:.0} s: {}.", record.cases.len(), record.seconds, record.counts())
 }
 
 fn study(axis: &str, across: Option<&str>, cases: &[&Row]) -> ExtremesStudy {

@@ -35,9 +35,7 @@ pub fn text(record: &Record) -> String {
     for case in record.cases.iter().filter(|case| case.outcome == Outcome::Wrong) {
         let _ = writeln!(text, "wrong: {}: {}", place(case), case.note);
     }
-    let counts =
-        Outcome::ALL.map(|outcome| format!("{} {}", record.count(outcome), outcome.name()));
-    let _ = write!(text, "{} cases: {}", record.cases.len(), counts.join(", "));
+    let _ = write!(text, "{} cases: {}", record.cases.len(), record.counts());
     text
 }
 

@@ -1,8 +1,8 @@
 //! The main job's tables, for the terminal and for the report.
 
+use super::case::KnownScene;
 use super::checks::Check;
 use super::convergence::ConvergenceStudy;
-use super::known::KnownScene;
 use super::{OF_FLUX, OF_GRADIENT, OF_U};
 use signorini_certify::ErrorBound;
 use signorini_draw::{self as report, Column, Table};

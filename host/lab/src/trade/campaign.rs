@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::files::{FRAGMENT, json};
+use super::files::FRAGMENT;
 use super::front::Wish;
 use super::mpi;
 use super::record::Trade;
@@ -16,8 +16,8 @@ use super::shard::Shard;
 use super::study::Study;
 use super::target::Target;
 use crate::baseline;
-use crate::checkout::root;
-use crate::checkout::scenes;
+use crate::checkout::{root, scenes};
+use crate::record_file::json;
 use signorini_files::atomic::{writable, write_atomically};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;

@@ -8,6 +8,7 @@ use serde_json::Value;
 
 use super::picture::picture;
 use super::record::{Point, Trade};
+use crate::record_file::json;
 use signorini_draw::pareto_file;
 use signorini_files::atomic::write_atomically;
 use signorini_scene::error::{Error, Result};
@@ -36,22 +37,6 @@ pub fn write(folder: &Path, scene: &Scene, trade: &Trade) -> Result<()> {
             _ => Ok(()),
         },
     }
-}
-
-/// The object, a line for every point.
-pub fn json<T: Serialize>(record: &T) -> String {
-    let Ok(Value::Object(keys)) = serde_json::to_value(record) else {
-        return String::new();
-    };
-    let value = |value: &Value| match value {
-        Value::Array(items) if !items.is_empty() => {
-            let lines: Vec<_> = items.iter().map(|item| format!("    {item}")).collect();
-            format!("[\n{}\n  ]", lines.join(",\n"))
-        }
-        other => other.to_string(),
-    };
-    let lines: Vec<_> = keys.iter().map(|(key, of)| format!("  {key:?}: {}", value(of))).collect();
-    format!("{{\n{}\n}}\n", lines.join(",\n"))
 }
 
 /// Where each column stands in a point's JSON; its name is this path with `_` between the words. Columns

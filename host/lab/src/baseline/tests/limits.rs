@@ -17,7 +17,7 @@ use super::super::full::quadratic;
 use super::super::load_case::LoadCase;
 use super::super::program::Program;
 use super::super::quadratic::{Matrix, Quadratic, QuadraticLoads};
-use super::super::timed_solver::{InitialGuess, TimedSolver};
+use super::super::series::{InitialGuess, TimedSolver};
 
 fn problem(name: &str) -> Result<Problem> {
     let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../meshes"));

@@ -10,7 +10,6 @@ mod case;
 mod catalogue;
 mod data;
 mod dice;
-mod ends;
 mod function;
 mod made;
 mod measure;
@@ -36,12 +35,12 @@ use record::Record;
 use row::Row;
 use verdict::{broken_by, ended};
 
-use super::grid::msh;
 use super::judge::{Ended, Outcome, judge};
 use super::watch::watched;
 use signorini_files::atomic::write_atomically;
 use signorini_problem::threads::on_two_threads;
 use signorini_scene::error::{Error, Result};
+use signorini_scene::mesh::gmsh::write as msh;
 
 /// A case without an answer by then hangs.
 const LIMIT: Duration = Duration::from_secs(1800);
@@ -99,11 +98,6 @@ impl RandomPlan {
         keep(&rows)?;
         Ok((Record::new(self.seed, start.elapsed().as_secs_f64(), &rows), rows))
     }
-
-    /// The record of rows that may not be all.
-    pub fn record(&self, seconds: f64, rows: &[Row]) -> Record {
-        Record::new(self.seed, seconds, rows)
-    }
 }
 
 /// Writes the scene and the mesh of a case into `folder`.
@@ -119,7 +113,7 @@ pub fn write(seed: u64, number: u32, folder: &Path) -> Result<()> {
         effort.way, effort.scalar, effort.sweeps, effort.earlier, effort.inputs
     );
     write_atomically(&folder.join("scene.toml"), (how + &case.scene).as_bytes())?;
-    write_atomically(&folder.join("mesh.msh"), msh(&case.mesh).as_bytes())
+    write_atomically(&folder.join("mesh.msh"), msh::text(&case.mesh).as_bytes())
 }
 
 /// Draws, solves, measures and judges one case.
