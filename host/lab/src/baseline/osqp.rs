@@ -21,8 +21,8 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use super::failed;
-use super::program::{Columns, Program};
-use super::quadratic::Quadratic;
+use super::program::Program;
+use super::quadratic::{Matrix, Quadratic};
 use super::series::{InitialGuess, Run, TimedSolver};
 use crate::checkout::root;
 use crate::cycles::IS_WIDE;
@@ -61,8 +61,8 @@ struct Data {
 
 #[derive(Serialize)]
 struct Problem<'a> {
-    matrix: &'a Columns,
-    constraints: &'a Columns,
+    matrix: &'a Matrix,
+    constraints: &'a Matrix,
     ticks: Vec<Data>,
 }
 

@@ -87,8 +87,8 @@ fn all_solvers_follow_limits_from_tick_to_tick() -> Result<()> {
 /// K = (2, −1; −1, 2) with both unknowns in contact.
 fn small(spans: [f64; 2]) -> Result<Quadratic> {
     let mut matrix = Matrix::new();
-    matrix.push_row([(0, 2.0), (1, -1.0)].into_iter());
-    matrix.push_row([(0, -1.0), (1, 2.0)].into_iter());
+    matrix.push([(0, 2.0), (1, -1.0)]);
+    matrix.push([(0, -1.0), (1, 2.0)]);
     let tick = QuadraticLoads::new(vec![-3.0, 1.0], vec![0.0, -1.0], spans.to_vec());
     Ok(Quadratic::new(matrix, Vec::new(), vec![tick])?.0)
 }
@@ -98,10 +98,10 @@ fn a_slack_stands_where_there_is_a_limit() -> Result<()> {
     let quadratic = small([1.5, f64::NEG_INFINITY])?;
     let program = Program::new(&quadratic)?;
     // u₁ + s ≥ 0,  −u₂ ≥ 1,  s ≥ 0.
-    assert_eq!(program.constraints.starts, [0, 1, 2, 4]);
-    assert_eq!(program.constraints.rows, [0, 1, 0, 2]);
+    assert_eq!(program.constraints.row_ptr, [0, 1, 2, 4]);
+    assert_eq!(program.constraints.col_idx, [0, 1, 0, 2]);
     assert_eq!(program.constraints.values, [1.0, -1.0, 1.0, 1.0]);
-    assert_eq!(program.matrix.starts, [0, 1, 3, 3]);
+    assert_eq!(program.matrix.row_ptr, [0, 1, 3, 3]);
     let tick = &quadratic.ticks[0];
     assert_eq!(program.cost(tick), [3.0, -1.0, 1.5]);
     assert_eq!(program.least(tick), [0.0, 1.0, 0.0]);
