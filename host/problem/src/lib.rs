@@ -28,6 +28,7 @@ pub mod pointwise;
 pub mod progress;
 mod property;
 pub mod quadrature;
+pub mod random;
 mod range_terms;
 mod restated;
 pub mod scalar;

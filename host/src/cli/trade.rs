@@ -101,10 +101,10 @@ impl Arguments {
         };
         warn(&campaign.warnings());
         let bar = steps(0);
-        let ended = campaign.run(self.shard, &wish, &mut |case| {
-            bar.set_length(case.of as u64);
-            bar.set_position(case.number as u64);
-            bar.set_message(case.name.to_owned());
+        let ended = campaign.run(self.shard, &wish, &mut |number, of, name| {
+            bar.set_length(of as u64);
+            bar.set_position(number as u64);
+            bar.set_message(name.to_owned());
         });
         bar.finish_and_clear();
         let Ended { trades, left, status } = ended?;

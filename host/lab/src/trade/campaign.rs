@@ -29,16 +29,8 @@ pub struct Campaign {
     sizes: Option<PathBuf>,
 }
 
-/// A case that is done.
-#[derive(Debug, Clone, Copy)]
-pub struct FinishedSetting<'a> {
-    /// How many were before it, in all studies.
-    pub number: usize,
-    /// How many there are, as far as planned.
-    pub of: usize,
-    /// Name of the case.
-    pub name: &'a str,
-}
+/// Called with each case that is done: how many were before it in all studies, how many there are as far as planned, its name.
+pub type Done<'d> = dyn FnMut(usize, usize, &str) + 'd;
 
 /// The outcome of a campaign.
 #[derive(Debug, Default)]
@@ -116,12 +108,7 @@ impl Campaign {
     ///
     /// # Errors
     /// Wrong input, files that cannot be written.
-    pub fn run(
-        &self,
-        shard: Option<Shard>,
-        wish: &Wish,
-        done: &mut dyn FnMut(FinishedSetting),
-    ) -> Result<Ended> {
+    pub fn run(&self, shard: Option<Shard>, wish: &Wish, done: &mut Done) -> Result<Ended> {
         if let Some(shard) = shard {
             return self.share(shard, wish, done);
         }
@@ -138,12 +125,7 @@ impl Campaign {
         Ok(ended)
     }
 
-    fn share(
-        &self,
-        shard: Shard,
-        wish: &Wish,
-        done: &mut dyn FnMut(FinishedSetting),
-    ) -> Result<Ended> {
+    fn share(&self, shard: Shard, wish: &Wish, done: &mut Done) -> Result<Ended> {
         let by_scene = !shard.is_whole() && self.studies.len() >= shard.count();
         let mut ended = Ended::default();
         let mut before = 0;
@@ -155,8 +137,7 @@ impl Campaign {
             let (mut number, mut of) = (0, 0);
             let mut tell = |all: usize, name: &str| {
                 (number, of) = (number + 1, all);
-                let name = &format!("{}: {name}", study.name);
-                done(FinishedSetting { number: before + number, of: before + all, name });
+                done(before + number, before + all, &format!("{}: {name}", study.name));
             };
             match study.run(shard, by_scene, wish, &mut tell)? {
                 Some(trade) => ended.trades.push((study.folder.clone(), trade)),
@@ -165,8 +146,7 @@ impl Campaign {
             before += of;
         }
         if let (Some(file), true) = (&self.sizes, shard.is_whole()) {
-            let tell = |name: &str| done(FinishedSetting { number: before, of: before + 1, name });
-            let sizes = baseline::sizes(tell)?;
+            let sizes = baseline::sizes(|name| done(before, before + 1, name))?;
             write_atomically(file, json(&sizes).as_bytes())?;
         }
         // Last of all: journals that are gone cannot tell what an interrupted campaign has measured.

@@ -4,11 +4,11 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
-use super::dice::Random;
 use super::mesh::{Kind, MeshPlan, Outline, Regions};
 use super::posed::Hold;
 use super::{catalogue, data, made};
 use crate::record_file::word;
+use signorini_problem::random::Random;
 use signorini_scene::mesh::Mesh;
 use signorini_solve::ScalarKind;
 

@@ -9,8 +9,8 @@ use std::collections::{BTreeMap, HashMap};
 
 use serde::Serialize;
 
-use super::dice::Random;
 use crate::extremes::grid::partition;
+use signorini_problem::random::Random;
 use signorini_scene::mesh::{Curve, Mesh, Surface};
 
 /// The cells of a mesh.

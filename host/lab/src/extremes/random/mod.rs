@@ -1,7 +1,7 @@
 //! `signorini extremes --random N --seed S`: whole scenes drawn at random, each judged by a truth of its own.
 //!
 //! ```text
-//!   dice ─► mesh, function ─► catalogue, made, data ─► Case ─► attempt ─► measure (exact, or nested) ─► verdict ─► row ─► record
+//!   random ─► mesh, function ─► catalogue, made, data ─► Case ─► attempt ─► measure (exact, or nested) ─► verdict ─► row ─► record
 //! ```
 //! Case k of a seed depends on nothing but k and the seed, so that each can be had alone.
 
@@ -9,7 +9,6 @@ mod attempt;
 mod case;
 mod catalogue;
 mod data;
-mod dice;
 mod function;
 mod made;
 mod measure;

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::dice::Random;
+use signorini_problem::random::Random;
 use signorini_scene::mesh::Mesh;
 
 /// The condition that holds its parts.
