@@ -10,10 +10,11 @@
 //! Useful: not above [`USEFUL`] times the bound that the exact discrete solution gets (or what the scalar's
 //! digits make of the energy norm, where that is more), and not above the energy norm itself.
 
+use std::sync::mpsc::RecvTimeoutError;
+
 use serde::{Deserialize, Serialize};
 
 use super::measure::{Measured, Reference};
-use super::watch::Lost;
 use signorini_scene::error::Error;
 use signorini_solve::ScalarKind;
 
@@ -83,11 +84,11 @@ pub enum Ended {
     },
 }
 
-impl From<Lost> for Ended {
-    fn from(lost: Lost) -> Self {
+impl From<RecvTimeoutError> for Ended {
+    fn from(lost: RecvTimeoutError) -> Self {
         match lost {
-            Lost::TimedOut => Self::TimedOut,
-            Lost::Panicked => Self::Panicked,
+            RecvTimeoutError::Timeout => Self::TimedOut,
+            RecvTimeoutError::Disconnected => Self::Panicked,
         }
     }
 }

@@ -89,7 +89,7 @@ fn held<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::record::fixture;
+    use super::super::record::tests::fixture;
     use super::*;
 
     #[test]

@@ -178,7 +178,7 @@ fn reasons(record: &Record) -> Table {
 
 #[cfg(test)]
 mod tests {
-    use super::super::record::fixture;
+    use super::super::record::tests::fixture;
     use super::*;
     use signorini_draw::extremes_page;
 

@@ -60,7 +60,7 @@ pub(super) fn place(case: &Row) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::record::fixture;
+    use super::super::record::tests::fixture;
     use super::*;
 
     #[test]

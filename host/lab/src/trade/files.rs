@@ -129,7 +129,7 @@ fn write_fragment(file: &Path, scene: &Scene, setting: &Setting, why: &str) -> R
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixtures::trade;
+    use super::super::tests::trade;
     use super::*;
 
     /// The paths to everything that is no object.

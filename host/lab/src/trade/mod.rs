@@ -10,8 +10,6 @@ pub mod board;
 pub mod campaign;
 mod digits;
 pub mod files;
-#[cfg(test)]
-pub(crate) mod fixtures;
 pub mod front;
 pub mod journal;
 pub mod math;
@@ -30,4 +28,6 @@ pub mod shard;
 pub mod study;
 pub mod table;
 pub mod target;
+#[cfg(test)]
+pub(crate) mod tests;
 pub mod verdict;

@@ -64,7 +64,7 @@ fn note(trade: &Trade, point: &Point) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixtures::{names, trade};
+    use super::super::tests::{names, trade};
     use super::*;
     use signorini_draw::pareto_file;
 

@@ -59,8 +59,8 @@ fn read_record<T: DeserializeOwned>(path: &Path) -> Result<Option<T>> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixtures::trade;
     use super::super::target::Target;
+    use super::super::tests::trade;
     use super::*;
 
     fn write(folder: &Path, trade: &Trade) -> PathBuf {

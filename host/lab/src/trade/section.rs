@@ -50,30 +50,24 @@ fn summary(scenes: &[Scene]) -> Table {
         let trade = scene.iter().flatten().next();
         trade.map(|trade| trade.scene.clone()).unwrap_or_default()
     };
+    let number = |name: &str, at: usize, text: fn(&Trade, &Point) -> String| {
+        Column::number(name, move |scene: &&Scene| taken(scene[at], text))
+    };
+    let setting = |name: &str, at: usize| {
+        Column::words(name, move |scene: &&Scene| taken(scene[at], |_, point| point.name.clone()))
+    };
     let mut columns = vec![
         Column::words("scene", name),
-        Column::words("take on the host", |scene: &&Scene| {
-            taken(scene[0], |_, point| point.name.clone())
+        setting("take on the host", 0),
+        number("error of u_h %", 0, |trade, point| percent(point.error.energy, trade.energy)),
+        number("error of s, τ %", 0, |trade, point| {
+            or_dash(point.error.combined, |error| percent(error, trade.energy))
         }),
-        Column::number("error of u_h %", |scene: &&Scene| {
-            taken(scene[0], |trade, point| percent(point.error.energy, trade.energy))
+        number("bound of s, τ %", 0, |trade, point| {
+            or_dash(point.bound, |bound| percent(bound, trade.energy))
         }),
-        Column::number("error of s, τ %", |scene: &&Scene| {
-            taken(scene[0], |trade, point| {
-                or_dash(point.error.combined, |error| percent(error, trade.energy))
-            })
-        }),
-        Column::number("bound of s, τ %", |scene: &&Scene| {
-            taken(scene[0], |trade, point| {
-                or_dash(point.bound, |bound| percent(bound, trade.energy))
-            })
-        }),
-        Column::number("cycles/unknown", |scene: &&Scene| {
-            taken(scene[0], |_, point| plain(point.cycles_per_unknown))
-        }),
-        Column::words("take on the M4F", |scene: &&Scene| {
-            taken(scene[1], |_, point| point.name.clone())
-        }),
+        number("cycles/unknown", 0, |_, point| plain(point.cycles_per_unknown)),
+        setting("take on the M4F", 1),
     ];
     columns.extend(costs(Target::M4f).iter().map(|&(name, text)| {
         Column::number(name, move |scene: &&Scene| taken(scene[1], |_, point| text(point)))
@@ -129,7 +123,7 @@ fn study(trade: &Trade) -> TradeStudy {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixtures::trade;
+    use super::super::tests::trade;
     use super::*;
     use signorini_draw::{Report, html};
 

@@ -135,7 +135,7 @@ pub fn text(trade: &Trade) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixtures::trade;
+    use super::super::tests::trade;
     use super::*;
 
     #[test]

@@ -134,7 +134,7 @@ fn certificate_ratios(trade: &Trade) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixtures::point;
+    use super::super::tests::point;
     use super::*;
 
     fn trade(target: &str, points: &[(&str, &str, bool)]) -> Trade {
@@ -150,7 +150,7 @@ mod tests {
             model: String::new(),
             ..p
         });
-        Trade { points: points.collect(), ..super::super::fixtures::trade(target, 0) }
+        Trade { points: points.collect(), ..super::super::tests::trade(target, 0) }
     }
 
     #[test]

@@ -5,8 +5,8 @@ use tempfile::{TempDir, tempdir};
 
 use super::*;
 use crate::baseline::record::PointError;
-use crate::trade::fixtures;
 use crate::trade::record::Point;
+use crate::trade::tests as fixtures;
 use signorini_scene::setting::{Omega, Setting};
 
 const OF: &str = "levee, its mesh";
