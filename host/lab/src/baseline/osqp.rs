@@ -191,8 +191,8 @@ mod tests {
 
     use super::super::full::quadratic;
     use super::super::load_case::LoadCase;
-    use super::super::tests::catalogue;
     use super::*;
+    use crate::trade::tests::scene;
     use signorini_problem::{Parts, Problem};
     use signorini_scene::mesh::structured::{Cells, grid};
 
@@ -202,7 +202,7 @@ mod tests {
         let program = folder.path().join("osqp");
         std::fs::write(&program, format!("#!/bin/sh\n{script}\n")).unwrap();
         std::fs::set_permissions(&program, PermissionsExt::from_mode(0o755)).unwrap();
-        let scene = catalogue("moving-tri");
+        let scene = scene("catalogue/moving-tri");
         let problem = Problem::new(&scene, grid(16, Cells::Triangles)).unwrap();
         let parts = Parts::examine(&problem).unwrap();
         let (full, _) = quadratic(&problem, &parts, &LoadCase::drawn(&problem, 1)).unwrap();

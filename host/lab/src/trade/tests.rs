@@ -1,10 +1,27 @@
-//! Studies for tests: plausible, deterministic, with everything in them.
+//! Scenes of the repository for tests, and studies: plausible, deterministic, with everything in them.
+
+use std::path::Path;
 
 use super::record::{FunctionCost, Point, Recommendation, Skipped, Trade};
 use super::target::Target;
 use crate::baseline::record::{Baseline, PointError};
 use signorini_draw::plain;
+use signorini_problem::Problem;
+use signorini_scene::mesh;
+use signorini_scene::scene::Scene;
 use signorini_scene::setting::Setting;
+
+/// A scene of `meshes`.
+pub fn scene(name: &str) -> Scene {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes");
+    Scene::read(&root.join(format!("{name}.toml"))).unwrap()
+}
+
+/// The scene on its mesh.
+pub fn problem(name: &str) -> Problem {
+    let scene = scene(name);
+    Problem::new(&scene, mesh::read(&scene.mesh.value).unwrap()).unwrap()
+}
 
 /// The name of a point as pictures write it.
 pub fn names(point: &Point) -> String {

@@ -1,11 +1,8 @@
 //! All solvers on problems whose fluxes have limits: answers are those of the kernel's solve, and of each other.
 
-use std::path::PathBuf;
-
-use signorini_problem::{Parts, Problem};
+use crate::trade::tests::problem;
+use signorini_problem::Parts;
 use signorini_scene::error::Result;
-use signorini_scene::mesh;
-use signorini_scene::scene::Scene;
 use signorini_solve::{Options, SolverKind, solve};
 use signorini_tolerances::lab::{CLARABEL_LIMITED, PIVOTING_LIMITED};
 
@@ -19,12 +16,6 @@ use super::super::program::Program;
 use super::super::quadratic::{Matrix, Quadratic, QuadraticLoads};
 use super::super::series::{InitialGuess, TimedSolver};
 
-fn problem(name: &str) -> Result<Problem> {
-    let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../meshes"));
-    let scene = Scene::read(&root.join(format!("{name}.toml")))?;
-    Problem::new(&scene, mesh::read(&scene.mesh.value)?)
-}
-
 /// The unknowns one by one, relative to the largest.
 fn check(name: &str, found: &[f64], u: &[f64]) {
     assert_eq!(found.len(), u.len(), "{name}");
@@ -37,7 +28,7 @@ fn check(name: &str, found: &[f64], u: &[f64]) {
 #[test]
 fn clarabel_agrees_where_fluxes_have_limits() -> Result<()> {
     for name in ["limits/l-tri", "limits/l-quad", "scenes/antiicing"] {
-        let problem = problem(name)?;
+        let problem = problem(name);
         let here = [LoadCase::at(&problem.scene, problem.time)];
         let (full, factor) = quadratic(&problem, &Parts::examine(&problem)?, &here)?;
         let solution =
@@ -61,7 +52,7 @@ fn clarabel_agrees_where_fluxes_have_limits() -> Result<()> {
 #[test]
 fn all_solvers_follow_limits_from_tick_to_tick() -> Result<()> {
     for name in ["limits/l-tri", "scenes/antiicing"] {
-        let (problem, mut notes) = (problem(name)?, Vec::new());
+        let (problem, mut notes) = (problem(name), Vec::new());
         let moments = LoadCase::drawn(&problem, 3);
         let (full, _) = quadratic(&problem, &Parts::examine(&problem)?, &moments)?;
         let size = full.distance(0, &vec![0.0; full.matrix.order()]);

@@ -6,12 +6,12 @@ use signorini_tolerances::lab::{
     REFERENCE_L2_QUADS, SAME_NORMS,
 };
 use std::f64::consts::PI;
-use std::path::Path;
 
 use super::ReferenceSolution;
 use super::finer_solve::Reference;
 use super::recovery::Inside;
 use crate::baseline::record::PointError;
+use crate::trade::tests::scene as read;
 use signorini_certify::conductivity::product;
 use signorini_certify::weighed::minus;
 use signorini_problem::Problem;
@@ -22,11 +22,6 @@ use signorini_scene::mesh::{self, Mesh};
 use signorini_scene::scene::Scene;
 use signorini_solve::norms::of_solution;
 use signorini_solve::{Options, Solution, SolverKind, solve};
-
-fn read(path: &str) -> Scene {
-    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes");
-    Scene::read(&meshes.join(path)).unwrap()
-}
 
 fn solved(scene: &Scene, mesh: Mesh) -> (Problem, Solution) {
     let problem = Problem::new(scene, mesh).unwrap();
@@ -63,7 +58,7 @@ fn the_catalogue_has_its_forces_and_lengths() {
         ("patch-mixed", 4.0, 2.0),
     ];
     for (name, force, length) in cases {
-        let scene = read(&format!("catalogue/{name}.toml"));
+        let scene = read(&format!("catalogue/{name}"));
         let truth = exact(&scene, &grid(16, Cells::Quads));
         assert_eq!(truth.facts.words, "the exact solution");
         FORCE.check_relative(name, truth.facts.force, force);
@@ -73,7 +68,7 @@ fn the_catalogue_has_its_forces_and_lengths() {
 
 #[test]
 fn the_exact_solution_gives_the_norms_of_the_catalogue() {
-    let scene = read("catalogue/h-tri.toml");
+    let scene = read("catalogue/h-tri");
     let mesh = grid(16, Cells::Triangles);
     let truth = exact(&scene, &mesh);
     let (problem, solution) = solved(&scene, mesh);
@@ -92,7 +87,7 @@ fn the_exact_solution_gives_the_norms_of_the_catalogue() {
 
 #[test]
 fn answers_on_other_meshes_in_between_change_nothing() {
-    let scene = read("catalogue/ag-mixed.toml");
+    let scene = read("catalogue/ag-mixed");
     let meshes = [grid(16, Cells::Triangles), grid(9, Cells::Quads), grid(7, Cells::Mixed)];
     let truth = exact(&scene, &meshes[0]);
     let solved = meshes.map(|mesh| solved(&scene, mesh));
@@ -132,14 +127,14 @@ fn compare(scene: &Scene, coarse: Mesh, fine: &Mesh, in_l2: Tolerance) {
 fn a_reference_measures_what_the_exact_solution_does() {
     let fine = grid(32, Cells::Triangles);
     for name in ["h-tri", "j001-tri", "hg-tri", "ag-mixed"] {
-        let scene = read(&format!("catalogue/{name}.toml"));
+        let scene = read(&format!("catalogue/{name}"));
         compare(&scene, grid(8, Cells::Triangles), &fine, REFERENCE_L2);
     }
 }
 
 #[test]
 fn the_answer_may_have_other_cells_than_the_reference() {
-    let scene = read("catalogue/h-tri.toml");
+    let scene = read("catalogue/h-tri");
     compare(&scene, grid(8, Cells::Quads), &grid(32, Cells::Triangles), REFERENCE_L2_QUADS);
     compare(&scene, grid(8, Cells::Triangles), &grid(32, Cells::Quads), REFERENCE_L2);
     compare(&scene, grid(7, Cells::Mixed), &grid(32, Cells::Mixed), REFERENCE_L2);
@@ -165,7 +160,7 @@ fn the_recovered_gradient_is_much_nearer_than_the_broken_one() {
         ("h-tri", Cells::Quads, 0.4),
     ];
     for (name, cells, part) in cases {
-        let scene = read(&format!("catalogue/{name}.toml"));
+        let scene = read(&format!("catalogue/{name}"));
         let exact = scene.exact.as_ref().unwrap();
         let mesh = grid(16, cells);
         let (reference, _) = Reference::new(&scene, mesh.clone()).unwrap();
@@ -185,7 +180,7 @@ fn the_recovered_gradient_is_much_nearer_than_the_broken_one() {
 
 #[test]
 fn a_worse_answer_is_farther_away() {
-    let scene = read("catalogue/h-tri.toml");
+    let scene = read("catalogue/h-tri");
     let truth = reference(&scene, &grid(16, Cells::Triangles));
     let (problem, mut solution) = solved(&scene, grid(4, Cells::Quads));
     let before = truth.errors(&problem, &solution).unwrap();
@@ -209,7 +204,7 @@ fn a_worse_answer_is_farther_away() {
 #[test]
 fn every_scene_can_be_its_own_reference() {
     for name in ["benbelgacem", "levee", "membrane", "pit", "slab", "strip"] {
-        let scene = read(&format!("scenes/{name}.toml"));
+        let scene = read(&format!("scenes/{name}"));
         let mesh = mesh::read(&scene.mesh.value).unwrap();
         let truth = reference(&scene, &mesh);
         let (problem, solution) = solved(&scene, mesh);
