@@ -6,7 +6,7 @@ use clap::Args;
 
 use signorini_files::atomic::write_atomically;
 use signorini_lab::checkout::root;
-use signorini_lab::trade::campaign::{Campaign, Ended};
+use signorini_lab::trade::campaign::{Campaign, Ended, folder_of};
 use signorini_lab::trade::front::Wish;
 use signorini_lab::trade::promised;
 use signorini_lab::trade::shard::Shard;
@@ -135,11 +135,7 @@ impl Arguments {
             return written(&file, &tables.join("\n"));
         }
         for path in &self.scenes {
-            let name = path.file_stem().unwrap_or_default();
-            let folder = match &self.out {
-                Some(out) if self.scenes.len() == 1 => out.clone(),
-                out => out.as_deref().unwrap_or(Path::new("out")).join(name),
-            };
+            let folder = folder_of(path, self.scenes.len(), self.out.as_deref());
             written(&folder.join(promised::FILE), &self.table(path)?)?;
         }
         Ok(0)

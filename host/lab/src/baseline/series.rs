@@ -2,27 +2,22 @@
 
 use std::time::Instant;
 
+use serde::Serialize;
+
 use crate::baseline::record::Baseline;
 use crate::cycles;
+use crate::record_file::word;
 use signorini_scene::error::Result;
 
 use super::quadratic::Quadratic;
 
 /// The state that a solve begins with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub(super) enum InitialGuess {
     Cold,
     /// From what the last run left.
     Warm,
-}
-
-impl InitialGuess {
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Cold => "cold",
-            Self::Warm => "warm",
-        }
-    }
 }
 
 /// One solve.
@@ -172,7 +167,7 @@ impl Task<'_> {
             solver: name.to_owned(),
             problem: self.problem.to_owned(),
             unknowns: self.quadratic.matrix.order(),
-            start: start.name().to_owned(),
+            start: word(&start),
             tolerance: 10f64.powi(*exponent),
             cycles,
             cycles_spread,

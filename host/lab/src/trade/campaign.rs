@@ -65,10 +65,7 @@ impl Campaign {
                     "their results would go to one folder: study them one by one, with --out";
                 return Err(InputError::new(message).hint(hint).into());
             }
-            let folder = match out {
-                Some(out) if paths.len() == 1 => out.to_owned(),
-                out => out.unwrap_or(Path::new("out")).join(&name),
-            };
+            let folder = folder_of(path, paths.len(), out);
             writable("--out", &folder)?;
             refuse_own(path, &folder)?;
             studies.push(Study::open(path, target, folder, with_peers)?);
@@ -154,6 +151,14 @@ impl Campaign {
             self.studies.iter().try_for_each(Study::close)?;
         }
         Ok(ended)
+    }
+}
+
+/// The folder of a scene's files among so many: `out` itself for one alone, else one in it.
+pub fn folder_of(scene: &Path, count: usize, out: Option<&Path>) -> PathBuf {
+    match out {
+        Some(out) if count == 1 => out.to_owned(),
+        out => out.unwrap_or(Path::new("out")).join(scene.file_stem().unwrap_or_default()),
     }
 }
 

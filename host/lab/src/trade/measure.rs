@@ -5,10 +5,11 @@ use super::reference::ReferenceSolution;
 use crate::baseline::record::PointError;
 
 use crate::cycles;
+use crate::record_file::word;
 use signorini_problem::Problem;
 use signorini_problem::inputs::{InputSpace, drawn};
 use signorini_scene::error::Result;
-use signorini_scene::setting::{MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
+use signorini_scene::setting::{Method, ModelKind, Omega, Precision, Setting, Start};
 use signorini_session::{Session, completed, with_session};
 use signorini_solve::Solution;
 
@@ -141,17 +142,16 @@ fn point(
     let contact = problem.topology.counts.contact;
     let mut point = Point {
         name: String::new(),
-        scalar: scalar_name(setting).to_owned(),
-        math: if setting.math == MathKind::Libm { "libm" } else { "micromath" }.to_owned(),
+        scalar: word(&setting.scalar.unwrap_or(Precision::F64)),
+        math: word(&setting.math),
         cells: cells.to_owned(),
         level: setting.refine,
         unknowns,
         stop,
         sweeps: timing.sweeps,
-        start: if setting.start == Start::Warm { "warm" } else { "cold" }.to_owned(),
+        start: word(&setting.start),
         omega: omega.to_owned(),
-        model: if setting.model == Some(ModelKind::Condensed) { "condensed" } else { "full" }
-            .to_owned(),
+        model: word(&setting.model.unwrap_or(ModelKind::Full)),
         certificate: setting.certificate,
         error,
         bound: answer.bound.map(|bound| bound.total).filter(|bound| bound.is_finite()),
@@ -167,14 +167,6 @@ fn point(
     };
     point.name = name(&point, contact);
     point
-}
-
-fn scalar_name(setting: &Setting) -> &'static str {
-    match setting.scalar {
-        Some(Precision::F32) => "f32",
-        Some(Precision::Mixed) => "f32+f64",
-        _ => "f64",
-    }
 }
 
 /// All that tells it from the other points of its study; numbers are unknowns, n those of a condensed model.

@@ -5,6 +5,7 @@ use std::fmt;
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 
+use crate::record_file::word;
 use signorini_image::board::{Board, M4F, M7};
 
 /// This machine or an emulated board.
@@ -46,10 +47,6 @@ impl Target {
 
 impl fmt::Display for Target {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Host => "host",
-            Self::M4f => "m4f",
-            Self::M7 => "m7",
-        })
+        f.write_str(&word(self))
     }
 }
