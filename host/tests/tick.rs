@@ -140,7 +140,7 @@ fn ticks_start_from_the_last_answer() {
 
 #[test]
 fn a_budget_cuts_off_and_is_carried_on() {
-    let table = played(LEVEE, &["--ticks", "80", "--budget-sweeps", "50"]);
+    let table = played(LEVEE, &["--ticks", "80", "--budget-sweeps", "50", "--no-intervals"]);
     assert!(table.numbers("sweeps").iter().all(|&sweeps| sweeps <= 50.0));
     let status = table.column("status");
     assert_eq!((status[0], status[79]), ("out-of-sweeps", "settled"));

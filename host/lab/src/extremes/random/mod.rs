@@ -138,10 +138,7 @@ fn row(seed: u64, number: u32) -> Row {
 
 /// Measures an answer, if its numbers are finite, and judges it.
 fn answered(case: &RandomCase, attempt: &Attempt) -> Row {
-    let measured = match attempt.is_finite() {
-        true => measure(case, attempt),
-        false => Ok(None),
-    };
+    let measured = if attempt.is_finite() { measure(case, attempt) } else { Ok(None) };
     let measured = match measured {
         Ok(measured) => measured,
         Err(error) => {
