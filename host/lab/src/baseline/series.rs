@@ -5,7 +5,7 @@ use std::time::Instant;
 use serde::Serialize;
 
 use crate::baseline::record::Baseline;
-use crate::cycles;
+use crate::cycles::{self, median_and_spread};
 use crate::record_file::word;
 use signorini_scene::error::Result;
 
@@ -156,7 +156,7 @@ impl Task<'_> {
         iterations.sort_unstable();
         let iterations = iterations[iterations.len() / 2];
         let worst = cycles.iter().fold(0.0, |most: f64, &cycles| most.max(cycles));
-        let (cycles, _) = median_and_spread(cycles.into_iter());
+        let (cycles, _) = median_and_spread(cycles);
         Ok(Pass { cycles, worst, iterations, distance })
     }
 
@@ -179,12 +179,4 @@ impl Task<'_> {
             iterations: passes.last().map_or(0, |pass| pass.iterations),
         }
     }
-}
-
-/// The median, and (largest − smallest)/median.
-fn median_and_spread(cycles: impl Iterator<Item = f64>) -> (f64, f64) {
-    let mut sorted: Vec<f64> = cycles.collect();
-    sorted.sort_unstable_by(f64::total_cmp);
-    let median = sorted[sorted.len() / 2];
-    (median, (sorted[sorted.len() - 1] - sorted[0]) / median.max(1.0))
 }

@@ -148,21 +148,9 @@ mod tests {
     use super::*;
 
     fn baseline(solver: &str, start: &str, problem: &str, cycles: f64) -> Baseline {
-        Baseline {
-            solver: solver.to_owned(),
-            problem: problem.to_owned(),
-            unknowns: 100,
-            start: start.to_owned(),
-            tolerance: 0.1,
-            cycles,
-            cycles_spread: 0.0,
-            worst: cycles,
-            ratio: 1.0,
-            to_condensed: None,
-            algebraic_error: 0.5,
-            target: 1.0,
-            iterations: 1,
-        }
+        let [start, problem] = [start, problem].map(str::to_owned);
+        let plain = crate::trade::tests::baseline(solver, 1.0, 1);
+        Baseline { problem, start, cycles, algebraic_error: 0.5, target: 1.0, ..plain }
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::record::Point;
 use super::reference::ReferenceSolution;
 use crate::baseline::record::PointError;
 
-use crate::cycles;
+use crate::cycles::{self, median_and_spread};
 use crate::record_file::word;
 use signorini_problem::Problem;
 use signorini_problem::inputs::{InputSpace, drawn};
@@ -66,7 +66,8 @@ fn cold(session: &mut dyn Session, defaults: &[f64]) -> Result<Timing> {
             break;
         }
     }
-    Ok(Timing { cycles: median(&mut costs), spread: spread(&costs), sweeps })
+    let (cycles, spread) = median_and_spread(costs.iter().map(|&cost| cost as f64));
+    Ok(Timing { cycles, spread, sweeps })
 }
 
 /// Ticks with inputs drawn from their ranges, and a last one at the defaults, whose answer is kept.
@@ -82,30 +83,19 @@ fn warm(session: &mut dyn Session, spaces: &[InputSpace]) -> Result<Timing> {
         sweeps.clear();
         for inputs in drawn::<f64>(spaces, TICKS).skip(1) {
             let start = cycles::now();
-            sweeps.push(u64::from(session.tick(&inputs)?));
+            sweeps.push(f64::from(session.tick(&inputs)?));
             let cost = cycles::now().saturating_sub(start);
-            costs.push(cost);
+            costs.push(cost as f64);
             all += cost;
         }
-        medians.push(median(&mut costs) as u64);
+        medians.push(median_and_spread(costs).0);
         if all > LONG {
             break;
         }
     }
     session.tick(defaults)?;
-    let cycles = median(&mut medians);
-    Ok(Timing { cycles, spread: spread(&medians), sweeps: median(&mut sweeps) as u32 })
-}
-
-fn median(numbers: &mut [u64]) -> f64 {
-    numbers.sort_unstable();
-    numbers.get(numbers.len() / 2).copied().unwrap_or(0) as f64
-}
-
-/// (largest − smallest)/median of sorted numbers.
-fn spread(sorted: &[u64]) -> f64 {
-    let (Some(first), Some(last)) = (sorted.first(), sorted.last()) else { return 0.0 };
-    (last - first) as f64 / (sorted[sorted.len() / 2] as f64).max(1.0)
+    let (cycles, spread) = median_and_spread(medians);
+    Ok(Timing { cycles, spread, sweeps: median_and_spread(sweeps).0 as u32 })
 }
 
 fn point(

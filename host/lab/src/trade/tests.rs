@@ -124,7 +124,8 @@ pub fn trade(scene: &str, count: usize) -> Trade {
     }
 }
 
-fn baseline(solver: &str, ratio: f64, iterations: u32) -> Baseline {
+/// Another solver, so many times slower than the kernel.
+pub fn baseline(solver: &str, ratio: f64, iterations: u32) -> Baseline {
     Baseline {
         solver: solver.to_owned(),
         problem: "condensed".to_owned(),
