@@ -144,9 +144,7 @@ impl Arguments {
         }
         Ok(0)
     }
-}
 
-impl Arguments {
     /// The machines that libraries for C are built for, each once.
     fn machines(&self) -> impl Iterator<Item = &'static Machine> {
         let is_asked = |machine: &&Machine| match &self.board[..] {

@@ -90,9 +90,7 @@ impl Arguments {
         say(format_args!("written to {}", self.out.display()));
         Ok(u8::from(record.count(Outcome::Wrong) > 0))
     }
-}
 
-impl Arguments {
     /// Whole scenes.
     fn at_random(self, count: u32) -> Result<u8> {
         let (seed, out) = (self.seed, &self.out);

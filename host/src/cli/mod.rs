@@ -4,7 +4,6 @@ mod answer;
 mod bake;
 mod bake_c;
 mod extremes;
-mod honoured;
 mod levels;
 mod picture;
 mod scene_arguments;

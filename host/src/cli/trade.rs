@@ -119,9 +119,7 @@ impl Arguments {
         }
         refused(&trades, &wish).map(|refused| refused.max(status))
     }
-}
 
-impl Arguments {
     /// The table of each scene in its folder; without a scene those of the standard ones in the record.
     fn promised(&self) -> Result<u8> {
         if self.scenes.is_empty() {
