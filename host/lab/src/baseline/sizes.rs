@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use super::benchmark::Benchmark;
 use super::load_case::LoadCase;
+use super::series::Baseline;
 use super::{SHARE, discretisation_error, osqp};
-use crate::baseline::record::Baseline;
 use crate::checkout::root;
 use crate::cycles::{NARROW, REGISTERS};
 use signorini_problem::Problem;

@@ -1,8 +1,8 @@
 //! The study of sizes as a table, and the figures of each size in plain sentences.
 
 use super::benchmark::PSOR;
+use super::series::Baseline;
 use super::{Size, Sizes};
-use crate::baseline::record::Baseline;
 use signorini_draw::{Column, Table};
 
 /// A line of the table: a solver on a problem, cold and warm.

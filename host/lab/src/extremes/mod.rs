@@ -27,6 +27,7 @@ mod solution;
 mod table;
 mod watch;
 
+use std::cmp::Reverse;
 use std::time::{Duration, Instant};
 
 use crate::record_file::word;
@@ -47,45 +48,25 @@ use signorini_scene::error::{Error, Result};
 /// Longer than any case takes by a factor of some ten, on a machine that has other work: what has no answer by then hangs.
 const LIMIT: Duration = Duration::from_secs(900);
 
-/// Cases of all studies, or of those whose name contains `only`.
-#[derive(Debug)]
-pub struct Plan(Vec<ExtremeCase>);
+/// The cases of all studies, or those whose name contains `only`.
+pub fn cases(only: Option<&str>) -> Vec<ExtremeCase> {
+    let mut cases = plan::cases();
+    cases.retain(|case| only.is_none_or(|only| case.name().contains(only)));
+    cases
+}
 
-impl Plan {
-    /// Everything, or what `only` names.
-    pub fn new(only: Option<&str>) -> Self {
-        let mut cases = plan::cases();
-        cases.retain(|case| only.is_none_or(|only| case.name().contains(only)));
-        Self(cases)
-    }
-
-    /// How many cases there are.
-    pub fn len(&self) -> usize {
-        self.0.len()
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
-    /// Runs those that are not yet `kept` in two threads, the largest first; calls `done` after each.
-    ///
-    /// # Errors
-    /// No temporary folder for the scenes; finished cases cannot be kept.
-    pub fn run(&self, kept: &Kept, done: impl Fn() + Sync) -> Result<Record> {
-        let mut order: Vec<usize> = (0..self.0.len()).collect();
-        order.sort_by_key(|&at| std::cmp::Reverse(self.0[at].posed.grid.n));
-        let rows = on_two_threads(
-            &order,
-            |&at| Ok((at, kept.row(&self.0[at], || row(&self.0[at]))?)),
-            done,
-        )?;
-        let mut rows: Vec<(usize, Row)> = rows;
-        rows.sort_by_key(|&(at, _)| at);
-        let cases = rows.into_iter().map(|(_, row)| row).collect();
-        Ok(Record { definitions: definitions(), seconds: kept.seconds(), cases })
-    }
+/// Runs the cases that are not yet `kept` in two threads, the largest first; calls `done` after each.
+///
+/// # Errors
+/// No temporary folder for the scenes; finished cases cannot be kept.
+pub fn run(cases: &[ExtremeCase], kept: &Kept, done: impl Fn() + Sync) -> Result<Record> {
+    let mut order: Vec<usize> = (0..cases.len()).collect();
+    order.sort_by_key(|&at| Reverse(cases[at].posed.grid.n));
+    let found = |&at: &usize| Ok((at, kept.row(&cases[at], || row(&cases[at]))?));
+    let mut rows = on_two_threads(&order, found, done)?;
+    rows.sort_by_key(|&(at, _)| at);
+    let cases = rows.into_iter().map(|(_, row)| row).collect();
+    Ok(Record { definitions: definitions(), seconds: kept.seconds(), cases })
 }
 
 /// Remains of a case: the answer, how wrong it is, and how long it took.

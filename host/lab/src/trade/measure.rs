@@ -2,7 +2,7 @@
 
 use super::record::Point;
 use super::reference::ReferenceSolution;
-use crate::baseline::record::PointError;
+use crate::trade::record::PointError;
 
 use crate::cycles::{self, median_and_spread};
 use crate::record_file::word;

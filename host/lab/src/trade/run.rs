@@ -14,7 +14,7 @@ use super::study::Study;
 use super::target::Target;
 use super::{math, measure};
 use crate::baseline;
-use crate::baseline::record::Baseline;
+use crate::baseline::Baseline;
 use crate::cycles::{NARROW, REGISTERS};
 use signorini_problem::{Approach, Problem};
 use signorini_scene::error::{Error, InputError, Result};

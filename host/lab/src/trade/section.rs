@@ -11,7 +11,7 @@ use super::table::{baselines, costs, front, math, skipped};
 use super::target::Target;
 use super::verdict::{certificate, knob_values, sentences};
 use crate::baseline;
-use crate::baseline::record::Baseline;
+use crate::baseline::Baseline;
 use signorini_draw::{Column, Table, TradePanel, TradeStudy, Tradeoff, plain};
 
 /// Everything of the section.

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::digits::{cost as cost_text, grouped, or_dash, percent};
 use super::record::{FunctionCost, Point, Trade};
 use super::target::Target;
-use crate::baseline::record::Baseline;
+use crate::baseline::Baseline;
 use signorini_draw::{Column, Table, plain};
 
 /// The settings that nothing beats in both cost and error, the cheapest first; the recommended one

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use super::record::{FunctionCost, Point, Recommendation, Skipped, Trade};
 use super::target::Target;
-use crate::baseline::record::{Baseline, PointError};
+use crate::baseline::Baseline;
+use crate::trade::record::PointError;
 use signorini_draw::plain;
 use signorini_problem::Problem;
 use signorini_scene::mesh;

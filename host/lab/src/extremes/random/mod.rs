@@ -23,6 +23,7 @@ pub mod row;
 mod tests;
 mod verdict;
 
+use std::ops::RangeInclusive;
 use std::path::Path;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
@@ -44,59 +45,35 @@ use signorini_scene::mesh::gmsh::write as msh;
 /// A case without an answer by then hangs.
 const LIMIT: Duration = Duration::from_secs(1800);
 
-/// Which scenes are drawn.
-#[derive(Debug, Clone)]
-pub struct RandomPlan {
-    seed: u64,
-    cases: Vec<u32>,
-}
-
 /// Called with all rows that are there so far.
 pub type Keep<'k> = dyn Fn(&[Row]) -> Result<()> + Sync + 'k;
 
 /// Cases between two records of a run that is not over.
 const OFTEN: usize = 250;
 
-impl RandomPlan {
-    /// The first `count` cases of a seed.
-    pub fn new(seed: u64, count: u32) -> Self {
-        Self { seed, cases: (0..count).collect() }
-    }
-
-    /// One case of a seed.
-    pub fn one(seed: u64, case: u32) -> Self {
-        Self { seed, cases: vec![case] }
-    }
-
-    /// How many there are.
-    pub fn len(&self) -> usize {
-        self.cases.len()
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.cases.is_empty()
-    }
-
-    /// Runs them in two threads; calls `done` after each and `keep` now and then.
-    ///
-    /// # Errors
-    /// What `keep` returns.
-    pub fn run(&self, done: impl Fn() + Sync, keep: &Keep) -> Result<(Record, Vec<Row>)> {
-        let start = Instant::now();
-        let rows = Mutex::new(Vec::with_capacity(self.cases.len()));
-        let work = |&number: &u32| {
-            let row = row(self.seed, number);
-            let Ok(mut rows) = rows.lock() else { return Ok(()) };
-            rows.push(row);
-            if rows.len().is_multiple_of(OFTEN) { keep(&rows) } else { Ok(()) }
-        };
-        on_two_threads(&self.cases, work, done)?;
-        let mut rows = rows.into_inner().unwrap_or_default();
-        rows.sort_by_key(|row| row.case);
-        keep(&rows)?;
-        Ok((Record::new(self.seed, start.elapsed().as_secs_f64(), &rows), rows))
-    }
+/// Draws these cases of a seed and runs them in two threads; calls `done` after each and `keep` now and then.
+///
+/// # Errors
+/// What `keep` returns.
+pub fn run(
+    seed: u64,
+    cases: RangeInclusive<u32>,
+    done: impl Fn() + Sync,
+    keep: &Keep,
+) -> Result<Record> {
+    let start = Instant::now();
+    let rows = Mutex::new(Vec::new());
+    let work = |&number: &u32| {
+        let row = row(seed, number);
+        let Ok(mut rows) = rows.lock() else { return Ok(()) };
+        rows.push(row);
+        if rows.len().is_multiple_of(OFTEN) { keep(&rows) } else { Ok(()) }
+    };
+    on_two_threads(&cases.collect::<Vec<_>>(), work, done)?;
+    let mut rows = rows.into_inner().unwrap_or_default();
+    rows.sort_by_key(|row| row.case);
+    keep(&rows)?;
+    Ok(Record::new(seed, start.elapsed().as_secs_f64(), &rows))
 }
 
 /// Writes the scene and the mesh of a case into `folder`.

@@ -4,8 +4,8 @@ use proptest::prelude::*;
 use tempfile::{TempDir, tempdir};
 
 use super::*;
-use crate::baseline::record::PointError;
 use crate::trade::record::Point;
+use crate::trade::record::PointError;
 use crate::trade::tests as fixtures;
 use signorini_scene::setting::{Omega, Setting};
 

@@ -6,7 +6,7 @@
 use super::certified;
 use super::finer_solve::Reference;
 use super::places::Places;
-use crate::baseline::record::PointError;
+use crate::trade::record::PointError;
 use signorini_certify::admissible::{Admissible, OnCell};
 use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::{apply, dot, product};

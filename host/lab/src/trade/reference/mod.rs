@@ -18,7 +18,7 @@ mod tests;
 
 use self::finer_solve::Reference;
 use self::tables::{KEPT, Kept, Tables};
-use crate::baseline::record::PointError;
+use crate::trade::record::PointError;
 use serde::{Deserialize, Serialize};
 use signorini_certify::admissible::Admissible;
 use signorini_certify::curved::followed;

@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 use super::ReferenceSolution;
 use super::finer_solve::Reference;
 use super::recovery::Inside;
-use crate::baseline::record::PointError;
+use crate::trade::record::PointError;
 use crate::trade::tests::scene as read;
 use signorini_certify::conductivity::product;
 use signorini_certify::weighed::minus;
