@@ -3,7 +3,7 @@
 //! ```text
 //!   axis, plan ─► Case ─► posed (solution, grid: scene and mesh at that scale) ─► attempt (read, check, solve)
 //!                   └───► the same at scale 1 ─► measure (exact solution, direct solver) ─► judge ─► record
-//!   record ─► section, table
+//!   record ─► section
 //! ```
 //! Every case is a scene file and a mesh file that go through the reader, the checks and the default
 //! options of [`signorini_solve`], on a thread of its own that may panic or be left alone after its limit of time. The
@@ -24,7 +24,6 @@ pub mod random;
 pub mod record;
 pub mod section;
 mod solution;
-mod table;
 mod watch;
 
 use std::cmp::Reverse;
@@ -40,7 +39,7 @@ use measure::{Measured, measure, of_ticks};
 use record::{Record, Row, definitions};
 use watch::watched;
 
-pub use table::text;
+pub use record::text;
 
 use signorini_problem::threads::on_two_threads;
 use signorini_scene::error::{Error, Result};

@@ -1,11 +1,13 @@
-//! The findings of a run, as `extremes.json` and `extremes.csv` hold them.
+//! The findings of a run, as `extremes.json` and `extremes.csv` hold them and as the terminal shows them.
 
+use std::fmt::Write;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
 use super::judge::{DIGITS, FAR, INTEGRATED, Outcome, USEFUL};
 use crate::record_file;
+use signorini_draw::{Column, Table};
 use signorini_scene::error::Result;
 
 /// The committed record, from the root of the checkout.
@@ -149,6 +151,58 @@ impl Record {
         }
         studies
     }
+}
+
+/// The cases of a study in one scalar.
+struct Line<'r> {
+    name: String,
+    scalar: &'static str,
+    cases: Vec<&'r Row>,
+}
+
+/// A line for each study: how many cases ended in which way, and the most sweeps; then what is wrong.
+pub fn text(record: &Record) -> String {
+    let mut columns = vec![
+        Column::words("extremes", |line: &Line| line.name.clone()),
+        Column::words("scalar", |line: &Line| line.scalar.to_owned()),
+    ];
+    columns.extend(Outcome::ALL.map(|outcome| {
+        Column::number(outcome.name(), move |line: &Line| {
+            match line.cases.iter().filter(|case| case.outcome == outcome).count() {
+                0 => "·".to_owned(),
+                some => some.to_string(),
+            }
+        })
+    }));
+    columns.push(Column::number("most sweeps", |line: &Line| {
+        let sweeps = line.cases.iter().filter_map(|case| case.sweeps).max();
+        sweeps.map_or("–".to_owned(), |sweeps| sweeps.to_string())
+    }));
+    let mut text = Table::new(&columns, lines(record)).text() + "\n";
+    for case in record.cases.iter().filter(|case| case.outcome == Outcome::Wrong) {
+        let _ = writeln!(text, "wrong: {}: {}", place(case), case.note);
+    }
+    let _ = write!(text, "{} cases: {}", record.cases.len(), record.counts());
+    text
+}
+
+fn lines(record: &Record) -> Vec<Line<'_>> {
+    let mut lines = Vec::new();
+    for (axis, across, cases) in record.studies() {
+        let name = across.map_or(axis.to_owned(), |across| format!("{axis} × {across}"));
+        for (scalar, name) in [("f64", name), ("f32", String::new())] {
+            let cases = cases.iter().copied().filter(|case| case.scalar == scalar).collect();
+            lines.push(Line { name, scalar, cases });
+        }
+    }
+    lines
+}
+
+/// Where a case lies, in words.
+pub(super) fn place(case: &Row) -> String {
+    let across = case.axis2.as_ref().zip(case.value2);
+    let across = across.map(|(axis, value)| format!(", {axis} {value:e}")).unwrap_or_default();
+    format!("{} {:e}{across}, {}", case.axis, case.value, case.scalar)
 }
 
 #[cfg(test)]

@@ -2,8 +2,7 @@
 
 use super::judge::Outcome;
 use super::plan::remark;
-use super::record::{Record, Row};
-use super::table::place;
+use super::record::{Record, Row, place};
 use signorini_draw::{Column, Extremes, ExtremesStudy, OutcomeMap, Square, Table, plain};
 
 /// Everything of the section.

@@ -89,13 +89,13 @@ pub struct ConvergencePlan {
 }
 
 /// The studies of the main job, the long ones first.
-pub fn planned(root: &Path) -> Result<Vec<ConvergencePlan>> {
+pub fn planned(root: &Path) -> Vec<ConvergencePlan> {
     let folder = root.join("meshes/catalogue");
     let scene = |name: &str| folder.join(format!("{name}-tri.toml"));
     let on = |name, grid| ConvergencePlan { scene: scene(name), grid };
     let squares = SCENES.iter().rev().flat_map(|name| SQUARES.iter().map(move |grid| (name, grid)));
     let squares = squares.map(|(name, grid)| on(name, grid));
-    Ok(squares.chain(TRAPEZOIDS.iter().map(|grid| on(ON_TRAPEZOIDS, grid))).collect())
+    squares.chain(TRAPEZOIDS.iter().map(|grid| on(ON_TRAPEZOIDS, grid))).collect()
 }
 
 /// Runs the studies; calls `done` after each.

@@ -55,7 +55,7 @@ pub fn run() -> Result<u8> {
     let scenes = scenes(&root.join("meshes"))?;
     let trades = records::read(&root.join(RECORD))?;
     let pushed = extremes::Record::read(&root.join(extremes::RECORD))?.unwrap_or_default();
-    let studies = convergence::planned(root)?;
+    let studies = convergence::planned(root);
     let stopped = cut_off::planned(&scenes)?;
     let bar = steps(scenes.len() + studies.len() + stopped.len());
     let (mut cases, mut panels) = (Vec::new(), Vec::new());
@@ -72,8 +72,8 @@ pub fn run() -> Result<u8> {
     let stopped = cut_off::run(&stopped, || bar.inc(1))?;
     bar.finish_and_clear();
 
-    say(format_args!("{}", table::scenes(&cases)));
-    say(format_args!("{}", table::convergence(&studies)));
+    say(table::scenes(&cases));
+    say(table::convergence(&studies));
     let checks: Vec<&Check> = (cases.iter().flat_map(|case| &case.checks))
         .chain(studies.iter().flat_map(|study| &study.checks))
         .chain(stopped.iter().flat_map(|study| &study.checks))

@@ -78,3 +78,15 @@ fn studies_keep_their_order() {
     assert_eq!(names, [("contrast", None, 8), ("unit of length", Some("load < 1"), 12)]);
     assert_eq!(Outcome::ALL.map(|outcome| record.count(outcome)).iter().sum::<usize>(), 20);
 }
+
+#[test]
+fn a_line_a_study_and_scalar_and_one_for_each_that_is_wrong() {
+    let text = text(&fixture());
+    assert_eq!(text.lines().count(), 1 + 4 + 1 + fixture().count(Outcome::Wrong) + 1, "{text}");
+    assert!(text.contains("unit of length × load < 1"));
+    assert!(text.contains("wrong: contrast 1e9, f64: note 3"));
+    assert!(
+        text.ends_with("20 cases: 6 correct, 6 certified-poor, 4 typed-error, 4 wrong"),
+        "{text}"
+    );
+}
