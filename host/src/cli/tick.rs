@@ -192,8 +192,8 @@ fn endings(ticks: &[TickRecord]) -> String {
     parts.collect::<Vec<_>>().join(", ")
 }
 
-/// Refuses the first key of `[setting]` that the scene's own ticks, full and swept, cannot follow, instead of answering for another
-/// setting; `scalar_given` where the command line has a scalar of its own.
+/// Refuses the first key of `[setting]` that the scene's own ticks, full and swept, cannot follow, instead of
+/// answering for another setting; `scalar_given` where the command line has a scalar of its own.
 ///
 /// ```text
 ///   refine, cells, element,

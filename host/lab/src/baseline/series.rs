@@ -1,4 +1,4 @@
-//! A solver as a contest runs it, and its repeats: the tolerance that will do, passes over the ticks, and what is recorded of them.
+//! A solver as a contest runs it, its repeats, and their record: the tolerance that will do, passes over the ticks.
 
 use std::time::Instant;
 

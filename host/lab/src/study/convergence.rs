@@ -32,8 +32,8 @@ struct Grid {
     name: &'static str,
     mesh: fn(u32) -> Mesh,
     element: QuadElement,
-    /// Rates of h1, l2 and flux that theory gives. On trapezoids the parametric element lacks a linear function: its error is
-    /// of the size of ∇u there, √h of it where they fill two rows.
+    /// Rates of h1, l2 and flux that theory gives. On trapezoids the parametric element lacks a linear function:
+    /// its error is of the size of ∇u there, √h of it where they fill two rows.
     expected: [f64; 3],
 }
 

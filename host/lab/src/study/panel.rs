@@ -1,4 +1,4 @@
-//! A solved scene as the report draws it; its contact boundary is one line, whose edges are met as one walks along them.
+//! A solved scene as the report draws it; its contact boundary is one line, its edges in the order of a walk.
 
 use std::collections::HashMap;
 

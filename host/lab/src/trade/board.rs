@@ -17,8 +17,8 @@ use signorini_problem::scalar::Scalar;
 use signorini_scene::error::{Error, Result};
 use signorini_solve::ScalarKind;
 
-/// Bakes a problem with its setting, builds its image under the name `name`, plays it: what ran, with the bits of this machine, or
-/// why there is no image for this scene and board: no model for its setting, or no room.
+/// Bakes a problem with its setting, builds its image under the name `name`, plays it: what ran, with the bits of
+/// this machine, or why there is no image for this scene and board: no model for its setting, or no room.
 ///
 /// # Errors
 /// No checkout of the sources; a tool that fails; bits that differ from this machine's.

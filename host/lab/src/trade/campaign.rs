@@ -29,7 +29,7 @@ pub struct Campaign {
     sizes: Option<PathBuf>,
 }
 
-/// Called with each case that is done: how many were before it in all studies, how many there are as far as planned, its name.
+/// Called with each case that is done: its number in all studies, how many there are as far as planned, its name.
 pub type Done<'d> = dyn FnMut(usize, usize, &str) + 'd;
 
 /// The outcome of a campaign.

@@ -1,5 +1,5 @@
-//! The files that a study leaves in its folder: `trade.json`, `trade.csv` (a line a point, the columns those of the JSON,
-//! flattened), `trade.svg`, and the setting to take, which `solve`, `bake` and `cargo xtask firmware` take in place of the scene.
+//! The files that a study leaves in its folder: `trade.json`, `trade.csv` (a line a point, the columns those of the
+//! JSON, flattened), `trade.svg`, and the setting to take, for `solve`, `bake` and `cargo xtask firmware`.
 
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! `signorini extremes --random N --seed S`: whole scenes drawn at random, each judged by a truth of its own.
 //!
 //! ```text
-//!   random ─► mesh, function ─► catalogue, made, data ─► Case ─► attempt ─► measure (exact, or nested) ─► verdict ─► row ─► record
+//!   mesh, function ─► catalogue, made, data ─► Case ─► attempt ─► measure (exact, or nested) ─► verdict ─► row ─► record
 //! ```
 //! Case k of a seed depends on nothing but k and the seed, so that each can be had alone.
 

@@ -1,4 +1,4 @@
-//! A scene as it was drawn, before its setting; the ends of the flux of its contact: on both sides or one, equal or far apart.
+//! A scene as it was drawn, before its setting, and which ends the flux of its contact has.
 
 use serde::Serialize;
 

@@ -36,8 +36,8 @@ struct State {
 }
 
 impl FunctionCost {
-    /// How far `after` is from `before`, relative to that, in the element matrices of `assembled`; nothing where `before` has
-    /// nothing to relate it to.
+    /// How far `after` is from `before`, relative to that, in the element matrices of `assembled`; nothing where
+    /// `before` has nothing to relate it to.
     fn changed(
         self,
         assembled: &Assembled<f64>,
