@@ -47,6 +47,16 @@ pub fn run(words: &[&str]) -> Run {
     Run { status, stdout: text(&output.stdout), stderr }
 }
 
+/// The message of a command that must refuse its scene or what follows it, and leave nothing behind.
+#[track_caller]
+pub fn refused(verb: &str, scene: &str, more: &[&str]) -> String {
+    let folder = Folder::new();
+    let to = if matches!(verb, "solve" | "tick") { "--out" } else { "--output" };
+    let message = run(&[&[verb, scene], more, &[to, &folder.word("out")]].concat()).refuses();
+    assert!(!folder.path("out").exists(), "{verb} {more:?}: {message}");
+    message
+}
+
 /// A file or a folder of the repository.
 pub fn repository(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name)

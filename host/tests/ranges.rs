@@ -1,21 +1,10 @@
 //! Inputs outside the ranges that a scene declares, as users and scripts meet them.
 
-use crate::command::{Folder, meshes, run, text};
+use crate::command::{Folder, meshes, refused, run, text};
 
 /// Its rain is 0 to 5, its river −1 to 0.5.
 fn levee() -> String {
     meshes("scenes/levee.toml")
-}
-
-/// The message of a command that must refuse, and leave nothing behind.
-#[track_caller]
-fn refused(verb: &str, scene: &str, more: &[&str]) -> String {
-    let folder = Folder::new();
-    let to = if matches!(verb, "solve" | "tick") { "--out" } else { "--output" };
-    let out = folder.word("out");
-    let message = run(&[&[verb, scene], more, &[to, &out]].concat()).refuses();
-    assert!(!folder.path("out").exists(), "{verb} {more:?}: {message}");
-    message
 }
 
 #[test]

@@ -1,6 +1,9 @@
 //! Every key of `[setting]` by every command: followed, or refused by its name.
 
-use crate::command::{Folder, Run, meshes, run};
+use signorini_scene::mesh::gmsh::write;
+use signorini_scene::mesh::structured::{Cells, grid};
+
+use crate::command::{Folder, Run, run};
 
 /// Small enough to be baked in every way; held, with an input and an output.
 const SCENE: &str = r#"
@@ -51,8 +54,8 @@ const REPLACED: [&str; 8] =
 #[test]
 fn every_key_is_followed_or_refused_by_its_name() {
     let folder = Folder::new();
-    let (mesh, out) = (meshes("catalogue/square-tri-16.msh"), folder.word("out"));
-    let file = folder.word("written");
+    let mesh = folder.write("small.msh", write::text(&grid(4, Cells::Triangles)));
+    let (out, file) = (folder.word("out"), folder.word("written"));
     for (lines, expected) in FOLLOWED {
         let text = format!("mesh = {mesh:?}\n{SCENE}[setting]\n{lines}\n");
         let scene = folder.write("scene.toml", text);

@@ -15,7 +15,7 @@ use signorini_solve::norms::errors;
 use signorini_solve::outputs::outputs as outputs_of;
 use signorini_solve::{Options, ScalarKind, solve};
 
-use crate::command::{Folder, Run, meshes, repository, run, text};
+use crate::command::{Folder, Run, meshes, refused, repository, run, text};
 
 const MOVING: &str = "catalogue/moving-tri.toml";
 const LEVEE: &str = "scenes/levee.toml";
@@ -23,14 +23,6 @@ const LEVEE: &str = "scenes/levee.toml";
 /// Ticks of a scene, into the folder `out`.
 fn tick(scene: &str, folder: &Folder, more: &[&str]) -> Run {
     run(&[&["tick", scene, "--out", &folder.word("out")], more].concat())
-}
-
-/// The message of a `tick` that must refuse its input, and leave nothing behind.
-#[track_caller]
-fn refused(scene: &str, folder: &Folder, more: &[&str]) -> String {
-    let message = tick(scene, folder, more).refuses();
-    assert!(!folder.path("out").exists(), "{more:?}: {message}");
-    message
 }
 
 /// A scene of the repository.
@@ -148,7 +140,7 @@ fn ticks_start_from_the_last_answer() {
 
 #[test]
 fn a_budget_cuts_off_and_is_carried_on() {
-    let table = played(LEVEE, &["--ticks", "80", "--budget-sweeps", "50"]);
+    let table = played(LEVEE, &["--ticks", "80", "--budget-sweeps", "50", "--no-intervals"]);
     assert!(table.numbers("sweeps").iter().all(|&sweeps| sweeps <= 50.0));
     let status = table.column("status");
     assert_eq!((status[0], status[79]), ("out-of-sweeps", "settled"));
@@ -189,7 +181,7 @@ fn a_log_is_replayed_by_the_baked_controller() {
     assert!(baked.numbers("seepage").iter().all(narrow));
     for other in [&["--budget-sweeps", "9"][..], &["--error", "0.1"], &["--coarse", "a.msh"]] {
         let arguments = [&["--log", log, "--baked"], other].concat();
-        assert!(refused(&meshes(LEVEE), &folder, &arguments).contains(other[0]));
+        assert!(refused("tick", &meshes(LEVEE), &arguments).contains(other[0]));
     }
 }
 
@@ -245,7 +237,7 @@ fn wrong_logs_are_refused() {
     let folder = Folder::new();
     let said = |log: &[u8]| {
         let log = folder.write("inputs.csv", log);
-        refused(&meshes(LEVEE), &folder, &["--log", &log])
+        refused("tick", &meshes(LEVEE), &["--log", &log])
     };
     for (text, line, expected) in WRONG_LOGS {
         let message = said(text.as_bytes());
@@ -254,13 +246,13 @@ fn wrong_logs_are_refused() {
     }
     let message = said(b"t,rain\n0,\xff\n");
     assert!(message.contains("inputs.csv:2: not UTF-8"), "{message}");
-    let message = refused(&meshes(LEVEE), &folder, &["--log", "nowhere.csv"]);
+    let message = refused("tick", &meshes(LEVEE), &["--log", "nowhere.csv"]);
     assert!(message.contains("nowhere.csv"), "{message}");
 }
 
 #[test]
 fn a_scene_without_time_needs_a_number_of_ticks() {
-    let message = refused(&meshes("catalogue/h-tri.toml"), &Folder::new(), &[]);
+    let message = refused("tick", &meshes("catalogue/h-tri.toml"), &[]);
     assert!(message.contains("h-tri.toml: time:") && message.contains("--ticks"), "{message}");
     let table = played("catalogue/h-tri.toml", &["--ticks", "2"]);
     assert_eq!(table.column("t"), ["0.0", "1.0"]);
@@ -304,7 +296,7 @@ fn data_that_turn_wrong_are_refused_with_their_time() {
     for (value, gap, more, expected) in WRONG_IN_TIME {
         let scene = folder.write("a.toml", in_time(&mesh, value, gap, more));
         let count: &[&str] = if more.is_empty() { &["--ticks", "4"] } else { &[] };
-        let message = refused(&scene, &folder, count);
+        let message = refused("tick", &scene, count);
         expected.iter().for_each(|part| assert!(message.contains(part), "{part}: {message}"));
     }
 }
@@ -318,7 +310,7 @@ fn wrong_arguments_are_refused() {
         (&["--ticks", "2", "--log", "inputs.csv"], "--log"),
         (&["--input", "snow=1"], "snow"),
     ] {
-        let message = refused(&meshes(LEVEE), &Folder::new(), arguments);
+        let message = refused("tick", &meshes(LEVEE), arguments);
         assert!(message.contains(expected), "{arguments:?}: {message}");
     }
 }
@@ -377,7 +369,7 @@ fn a_coefficient_that_an_input_sets_is_the_one_that_the_scene_states() {
             STATED.check_relative(name, *own, *stated);
         }
     }
-    let message = refused(&scene, &Folder::new(), &["--input", "h=81"]);
+    let message = refused("tick", &scene, &["--input", "h=81"]);
     assert!(message.contains("--input h=81"), "{message}");
 }
 
@@ -432,7 +424,7 @@ fn ends_that_a_log_turns_round_are_blamed_on_its_line() {
     );
     let scene = folder.write("l.toml", text);
     let log = folder.write("sagging.csv", "t,cap\n0,1\n1,-3\n2,1\n");
-    let message = refused(&scene, &folder, &["--log", &log]);
+    let message = refused("tick", &scene, &["--log", &log]);
     assert!(message.contains("sagging.csv:3:") && message.contains("at t = 1"), "{message}");
     assert!(message.contains("the limit is -3") && !message.contains("l.toml"), "{message}");
 }

@@ -5,10 +5,15 @@ use signorini_tolerances::command::{KEPT, PROMISED};
 use std::path::PathBuf;
 
 use serde_json::Value;
+use signorini_problem::Problem;
 use signorini_scene::mesh::gmsh::write;
 use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_scene::scene::Scene;
+use signorini_session::request::SolveRequest;
+use signorini_solve::adaptive::mesh_of_scene;
+use signorini_solve::norms::errors;
 
-use crate::command::{Folder, Run, json as read, repository, run, text, word};
+use crate::command::{Folder, Run, json as read, repository, run, text};
 
 /// A strip of 8 × 4 squares, cut, warmed from above, with an input.
 const SCENE: &str = r#"
@@ -154,7 +159,9 @@ fn wishes_pick_the_best_point_or_say_that_there_is_none() {
     let least = good.map(|point| number(point, "cycles")).fold(f64::INFINITY, f64::min);
     assert_eq!(number(chosen, "cycles"), least);
 
-    let stderr = bench.trade("none", &["--max-error", "1e-30"]).refuses();
+    // One setting is enough to find that nothing meets a wish.
+    let (fragment, none) = (bench.folder.word("out/recommended.toml"), bench.folder.word("none"));
+    let stderr = run(&["trade", &fragment, "--max-error", "1e-30", "--out", &none]).refuses();
     assert!(stderr.contains("the most accurate"), "{stderr}");
     let record = bench.record("none");
     assert!(record["recommendation"]["point"].is_null());
@@ -216,24 +223,27 @@ fn committed_records_name_the_registers_of_their_cycles() {
     }
 }
 
-/// `solve` on each committed recommendation, where the exact solution tells.
+/// Each committed recommendation solved, where the exact solution tells.
 #[test]
 fn committed_recommendations_keep_their_promise() {
-    let out = Folder::new();
     let mut kept = 0;
     for (folder, record) in recorded("host").into_iter().chain(recorded("m4f")) {
         let fragment = folder.join("recommended.toml");
         if record["truth"] != "the exact solution" || !fragment.exists() {
             continue;
         }
-        let (fragment, place) = (&word(&fragment), out.word(&kept.to_string()));
-        run(&["solve", fragment, "--out", &place]).succeeds();
-        let summary = read(out.path(&format!("{kept}/summary.json")));
-        let found = number(&summary, "errors.energy");
+        let scene = Scene::read(&fragment).expect("a scene");
+        let mesh = mesh_of_scene(&scene).expect("a mesh").mesh;
+        let problem = Problem::new(&scene, mesh).expect("a problem");
+        let solution = SolveRequest::default().solve(&problem).expect("a solution");
+        let prescribed = scene.setting.is_some_and(|setting| setting.sweeps.is_some());
+        assert!(solution.converged() || prescribed, "{}", fragment.display());
+        let exact = scene.exact.as_ref().expect("an exact solution");
+        let found = errors(exact, &problem, &solution.u, &solution.flux).expect("errors").energy;
         let promised = number(&record["recommendation"]["point"], "error.energy");
         // A patch is exact to rounding, and rounding is no promise.
         let size = promised + 2e-5 * number(&record, "energy");
-        KEPT.check_over(fragment, found - promised, size);
+        KEPT.check_over(fragment.display(), found - promised, size);
         kept += 1;
     }
     assert!(kept >= 30, "{kept}");
@@ -261,16 +271,28 @@ fn every_standard_scene_is_in_the_record() {
     }
 }
 
-/// Cycles of a solver on a problem, where it took part.
-fn cycles(baselines: &Value, solver: &str, problem: &str, start: &str) -> Option<f64> {
-    let all = baselines.as_array().expect("baselines");
-    let same = |b: &&Value| b["solver"] == solver && b["problem"] == problem && b["start"] == start;
-    all.iter().find(same).map(|b| number(b, "cycles"))
+/// A solver on a problem, where it took part.
+fn baseline<'r>(of: &'r Value, solver: &str, problem: &str, start: &str) -> Option<&'r Value> {
+    let all = of["baselines"].as_array().expect("baselines");
+    all.iter().find(|b| b["solver"] == solver && b["problem"] == problem && b["start"] == start)
 }
 
-/// The page on benchmarks.
-fn page() -> String {
-    text(repository("docs/benchmarks.md"))
+/// A solver's warm ticks on the condensed problem of a scene.
+fn warm<'r>(record: &'r Value, solver: &str) -> &'r Value {
+    baseline(record, solver, "condensed", "warm").expect(solver)
+}
+
+/// The least and the greatest.
+fn range(numbers: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    let nothing = [f64::INFINITY, f64::NEG_INFINITY];
+    numbers.into_iter().fold(nothing, |[least, most], x| [least.min(x), most.max(x)])
+}
+
+/// Asserts that the page on benchmarks has these words.
+fn the_page_has(quotes: &[String]) {
+    let page = text(repository("docs/benchmarks.md"));
+    let missing: Vec<_> = quotes.iter().filter(|quote| !page.contains(*quote)).collect();
+    assert!(missing.is_empty(), "docs/benchmarks.md lacks {missing:#?}");
 }
 
 /// Three digits, as the page on benchmarks has them.
@@ -283,31 +305,33 @@ fn short(cycles: Option<f64>) -> String {
 /// The tables of sizes are those of the record.
 #[test]
 fn the_page_quotes_the_record() {
-    const SOLVERS: [&str; 6] = [
-        "kernel PSOR f64",
-        "kernel PSOR f64, tuned ω",
-        "kernel PSOR f64, coarse to fine",
-        "faer active set",
-        "Clarabel",
-        "OSQP",
+    const SOLVERS: [(&str, &str); 7] = [
+        ("kernel PSOR f64", "full"),
+        ("kernel PSOR f64, tuned ω", "full"),
+        ("kernel PSOR f64, coarse to fine", "full"),
+        ("faer active set", "full"),
+        ("Clarabel", "full"),
+        ("OSQP", "full"),
+        ("kernel pivoting f64", "condensed"),
     ];
     let sizes = read(repository("host/benches/trade/sizes.json"));
-    let page = page();
+    let page = text(repository("docs/benchmarks.md"));
     let lines: Vec<Vec<&str>> =
         page.lines().map(|line| line.split_whitespace().collect()).collect();
-    let mut missing = Vec::new();
     for start in ["cold", "warm"] {
         for size in sizes["rows"].as_array().expect("rows") {
-            let full = |solver: &&str| short(cycles(&size["baselines"], solver, "full", start));
+            let cycles = |(solver, problem): &(&str, &str)| {
+                let found = baseline(size, solver, problem, start);
+                short(found.map(|found| number(found, "cycles")))
+            };
             let mut line = vec![size["unknowns"].to_string()];
-            line.extend(SOLVERS.iter().map(full));
-            line.push(short(cycles(&size["baselines"], "kernel pivoting f64", "condensed", start)));
-            if !lines.iter().any(|found| *found == line) {
-                missing.push(format!("{start}: {}", line.join("  ")));
-            }
+            line.extend(SOLVERS.iter().map(cycles));
+            assert!(
+                lines.contains(&line.iter().map(|cell| &**cell).collect()),
+                "{start}: {line:?}"
+            );
         }
     }
-    assert!(missing.is_empty(), "docs/benchmarks.md lacks\n{}", missing.join("\n"));
 }
 
 /// Scenes whose fluxes have limits: others take their dual problem or slacks, and the page has a table of its own for them.
@@ -316,27 +340,15 @@ const LIMITED: [&str; 1] = ["antiicing"];
 /// The ratios of condensed warm ticks, on scenes with more than rounding to be wrong about.
 #[test]
 fn the_page_says_how_far_condensed_ticks_are_ahead() {
-    let page = page();
-    let warm = |record: &Value, solver: &str, problem: &str| {
-        let all = record["baselines"].as_array().expect("baselines");
-        let same = |b: &&Value| b["solver"] == solver && b["problem"] == problem;
-        all.iter().filter(same).find(|b| b["start"] == "warm").cloned()
-    };
+    let records: Vec<Value> = recorded("host").into_iter().map(|(_, record)| record).collect();
     let is_near = |b: &Value| number(b, "algebraic_error") <= number(b, "target");
-    let own = |record: Value| Some((warm(&record, "kernel pivoting f64", "condensed")?, record));
-    let all: Vec<_> = recorded("host").into_iter().filter_map(|(_, record)| own(record)).collect();
-    assert_eq!(all.len(), recorded("host").len());
+    let own = |record| (warm(record, "kernel pivoting f64"), record);
     let is_limited =
-        |(_, record): &(Value, Value)| LIMITED.contains(&record["scene"].as_str().expect("a name"));
-    let (limited, all): (Vec<_>, Vec<_>) = all.into_iter().partition(is_limited);
+        |(_, record): &(_, &Value)| LIMITED.contains(&record["scene"].as_str().expect("a name"));
+    let (limited, all): (Vec<_>, Vec<_>) = records.iter().map(own).partition(is_limited);
     let (scenes, exact): (Vec<_>, Vec<_>) = all.into_iter().partition(|(own, _)| is_near(own));
     assert!(exact.iter().all(|(_, record)| record["scene"] == "patch-mixed"));
-    let mut missing = Vec::new();
-    let mut quote = |line: String| {
-        if !page.contains(&line) {
-            missing.push(line);
-        }
-    };
+    let mut quotes = Vec::new();
     for (solver, promised) in [
         ("Clarabel", 20.0),
         ("OSQP as it comes", 20.0),
@@ -344,71 +356,51 @@ fn the_page_says_how_far_condensed_ticks_are_ahead() {
         ("OSQP", 20.0),
         ("OSQP, every iteration", 0.0),
     ] {
-        let ratios = |key: &str| -> Vec<f64> {
-            let ratio = |(own, record): &(Value, Value)| {
-                let other = warm(record, solver, "condensed").expect(solver);
-                assert!(is_near(&other) || solver == "OSQP as it comes", "{other}");
-                number(&other, key) / number(own, key)
-            };
-            scenes.iter().map(ratio).collect()
+        let ratio = |(own, record): &(&Value, &Value), key: &str| {
+            number(warm(record, solver), key) / number(own, key)
         };
-        let least = |ratios: &[f64]| ratios.iter().copied().fold(f64::INFINITY, f64::min);
-        let (mut found, slowest) = (ratios("cycles"), least(&ratios("worst")));
+        let is_far = |(_, record): &&(&Value, &Value)| !is_near(warm(record, solver));
+        let far = scenes.iter().filter(is_far).count();
+        match solver {
+            "OSQP as it comes" => quotes.push(format!("in {far} of {} scenes", scenes.len())),
+            _ => assert_eq!(far, 0, "{solver}"),
+        }
+        let mut found: Vec<f64> = scenes.iter().map(|of| ratio(of, "cycles")).collect();
         found.sort_by(f64::total_cmp);
         if solver == "OSQP, every iteration" {
-            quote(format!(
-                "on all other scenes it takes {:.0} times as long or more",
-                found[1].floor()
-            ));
+            let second = found[1].floor();
+            quotes.push(format!("on all other scenes it takes {second:.0} times as long or more"));
         }
-        if solver == "OSQP as it comes" {
-            let far = |(_, record): &&(Value, Value)| {
-                !is_near(&warm(record, solver, "condensed").unwrap())
-            };
-            let far = scenes.iter().filter(far).count();
-            quote(format!("in {far} of {} scenes", scenes.len()));
+        assert!(exact.iter().all(|of| ratio(of, "cycles") >= promised), "{solver}");
+        for of in &limited {
+            let [median, slowest] = ["cycles", "worst"].map(|key| ratio(of, key));
+            quotes.push(format!("{solver:<22}{median:>6.0}{slowest:>10.0}"));
         }
-        for (own, record) in &exact {
-            let other = warm(record, solver, "condensed").expect(solver);
-            assert!(number(&other, "cycles") >= promised * number(own, "cycles"), "{other}");
-        }
-        for (own, record) in &limited {
-            let other = warm(record, solver, "condensed").expect(solver);
-            let ratio = |key: &str| number(&other, key) / number(own, key);
-            let [median, slowest] = ["cycles", "worst"].map(ratio);
-            quote(format!("{solver:<22}{median:>6.0}{slowest:>10.0}"));
-        }
-        let (least, most) = (least(&found), found.iter().copied().fold(0.0, f64::max));
+        let [slowest, _] = range(scenes.iter().map(|of| ratio(of, "worst")));
+        let [least, most] = range(found);
         assert!(least >= promised, "{solver} takes {least} times as long at least");
-        quote(format!("{solver:<22}{least:>6.0}{most:>8.0}{slowest:>10.0}"));
+        quotes.push(format!("{solver:<22}{least:>6.0}{most:>8.0}{slowest:>10.0}"));
     }
-    let all = |key: &str| -> Vec<f64> { scenes.iter().map(|(own, _)| number(own, key)).collect() };
-    let most = |key: &str| all(key).into_iter().fold(0.0, f64::max);
-    let least = all("cycles").into_iter().fold(f64::INFINITY, f64::min);
-    let [least, median, slowest] = [least, most("cycles"), most("worst")].map(|c| 1e-3 * c);
-    quote(format!("{least:.1} to {median:.1} thousand cycles"));
-    quote(format!("{slowest:.0} thousand in the slowest tick"));
+    let all = |key: &str| range(scenes.iter().map(|(own, _)| 1e-3 * number(own, key)));
+    let ([least, median], [_, slowest]) = (all("cycles"), all("worst"));
+    quotes.push(format!("{least:.1} to {median:.1} thousand cycles"));
+    quotes.push(format!("{slowest:.0} thousand in the slowest tick"));
     for (own, _) in &limited {
         let [median, slowest] = ["cycles", "worst"].map(|key| 1e-3 * number(own, key));
-        quote(format!(
+        quotes.push(format!(
             "{median:.1} thousand cycles in the median, {slowest:.1} in the slowest tick"
         ));
     }
     let full = scenes.iter().flat_map(|(_, record)| record["baselines"].as_array().unwrap());
     let full = full.filter(|b| b["problem"] == "full" && b["start"] == "warm" && is_near(b));
-    let least = full.filter_map(|b| b["to_condensed"].as_f64()).fold(f64::INFINITY, f64::min);
-    quote(format!("{} times as long at least", least.floor()));
-    assert!(missing.is_empty(), "docs/benchmarks.md lacks\n{}", missing.join("\n"));
+    let [least, _] = range(full.filter_map(|b| b["to_condensed"].as_f64()));
+    quotes.push(format!("{} times as long at least", least.floor()));
+    the_page_has(&quotes);
 }
 
 /// The costs of micromath in the kernel and in load data.
 #[test]
 fn the_page_says_what_micromath_costs() {
-    let page = page();
-    let range = |found: &[f64]| {
-        let least = found.iter().copied().fold(f64::INFINITY, f64::min);
-        (least, found.iter().copied().fold(f64::NEG_INFINITY, f64::max))
-    };
     let mut more = Vec::new();
     for (_, record) in recorded("m4f") {
         let points = record["points"].as_array().expect("points");
@@ -420,9 +412,8 @@ fn the_page_says_what_micromath_costs() {
             more.push(100.0 * (number(point, "instructions") / twin - 1.0));
         }
     }
-    let (fewest, most) = range(&more);
-    let said = format!("from {:.1} % fewer instructions a tick to {most:.1} % more", -fewest);
-    assert!(page.contains(&said), "{said}");
+    let [fewest, most] = range(more);
+    let ticks = format!("from {:.1} % fewer instructions a tick to {most:.1} % more", -fewest);
     let records = recorded("host");
     let all = records.iter().flat_map(|(_, record)| record["math"].as_array().expect("math"));
     let of_kernel = ["search for ω", "lengths of edges"];
@@ -430,13 +421,11 @@ fn the_page_says_what_micromath_costs() {
     let in_loads: Vec<_> = all.filter(in_load).collect();
     let errors = |functions: [&str; 2]| {
         let of = |m: &&&Value| functions.contains(&m["function"].as_str().unwrap());
-        let percent = |m: &&Value| 100.0 * number(m, "energy");
-        range(&in_loads.iter().filter(of).map(percent).collect::<Vec<_>>())
+        range(in_loads.iter().filter(of).map(|m| 100.0 * number(m, "energy")))
     };
-    let (least, most) = errors(["sin", "cos"]);
-    let said = format!("for an error of {least:.2} to {most:.2} %");
-    assert!(page.contains(&said), "{said}");
-    let (least, most) = errors(["powf", "sqrt"]);
-    let said = format!("its power and square root cost {least:.1} to {most:.0} %");
-    assert!(page.contains(&said), "{said}");
+    let [least, most] = errors(["sin", "cos"]);
+    let waves = format!("for an error of {least:.2} to {most:.2} %");
+    let [least, most] = errors(["powf", "sqrt"]);
+    let powers = format!("its power and square root cost {least:.1} to {most:.0} %");
+    the_page_has(&[ticks, waves, powers]);
 }

@@ -4,45 +4,15 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use crate::field::{Point, Scalar, affine};
+use crate::field::{Point, Scalar, affine as plane};
 use crate::grid::Grid;
 use crate::problem::{Boundary, Problem};
+pub use signorini_problem::random::Random;
 
-/// The generator splitmix64: a counter, scrambled.
-#[derive(Clone, Debug)]
-pub struct Random(u64);
-
-impl Random {
-    /// Equal seeds give equal numbers.
-    pub fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    /// 64 random bits.
-    pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// A number of [low, high).
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        let unit = (self.bits() >> 11) as f64 / (1u64 << 53) as f64;
-        low + unit * (high - low)
-    }
-
-    /// A number of 0..n.
-    pub fn below(&mut self, n: u32) -> u32 {
-        (self.bits() % u64::from(n)) as u32
-    }
-
-    /// c + a x + b y with coefficients of size 1.
-    pub fn affine(&mut self) -> Scalar {
-        let mut coefficient = || self.between(-1.0, 1.0);
-        affine(coefficient(), coefficient(), coefficient())
-    }
+/// c + a x + b y with coefficients of size 1.
+pub fn affine(random: &mut Random) -> Scalar {
+    let mut coefficient = || random.between(-1.0, 1.0);
+    plane(coefficient(), coefficient(), coefficient())
 }
 
 /// How far a vertex may move, in mesh widths: below 1/4 every quad of a square grid stays convex
@@ -85,18 +55,18 @@ pub fn tensor(random: &mut Random) -> [f64; 3] {
 pub fn boundary(random: &mut Random) -> Boundary {
     match random.below(8) {
         0 => dirichlet(random),
-        1 => Boundary::Neumann { flux: random.affine() },
+        1 => Boundary::Neumann { flux: affine(random) },
         2 => {
             // Positive where the grids of this module lie: x, y ≥ −0.2.
-            let coefficient = affine(random.between(1.0, 9.0), random.between(0.0, 1.0), 0.1);
-            Boundary::Robin { coefficient, ambient: random.affine() }
+            let coefficient = plane(random.between(1.0, 9.0), random.between(0.0, 1.0), 0.1);
+            Boundary::Robin { coefficient, ambient: affine(random) }
         }
-        _ => Boundary::Contact { gap: random.affine(), flux: random.affine() },
+        _ => Boundary::Contact { gap: affine(random), flux: affine(random) },
     }
 }
 
 fn dirichlet(random: &mut Random) -> Boundary {
-    Boundary::Dirichlet { value: random.affine() }
+    Boundary::Dirichlet { value: affine(random) }
 }
 
 /// A scene with one tensor and one affine source for each cell, and a condition for each boundary
@@ -104,7 +74,7 @@ fn dirichlet(random: &mut Random) -> Boundary {
 pub fn problem(random: &mut Random, most: u32) -> Problem {
     let grid = grid(random, most);
     let tensors: Vec<_> = (0..grid.cell_count()).map(|_| tensor(random)).collect();
-    let sources: Vec<_> = (0..grid.cell_count()).map(|_| random.affine()).collect();
+    let sources: Vec<_> = (0..grid.cell_count()).map(|_| affine(random)).collect();
     let edges = grid.boundary();
     let mut conditions: BTreeMap<_, _> = edges.iter().map(|&e| (e, boundary(random))).collect();
     conditions.insert(edges[random.below(edges.len() as u32) as usize], dirichlet(random));

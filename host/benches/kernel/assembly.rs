@@ -2,7 +2,7 @@
 
 use criterion::Bencher;
 use signorini_kernel::assembly;
-use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::rows::{Row, Rows};
 use signorini_problem::scalar::Scalar;
 
 use crate::strip::Strip;
@@ -37,11 +37,7 @@ pub fn load<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
 }
 
 /// Rows from CSR: what a new ω costs.
-pub fn set<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
-    strip.widen(bencher, set_wide::<R, TRIANGLES>, set_wide::<R, QUADS>);
-}
-
-fn set_wide<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
+pub fn set<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
     let assembled = strip.assembled::<R>();
     let system = assembled.system().expect("the numbers are finite");
     let mut memory = vec![Row::<R, u32, WIDTH>::EMPTY; system.counts().unknowns()];
@@ -50,11 +46,7 @@ fn set_wide<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip)
 }
 
 /// Rows without a matrix.
-pub fn gather<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
-    strip.widen(bencher, gather_wide::<R, TRIANGLES>, gather_wide::<R, QUADS>);
-}
-
-fn gather_wide<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
+pub fn gather<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
     let assembled = strip.assembled::<R>();
     let diagonal = assembled.diagonal().expect("the records are admissible");
     let system = assembled.system().expect("the numbers are finite");

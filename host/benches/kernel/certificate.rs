@@ -3,7 +3,6 @@
 use criterion::Bencher;
 use signorini_bake::full::{Baked, Controller};
 use signorini_certify::{Certifier, Data};
-use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::scalar::Scalar;
 
 use crate::strip::{Strip, scene};
@@ -23,11 +22,7 @@ pub fn certificate<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
 
 /// Data from inputs, sweeps with certificates until the bound is settled, outputs; u_D is up and down by
 /// 10 % from tick to tick.
-pub fn tick<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
-    strip.widen(bencher, tick_wide::<R, TRIANGLES>, tick_wide::<R, QUADS>);
-}
-
-fn tick_wide<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
+pub fn tick<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
     let scene = scene(1.0);
     let baked = Baked::<R>::new(strip.problem()).expect("the strip can be baked");
     let mut controller = Controller::<R, WIDTH>::new(&baked);

@@ -11,8 +11,6 @@
 mod assembly;
 mod certificate;
 mod condensed;
-mod element;
-mod flux;
 mod host;
 mod mesh;
 mod refined;
@@ -24,6 +22,7 @@ use std::time::Duration;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput};
+use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::scalar::Scalar;
 use signorini_scene::mesh::structured::Cells;
 use strip::{Stage, Strip};
@@ -38,8 +37,11 @@ fn main() {
         let mut stages = Stages { criterion: &mut criterion, strips: &strips, cells };
         in_scalar::<f64>(&mut stages);
         in_scalar::<f32>(&mut stages);
-        stages.time::<f32>("solve refined", refined::refined::<f32>);
-        stages.time::<f64>("solve to 1e-12", refined::pure);
+        stages.wide::<f32>(
+            "solve refined",
+            [refined::refined::<f32, TRIANGLES>, refined::refined::<f32, QUADS>],
+        );
+        stages.wide::<f64>("solve to 1e-12", [refined::pure::<TRIANGLES>, refined::pure::<QUADS>]);
         stages.time::<f64>("solve to 1e-12 with sweeps in f32", refined::mixed);
         host::stages(&mut stages);
     }
@@ -53,22 +55,30 @@ fn main() {
 fn in_scalar<R: Scalar>(stages: &mut Stages) {
     stages.time::<R>("mesh check", mesh::check::<R>);
     stages.time::<R>("numbering", mesh::numbering::<R>);
-    stages.time::<R>("element matrices", element::matrices::<R>);
+    stages.time::<R>("element matrices", mesh::matrices::<R>);
     stages.time::<R>("pattern", assembly::pattern::<R>);
     stages.time::<R>("matrix", assembly::values::<R>);
     stages.time::<R>("load", assembly::load::<R>);
-    stages.time::<R>("rows from matrix", assembly::set::<R>);
-    stages.time::<R>("rows from cells", assembly::gather::<R>);
-    stages.time::<R>("sweep", sweep::sweep::<R>);
+    stages
+        .wide::<R>("rows from matrix", [assembly::set::<R, TRIANGLES>, assembly::set::<R, QUADS>]);
+    stages.wide::<R>(
+        "rows from cells",
+        [assembly::gather::<R, TRIANGLES>, assembly::gather::<R, QUADS>],
+    );
+    stages.wide::<R>("sweep", [sweep::sweep::<R, TRIANGLES>, sweep::sweep::<R, QUADS>]);
     stages.time::<R>("residual", sweep::residual::<R>);
-    stages.time::<R>("residual by rows", sweep::defect::<R>);
-    stages.time::<R>("solve cold", solve::cold::<R>);
-    stages.time::<R>("solve warm", solve::warm::<R>);
-    stages.time::<R>("solve coarse to fine", solve::coarse_to_fine::<R>);
-    stages.time::<R>("flux of edges", flux::of_edges::<R>);
-    stages.time::<R>("flux of cells", flux::of_cells::<R>);
+    stages
+        .wide::<R>("residual by rows", [sweep::defect::<R, TRIANGLES>, sweep::defect::<R, QUADS>]);
+    stages.wide::<R>("solve cold", [solve::cold::<R, TRIANGLES>, solve::cold::<R, QUADS>]);
+    stages.wide::<R>("solve warm", [solve::warm::<R, TRIANGLES>, solve::warm::<R, QUADS>]);
+    stages.wide::<R>(
+        "solve coarse to fine",
+        [solve::coarse_to_fine::<R, TRIANGLES>, solve::coarse_to_fine::<R, QUADS>],
+    );
+    stages.time::<R>("flux of edges", sweep::flux_of_edges::<R>);
+    stages.time::<R>("flux of cells", sweep::flux_of_cells::<R>);
     stages.time::<R>("certificate", certificate::certificate::<R>);
-    stages.time::<R>("tick", certificate::tick::<R>);
+    stages.wide::<R>("tick", [certificate::tick::<R, TRIANGLES>, certificate::tick::<R, QUADS>]);
 }
 
 /// Where stages are timed: one kind of cell, every size.
@@ -79,6 +89,11 @@ struct Stages<'a> {
 }
 
 impl Stages<'_> {
+    /// Times what depends on how long rows are: on triangles, and where there are quads.
+    fn wide<R: Scalar>(&mut self, stage: &str, [short, long]: [Stage; 2]) {
+        self.time::<R>(stage, if self.cells == Cells::Quads { long } else { short });
+    }
+
     /// Times one stage of scalar `R` at every size.
     fn time<R: Scalar>(&mut self, stage: &str, time: Stage) {
         let cells = if self.cells == Cells::Quads { "quads" } else { "triangles" };

@@ -4,7 +4,7 @@ use criterion::{BatchSize, Bencher};
 use signorini_kernel::Libm;
 use signorini_kernel::conjugate::ConjugateBuffers;
 use signorini_kernel::refinement::{self, RefinementBuffers};
-use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::rows::{Row, Rows};
 use signorini_kernel::solver::{Settings, Solver};
 use signorini_problem::scalar::Scalar;
 use signorini_solve::Mixed;
@@ -12,11 +12,7 @@ use signorini_solve::Mixed;
 use crate::strip::Strip;
 
 /// To the last digit of the scalar, with corrections of the defect.
-pub fn refined<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
-    strip.widen(bencher, refined_wide::<R, TRIANGLES>, refined_wide::<R, QUADS>);
-}
-
-fn refined_wide<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
+pub fn refined<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
     let assembled = strip.assembled::<R>();
     let system = assembled.system().expect("the numbers are finite");
     let diagonal = assembled.diagonal().expect("the records are admissible");
@@ -43,11 +39,7 @@ fn refined_wide<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &St
 const DEEP: f64 = 1e-12;
 
 /// Sweeps in f64.
-pub fn pure(bencher: &mut Bencher, strip: &Strip) {
-    strip.widen(bencher, pure_wide::<TRIANGLES>, pure_wide::<QUADS>);
-}
-
-fn pure_wide<const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
+pub fn pure<const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
     let assembled = strip.assembled::<f64>();
     let system = assembled.system().expect("the numbers are finite");
     let mut memory = vec![Row::<f64, u32, WIDTH>::EMPTY; system.counts().unknowns()];

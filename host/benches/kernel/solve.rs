@@ -4,7 +4,7 @@ use criterion::{BatchSize, Bencher};
 use signorini_kernel::Error;
 use signorini_kernel::prolongation::prolong;
 use signorini_kernel::relaxation::Relaxation;
-use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::rows::{Row, Rows};
 use signorini_kernel::solver::{Outcome, Settings, Solver, Status};
 use signorini_problem::Assembled;
 use signorini_problem::scalar::Scalar;
@@ -43,11 +43,7 @@ impl<'a, R: Scalar, const WIDTH: usize> Solve<'a, R, WIDTH> {
 }
 
 /// From nothing.
-pub fn cold<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
-    strip.widen(bencher, cold_wide::<R, TRIANGLES>, cold_wide::<R, QUADS>);
-}
-
-fn cold_wide<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
+pub fn cold<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
     let assembled = strip.assembled::<R>();
     let mut solve = Solve::<R, WIDTH>::new(&assembled);
     solve.converged();
@@ -56,11 +52,7 @@ fn cold_wide<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip
 }
 
 /// From the solution for u_D that was 10 % smaller, with the ω found there.
-pub fn warm<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
-    strip.widen(bencher, warm_wide::<R, TRIANGLES>, warm_wide::<R, QUADS>);
-}
-
-fn warm_wide<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
+pub fn warm<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
     let mut assembled = strip.assembled::<R>();
     let (mut before, omega) = Solve::<R, WIDTH>::new(&assembled).converged();
     assembled.set_loads(&strip.raised(1.1).loads).expect("the scalar holds the data");
@@ -72,11 +64,7 @@ fn warm_wide<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip
 }
 
 /// First on a mesh with a quarter of the cells; both solves count.
-pub fn coarse_to_fine<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
-    strip.widen(bencher, coarse_wide::<R, TRIANGLES>, coarse_wide::<R, QUADS>);
-}
-
-fn coarse_wide<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
+pub fn coarse_to_fine<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
     let coarse = Strip::new(strip.n / 2, strip.cells);
     let origins = coarse::origins(strip.problem(), coarse.problem()).expect("nested meshes");
     let (on_coarse, on_fine) = (coarse.assembled::<R>(), strip.assembled::<R>());

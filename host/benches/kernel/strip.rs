@@ -55,15 +55,6 @@ impl Strip {
         Assembled::new(self.problem()).expect("the scalar holds the problem")
     }
 
-    /// Times what depends on how long rows are: `short` on triangles, else `long`.
-    pub fn widen(&self, bencher: &mut Bencher, short: Stage, long: Stage) {
-        if self.problem().mesh.quads.is_empty() {
-            short(bencher, self)
-        } else {
-            long(bencher, self)
-        }
-    }
-
     pub fn parts(&self) -> Parts {
         Parts::examine(self.problem()).expect("D holds the strip")
     }

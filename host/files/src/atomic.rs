@@ -7,7 +7,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 
-use signorini_scene::error::{Error, Result};
+use signorini_scene::error::{Error, InputError, Result};
 
 /// Replaces the contents of `path` by `bytes`, or leaves what was there when anything fails.
 ///
@@ -17,6 +17,19 @@ use signorini_scene::error::{Error, Result};
 /// directly.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<()> {
     replace(path, bytes).map_err(Error::io(path))
+}
+
+/// Refuses a folder for files, named by `option`, that is a file or would lie in one.
+///
+/// # Errors
+/// Such a place.
+pub fn writable(option: &str, folder: &Path) -> Result<()> {
+    if folder.ancestors().find(|path| path.exists()).is_some_and(|path| !path.is_dir()) {
+        let message = format!("{option} {}: is a file, expected a directory", folder.display());
+        let hint = "name a directory, or one that does not exist yet";
+        return Err(InputError::new(message).hint(hint).into());
+    }
+    Ok(())
 }
 
 fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {

@@ -73,3 +73,11 @@ pub fn smallest(mut work: impl FnMut()) -> f64 {
     };
     [(); REPEATS].map(once).into_iter().min().unwrap_or(0) as f64
 }
+
+/// The median, and (largest − smallest)/median; 0 of nothing.
+pub fn median_and_spread(numbers: impl IntoIterator<Item = f64>) -> (f64, f64) {
+    let mut sorted: Vec<f64> = numbers.into_iter().collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let Some(&median) = sorted.get(sorted.len() / 2) else { return (0.0, 0.0) };
+    (median, (sorted[sorted.len() - 1] - sorted[0]) / median.max(1.0))
+}

@@ -10,8 +10,8 @@
 
 pub mod baseline;
 pub mod checkout;
-mod csv_file;
 pub mod cycles;
 pub mod extremes;
+mod record_file;
 pub mod study;
 pub mod trade;

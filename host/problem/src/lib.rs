@@ -26,6 +26,7 @@ pub mod pointwise;
 pub mod progress;
 mod property;
 pub mod quadrature;
+pub mod random;
 mod restated;
 pub mod scalar;
 pub mod search;

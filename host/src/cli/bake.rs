@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::{ArgGroup, Args};
 
 use super::bake_c;
-use super::posed::promised_problem_of;
-use super::{scene_at, write_beside};
+use super::scene_arguments::{promised_problem_of, scene_at};
+use super::write_beside;
 use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::emit::{Emitted, emit};
 use signorini_bake::explain::{explanation, warnings};
@@ -144,9 +144,7 @@ impl Arguments {
         }
         Ok(0)
     }
-}
 
-impl Arguments {
     /// The machines that libraries for C are built for, each once.
     fn machines(&self) -> impl Iterator<Item = &'static Machine> {
         let is_asked = |machine: &&Machine| match &self.board[..] {

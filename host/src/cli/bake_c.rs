@@ -3,10 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::scene_arguments::writable;
 use signorini_bake::c::{File, files, name_of};
 use signorini_bake::emit::Emitted;
-use signorini_files::atomic::write_atomically;
+use signorini_files::atomic::{writable, write_atomically};
 use signorini_image::checkout;
 use signorini_image::library::Machine;
 use signorini_problem::Problem;

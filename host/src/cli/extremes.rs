@@ -7,12 +7,13 @@ use std::time::Instant;
 use clap::Args;
 
 use signorini_draw::extremes_page;
-use signorini_files::atomic::write_atomically;
+use signorini_files::atomic::{writable, write_atomically};
 use signorini_lab::extremes::judge::Outcome;
 use signorini_lab::extremes::kept::Kept;
+use signorini_lab::extremes::random::record::Record;
 use signorini_lab::extremes::random::row::Row;
 use signorini_lab::extremes::section::section;
-use signorini_lab::extremes::{Plan, random, text};
+use signorini_lab::extremes::{cases, random, run, text};
 use signorini_problem::progress::{say, steps};
 use signorini_scene::error::{InputError, Result};
 
@@ -61,16 +62,16 @@ impl Arguments {
         if let Some(count) = self.random {
             return self.at_random(count);
         }
-        let plan = Plan::new(self.only.as_deref());
-        if plan.is_empty() {
+        let cases = cases(self.only.as_deref());
+        if cases.is_empty() {
             let only = self.only.unwrap_or_default();
             let error = InputError::new(format!("--only {only}: no case has this in its name"));
             return Err(error.hint("leave it out for a table of all studies").into());
         }
-        super::scene_arguments::writable("--out", &self.out)?;
-        let bar = steps(plan.len());
+        writable("--out", &self.out)?;
+        let bar = steps(cases.len());
         let kept = Kept::open(&self.out)?;
-        let record = plan.run(&kept, || bar.inc(1));
+        let record = run(&cases, &kept, || bar.inc(1));
         bar.finish_and_clear();
         let record = record?;
         let made_by = format!("signorini {}; {:.0} s", env!("CARGO_PKG_VERSION"), record.seconds);
@@ -89,24 +90,19 @@ impl Arguments {
         say(format_args!("written to {}", self.out.display()));
         Ok(u8::from(record.count(Outcome::Wrong) > 0))
     }
-}
 
-impl Arguments {
     /// Whole scenes.
     fn at_random(self, count: u32) -> Result<u8> {
         let (seed, out) = (self.seed, &self.out);
-        super::scene_arguments::writable("--out", out)?;
-        let plan = match self.case {
-            Some(case) => random::RandomPlan::one(seed, case),
-            None => random::RandomPlan::new(seed, count),
-        };
-        let (bar, start) = (steps(plan.len()), Instant::now());
+        writable("--out", out)?;
+        let cases = self.case.map_or(0..=count - 1, |case| case..=case);
+        let (bar, start) = (steps(cases.clone().count()), Instant::now());
         let keep = |rows: &[Row]| {
-            let record = plan.record(start.elapsed().as_secs_f64(), rows);
+            let record = Record::new(seed, start.elapsed().as_secs_f64(), rows);
             write_atomically(&out.join("random.json"), record.json().as_bytes())?;
             write_atomically(&out.join("random.csv"), &random::row::csv(rows)?)
         };
-        let (record, _) = plan.run(|| bar.inc(1), &keep)?;
+        let record = random::run(seed, cases, || bar.inc(1), &keep)?;
         bar.finish_and_clear();
         let broken = record.violations.iter().map(|violation| violation.case);
         let written: BTreeSet<u32> = broken.chain(self.case).collect();

@@ -4,10 +4,8 @@ mod answer;
 mod bake;
 mod bake_c;
 mod extremes;
-mod honoured;
 mod levels;
 mod picture;
-mod posed;
 mod scene_arguments;
 mod series;
 mod solve;
@@ -90,11 +88,4 @@ fn write_beside(
         return Err(signorini_scene::error::InputError::new(message).hint(hint).into());
     }
     signorini_files::atomic::write_atomically(output, text.as_bytes())
-}
-
-/// The scene with the inputs of the command line.
-fn scene_at(path: &std::path::Path, inputs: &[String]) -> Result<signorini_scene::scene::Scene> {
-    let mut scene = signorini_scene::scene::Scene::read(path)?;
-    inputs.iter().try_for_each(|input| scene.set_input(input))?;
-    Ok(scene)
 }

@@ -1,11 +1,15 @@
-//! Where a command finds its scene and leaves its files.
+//! Where a command finds its scene and leaves its files, and the problem that the scene poses.
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use signorini_scene::error::{InputError, Result};
+use signorini_files::atomic::writable;
+use signorini_problem::Problem;
+use signorini_problem::progress::{note, waiting};
+use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
+use signorini_solve::adaptive::{MeshOfScene, Promise, mesh_of_scene};
 
 /// The scene with what the command line changes in it, and the folder of the files.
 #[derive(Debug, Args)]
@@ -26,12 +30,9 @@ pub(super) struct SceneArguments {
 impl SceneArguments {
     /// Reads the scene and sets mesh and inputs.
     pub fn scene(&self) -> Result<Scene> {
-        let mut scene = Scene::read(&self.scene)?;
+        let mut scene = scene_at(&self.scene, &self.input)?;
         if let Some(mesh) = &self.mesh {
             scene.mesh.value.clone_from(mesh);
-        }
-        for input in &self.input {
-            scene.set_input(input)?;
         }
         Ok(scene)
     }
@@ -45,15 +46,21 @@ impl SceneArguments {
     }
 }
 
-/// Refuses a folder for files that is a file, or would lie in one.
-///
-/// # Errors
-/// Such a place.
-pub(super) fn writable(option: &str, out: &Path) -> Result<()> {
-    if out.ancestors().find(|path| path.exists()).is_some_and(|path| !path.is_dir()) {
-        let message = format!("{option} {}: is a file, expected a directory", out.display());
-        let hint = "name a directory, or one that does not exist yet";
-        return Err(InputError::new(message).hint(hint).into());
-    }
-    Ok(())
+/// The problem of a scene on the mesh that its setting asks for; what holds on a refined mesh is said.
+pub(super) fn problem_of(scene: &Scene) -> Result<Problem> {
+    Ok(promised_problem_of(scene)?.0)
+}
+
+/// The problem with what holds, where the setting has an error.
+pub(super) fn promised_problem_of(scene: &Scene) -> Result<(Problem, Option<Promise>)> {
+    let MeshOfScene { mesh, promise } = waiting("refining the mesh", || mesh_of_scene(scene))?;
+    promise.iter().for_each(note);
+    Ok((Problem::new(scene, mesh)?, promise))
+}
+
+/// The scene with the inputs of the command line.
+pub(super) fn scene_at(path: &Path, inputs: &[String]) -> Result<Scene> {
+    let mut scene = Scene::read(path)?;
+    inputs.iter().try_for_each(|input| scene.set_input(input))?;
+    Ok(scene)
 }

@@ -6,8 +6,7 @@ use clap::Args;
 
 use super::answer::Told;
 use super::levels;
-use super::posed::problem_of;
-use super::scene_arguments::SceneArguments;
+use super::scene_arguments::{SceneArguments, problem_of};
 use signorini_problem::progress::{say, waiting, warn};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::goal::Goal;

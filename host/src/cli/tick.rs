@@ -4,19 +4,18 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::honoured::check_ticks;
 use super::picture::picture;
-use super::posed::problem_of;
-use super::scene_arguments::SceneArguments;
+use super::scene_arguments::{SceneArguments, problem_of};
 use super::series::Series;
 use signorini_draw::chart_file;
 use signorini_files::atomic::write_atomically;
 use signorini_files::fields::{Drawn, picture as vtu};
 use signorini_problem::Problem;
 use signorini_problem::progress::{say, steps, warn};
-use signorini_scene::error::{Error, Result};
+use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::mesh;
 use signorini_scene::scene::{Output, Quantity, Scene};
+use signorini_scene::setting::{Method, ModelKind, Precision, Setting};
 use signorini_session::tick::columns::{bounds_csv, ticks_csv};
 use signorini_session::tick::{Budget, TickRecord, log, play, replay, schedule};
 use signorini_solve::{Ending, ScalarKind, Solution};
@@ -191,4 +190,40 @@ fn endings(ticks: &[TickRecord]) -> String {
     }
     let parts = counts.iter().map(|(status, count)| format!("{count} {}", status.name()));
     parts.collect::<Vec<_>>().join(", ")
+}
+
+/// Refuses the first key of `[setting]` that the scene's own ticks, full and swept, cannot follow, instead of
+/// answering for another setting; `scalar_given` where the command line has a scalar of its own.
+///
+/// ```text
+///   refine, cells, element,
+///   error                     every command: they are the mesh and its basis
+///   scalar                    every command; f32+f64 solve and trade alone
+///   the rest                  solve, bake, trade, tick --baked
+/// ```
+///
+/// # Errors
+/// Such a key.
+fn check_ticks(scene: &Scene, scalar_given: bool) -> Result<()> {
+    let Some(setting) = scene.setting else { return Ok(()) };
+    let is_mixed = !scalar_given && setting.scalar == Some(Precision::Mixed);
+    let scalar = is_mixed.then_some("scalar").into_iter();
+    let mut keys =
+        scalar.chain(setting.of_method().into_iter().filter(|key| !follows(key, &setting)));
+    let Some(key) = keys.next() else { return Ok(()) };
+    let message = format!(
+        "setting.{key}: `tick` cannot follow it: it sweeps the full model, certified, in one scalar"
+    );
+    let hint =
+        "add --baked for the controller that `bake` writes for this setting, or remove the key";
+    Err(InputError::new(message).file(scene.file()).hint(hint).into())
+}
+
+/// Whether ticks do what this value of a method's key says, in any case.
+fn follows(key: &str, setting: &Setting) -> bool {
+    match key {
+        "model" => setting.model == Some(ModelKind::Full),
+        "solver" => setting.solver == Some(Method::Sweeps),
+        _ => false,
+    }
 }

@@ -6,7 +6,7 @@ use clap::Args;
 
 use signorini_files::atomic::write_atomically;
 use signorini_lab::checkout::root;
-use signorini_lab::trade::campaign::{Campaign, Ended};
+use signorini_lab::trade::campaign::{Campaign, Ended, folder_of};
 use signorini_lab::trade::front::Wish;
 use signorini_lab::trade::promised;
 use signorini_lab::trade::shard::Shard;
@@ -101,10 +101,10 @@ impl Arguments {
         };
         warn(&campaign.warnings());
         let bar = steps(0);
-        let ended = campaign.run(self.shard, &wish, &mut |case| {
-            bar.set_length(case.of as u64);
-            bar.set_position(case.number as u64);
-            bar.set_message(case.name.to_owned());
+        let ended = campaign.run(self.shard, &wish, &mut |number, of, name| {
+            bar.set_length(of as u64);
+            bar.set_position(number as u64);
+            bar.set_message(name.to_owned());
         });
         bar.finish_and_clear();
         let Ended { trades, left, status } = ended?;
@@ -119,9 +119,7 @@ impl Arguments {
         }
         refused(&trades, &wish).map(|refused| refused.max(status))
     }
-}
 
-impl Arguments {
     /// The table of each scene in its folder; without a scene those of the standard ones in the record.
     fn promised(&self) -> Result<u8> {
         if self.scenes.is_empty() {
@@ -135,11 +133,7 @@ impl Arguments {
             return written(&file, &tables.join("\n"));
         }
         for path in &self.scenes {
-            let name = path.file_stem().unwrap_or_default();
-            let folder = match &self.out {
-                Some(out) if self.scenes.len() == 1 => out.clone(),
-                out => out.as_deref().unwrap_or(Path::new("out")).join(name),
-            };
+            let folder = folder_of(path, self.scenes.len(), self.out.as_deref());
             written(&folder.join(promised::FILE), &self.table(path)?)?;
         }
         Ok(0)

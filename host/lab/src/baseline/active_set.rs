@@ -5,7 +5,7 @@
 
 use super::failed;
 use super::quadratic::Quadratic;
-use super::timed_solver::{InitialGuess, Run, TimedSolver, counted};
+use super::series::{InitialGuess, Run, TimedSolver, counted};
 use signorini_reference::Factor;
 use signorini_scene::error::Result;
 

@@ -14,7 +14,7 @@ use signorini_kernel::{Error as KernelError, Real};
 use super::failed;
 use super::full::Full;
 use super::psor::{TickLoads, solve};
-use super::timed_solver::{InitialGuess, Run, TimedSolver, counted};
+use super::series::{InitialGuess, Run, TimedSolver, counted};
 use signorini_problem::Problem;
 use signorini_scene::error::Result;
 use signorini_session::coarse;

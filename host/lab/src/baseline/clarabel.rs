@@ -10,9 +10,9 @@ use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SupportedConeT};
 
 use super::failed;
-use super::program::{Columns, Program};
-use super::quadratic::Quadratic;
-use super::timed_solver::{InitialGuess, Run, TimedSolver, counted};
+use super::program::Program;
+use super::quadratic::{Matrix, Quadratic};
+use super::series::{InitialGuess, Run, TimedSolver, counted};
 use signorini_scene::error::Result;
 
 /// The solver on its problem.
@@ -31,11 +31,14 @@ impl<'q> Clarabel<'q> {
     /// As for [`Program::new`].
     pub fn new(quadratic: &'q Quadratic) -> Result<Self> {
         let program = Program::new(quadratic)?;
-        let columns = |rows, Columns { starts, rows: of, values }: Columns| {
-            CscMatrix::new(rows, starts.len() - 1, starts, of, values)
+        let columns = |rows, sign: f64, of: &Matrix| {
+            let [starts, at] =
+                [&of.row_ptr, &of.col_idx].map(|of| of.iter().map(|&at| at as usize).collect());
+            let values = of.values.iter().map(|value| sign * value).collect();
+            CscMatrix::new(rows, of.order(), starts, at, values)
         };
-        let matrix = columns(program.matrix.starts.len() - 1, program.matrix.clone());
-        let constraints = columns(program.count, program.constraints.negative());
+        let matrix = columns(program.matrix.order(), 1.0, &program.matrix);
+        let constraints = columns(program.count, -1.0, &program.constraints);
         Ok(Self { quadratic, program, matrix, constraints, solver: None })
     }
 }

@@ -28,8 +28,7 @@ pub(super) fn condensed(
     let d: Vec<f64> = (0..n).map(|i| 1.0 / schur[(i, i)].sqrt()).collect();
     let mut matrix = Matrix::new();
     for i in 0..n {
-        matrix
-            .push_row((0..n).map(|j| (j, if i == j { 1.0 } else { d[i] * schur[(i, j)] * d[j] })));
+        matrix.push((0..n).map(|j| (j, if i == j { 1.0 } else { d[i] * schur[(i, j)] * d[j] })));
     }
     let mut ticks = Vec::new();
     for (tick, condensed) in full.ticks.iter().zip(condensed_loads(full)?) {
@@ -90,7 +89,7 @@ fn held_by_contact(floating: &[bool], schur: &Mat<f64>) -> Vec<Vec<usize>> {
 fn condensed_loads(full: &Quadratic) -> Result<Vec<Vec<f64>>> {
     let (n, free) = (full.contact(), full.free());
     let mut inner = Matrix::new();
-    (0..free).for_each(|row| inner.push_row(full.matrix.row(row).filter(|&(j, _)| j < free)));
+    (0..free).for_each(|row| inner.push(full.matrix.row(row).filter(|&(j, _)| j < free)));
     let loads: Vec<f64> =
         full.ticks.iter().flat_map(|tick| tick.load[..free].iter().copied()).collect();
     let Matrix { row_ptr, col_idx, values } = &inner;

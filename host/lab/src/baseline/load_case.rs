@@ -90,14 +90,11 @@ impl LoadCase {
         drawn.collect()
     }
 
-    /// `problem` with the expressions of this moment, and integrals that are still its own.
-    pub fn on(&self, problem: &Problem) -> Problem {
-        Problem { scene: self.scene.clone(), time: self.time, ..problem.clone() }
-    }
-
     /// Its integrals on the mesh of `problem`.
     pub fn integrate(&self, problem: &Problem) -> Result<Loads> {
-        let mut loads = Loads::at_time(&self.on(problem), self.time)?;
+        let scene = self.scene.clone();
+        let now = Problem { scene, time: self.time, ..problem.clone() };
+        let mut loads = Loads::at_time(&now, self.time)?;
         let corner = |vertex: u32| problem.mesh.vertices[vertex as usize];
         let factor = self.loads;
         for (load, cell) in loads.triangles.iter_mut().zip(&problem.mesh.triangles) {

@@ -20,20 +20,17 @@ mod pivots;
 mod program;
 mod psor;
 mod quadratic;
-pub mod record;
 mod series;
 pub mod sizes;
 mod table;
 #[cfg(test)]
 mod tests;
-mod timed_solver;
-mod verdict;
 
 use std::fmt::Display;
 
-use crate::baseline::record::Baseline;
 use benchmark::Benchmark;
 use load_case::LoadCase;
+pub use series::Baseline;
 use signorini_problem::{Approach, Problem};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_solve::norms;

@@ -19,11 +19,12 @@ use std::thread;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 use super::failed;
-use super::program::{Columns, Program};
+use super::program::Program;
 use super::quadratic::Quadratic;
-use super::timed_solver::{InitialGuess, Run, TimedSolver};
+use super::series::{InitialGuess, Run, TimedSolver};
 use crate::checkout::root;
 use crate::cycles::IS_WIDE;
 use signorini_scene::error::Result;
@@ -51,27 +52,6 @@ fn build() -> std::result::Result<PathBuf, String> {
         return Err(format!("OSQP is left out: cargo xtask osqp: {}", last(&output.stderr)));
     }
     Ok(PathBuf::from(last(&output.stdout)))
-}
-
-#[derive(Serialize)]
-struct Data {
-    cost: Vec<f64>,
-    least: Vec<f64>,
-}
-
-#[derive(Serialize)]
-struct Problem<'a> {
-    matrix: &'a Columns,
-    constraints: &'a Columns,
-    ticks: Vec<Data>,
-}
-
-#[derive(Serialize)]
-struct Question {
-    tick: usize,
-    cold: bool,
-    tolerance: f64,
-    manner: Manner,
 }
 
 /// How OSQP is set; see the program.
@@ -132,10 +112,10 @@ impl Osqp {
         let (unknowns, child) = (quadratic.matrix.order(), Mutex::new(child));
         let mut osqp = Self { manner, limit, unknowns, child, questions, answers };
         let all = Program::new(quadratic)?;
-        let ticks = quadratic.ticks.iter();
-        let ticks = ticks.map(|tick| Data { cost: all.cost(tick), least: all.least(tick) });
+        let data = |tick| json!({"cost": all.cost(tick), "least": all.least(tick)});
+        let ticks: Vec<_> = quadratic.ticks.iter().map(data).collect();
         let (matrix, constraints) = (&all.matrix, &all.constraints);
-        let problem = Problem { matrix, constraints, ticks: ticks.collect() };
+        let problem = json!({"matrix": matrix, "constraints": constraints, "ticks": ticks});
         within(limit, &osqp.child, || say(&mut osqp.questions, &problem))?;
         Ok(osqp)
     }
@@ -177,7 +157,9 @@ impl TimedSolver for Osqp {
         let (cold, manner) = (start == InitialGuess::Cold, self.manner);
         let (questions, answers) = (&mut self.questions, &mut self.answers);
         let line = within(self.limit, &self.child, || {
-            say(questions, &Question { tick, cold, tolerance, manner })?;
+            let asked =
+                json!({"tick": tick, "cold": cold, "tolerance": tolerance, "manner": manner});
+            say(questions, &asked)?;
             let mut line = String::new();
             answers.read_line(&mut line).map(|_| line).map_err(failed)
         })?;
@@ -209,8 +191,8 @@ mod tests {
 
     use super::super::full::quadratic;
     use super::super::load_case::LoadCase;
-    use super::super::tests::catalogue;
     use super::*;
+    use crate::trade::tests::scene;
     use signorini_problem::{Parts, Problem};
     use signorini_scene::mesh::structured::{Cells, grid};
 
@@ -220,7 +202,7 @@ mod tests {
         let program = folder.path().join("osqp");
         std::fs::write(&program, format!("#!/bin/sh\n{script}\n")).unwrap();
         std::fs::set_permissions(&program, PermissionsExt::from_mode(0o755)).unwrap();
-        let scene = catalogue("moving-tri");
+        let scene = scene("catalogue/moving-tri");
         let problem = Problem::new(&scene, grid(16, Cells::Triangles)).unwrap();
         let parts = Parts::examine(&problem).unwrap();
         let (full, _) = quadratic(&problem, &parts, &LoadCase::drawn(&problem, 1)).unwrap();

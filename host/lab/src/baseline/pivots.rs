@@ -11,7 +11,7 @@ use signorini_kernel::limits::Deadline;
 
 use super::failed;
 use super::quadratic::QuadraticLoads;
-use super::timed_solver::{InitialGuess, Run, TimedSolver, counted};
+use super::series::{InitialGuess, Run, TimedSolver, counted};
 use signorini_bake::condensed::{Baked, Work};
 use signorini_condense::CondensedModel;
 use signorini_problem::scalar::Scalar;

@@ -8,28 +8,18 @@
 //! z = (u, s), and C z ≥ r. An edge of m_i = 0 has a given flux and no row. Without limits z is u, and C takes the contact
 //! unknowns out of it.
 
-use serde::Serialize;
 use signorini_scene::error::Result;
 
 use super::failed;
 use super::quadratic::{Matrix, Quadratic, QuadraticLoads};
 
-/// A matrix by columns.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct Columns {
-    /// Where each column starts, and the last one ends.
-    pub starts: Vec<usize>,
-    pub rows: Vec<usize>,
-    pub values: Vec<f64>,
-}
-
-/// The part that all ticks of a [`Quadratic`] have in common.
+/// The part that all ticks of a [`Quadratic`] have in common; its matrices by columns.
 #[derive(Debug, Clone)]
 pub(super) struct Program {
     /// The upper triangle of K, and empty columns for s.
-    pub matrix: Columns,
+    pub matrix: Matrix,
     /// C
-    pub constraints: Columns,
+    pub constraints: Matrix,
     /// Rows of C: first those of ψ, then s ≥ 0.
     pub count: usize,
     held: Vec<HeldEdge>,
@@ -51,26 +41,20 @@ impl Program {
     /// # Errors
     /// An edge with a limit in some ticks alone.
     pub fn new(quadratic: &Quadratic) -> Result<Self> {
-        let (free, unknowns) = (quadratic.free(), quadratic.matrix.order());
         let edges = (0..quadratic.contact()).map(|contact| HeldEdge::of(quadratic, contact));
         let held: Vec<HeldEdge> =
             edges.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
-        let mut constraints =
-            Columns { starts: vec![0; free + 1], rows: Vec::new(), values: Vec::new() };
+        let (mut matrix, mut constraints) = (upper(&quadratic.matrix), Matrix::new());
+        (0..quadratic.free()).for_each(|_| constraints.push([]));
         let mut rows = held.iter().enumerate().peekable();
-        for contact in 0..unknowns - free {
-            if let Some((row, edge)) = rows.next_if(|(_, edge)| edge.contact == contact) {
-                constraints.push(row, edge.sign);
-            }
-            constraints.end_column();
+        for contact in 0..quadratic.contact() {
+            let own = rows.next_if(|(_, edge)| edge.contact == contact);
+            constraints.push(own.map(|(row, edge)| (row, edge.sign)));
         }
-        let mut matrix = Columns::upper(&quadratic.matrix);
         let mut count = held.len();
         for (row, _) in held.iter().enumerate().filter(|(_, edge)| edge.is_soft) {
-            constraints.push(row, 1.0);
-            constraints.push(count, 1.0);
-            constraints.end_column();
-            matrix.end_column();
+            constraints.push([(row, 1.0), (count, 1.0)]);
+            matrix.push([]);
             count += 1;
         }
         Ok(Self { matrix, constraints, count, held })
@@ -108,31 +92,13 @@ impl HeldEdge {
     }
 }
 
-impl Columns {
-    /// The upper triangle of a symmetric matrix, rows ascending.
-    fn upper(matrix: &Matrix) -> Self {
-        let mut upper = Self { starts: vec![0], rows: Vec::new(), values: Vec::new() };
-        for column in 0..matrix.order() {
-            let above = matrix.row(column).filter(|&(row, _)| row <= column);
-            let mut above: Vec<_> = above.collect();
-            above.sort_unstable_by_key(|&(row, _)| row);
-            above.into_iter().for_each(|(row, value)| upper.push(row, value));
-            upper.end_column();
-        }
-        upper
+/// The upper triangle of a symmetric matrix by columns, rows ascending.
+fn upper(matrix: &Matrix) -> Matrix {
+    let mut upper = Matrix::new();
+    for column in 0..matrix.order() {
+        let mut above: Vec<_> = matrix.row(column).filter(|&(row, _)| row <= column).collect();
+        above.sort_unstable_by_key(|&(row, _)| row);
+        upper.push(above);
     }
-
-    fn push(&mut self, row: usize, value: f64) {
-        self.rows.push(row);
-        self.values.push(value);
-    }
-
-    fn end_column(&mut self) {
-        self.starts.push(self.rows.len());
-    }
-
-    /// The matrix with every entry's sign changed.
-    pub fn negative(&self) -> Self {
-        Self { values: self.values.iter().map(|value| -value).collect(), ..self.clone() }
-    }
+    upper
 }

@@ -8,7 +8,7 @@ use signorini_kernel::solver::{Outcome, Settings, Solver};
 use signorini_kernel::system::System;
 
 use super::failed;
-use super::timed_solver::{InitialGuess, Run, TimedSolver, counted};
+use super::series::{InitialGuess, Run, TimedSolver, counted};
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 

@@ -9,6 +9,7 @@
 //! Their answers are known beforehand, from the host's active set at full accuracy: the error of a
 //! solver is ‖u − u*‖_K, which is the energy distance ‖A^½∇_h(u − u*)‖ of the fields.
 
+use serde::Serialize;
 use signorini_reference::{Factor, Problem};
 use signorini_scene::error::Result;
 
@@ -24,10 +25,12 @@ pub(super) struct Quadratic {
     pub floating: Vec<bool>,
 }
 
-/// A symmetric matrix in compressed rows.
-#[derive(Debug, Clone, Default)]
+/// A matrix in compressed rows, or by columns, as OSQP's process is told one.
+#[derive(Debug, Clone, Default, Serialize)]
 pub(super) struct Matrix {
+    #[serde(rename = "starts")]
     pub row_ptr: Vec<u32>,
+    #[serde(rename = "rows")]
     pub col_idx: Vec<u32>,
     pub values: Vec<f64>,
 }
@@ -71,7 +74,8 @@ impl Matrix {
         self.row_ptr.len() - 1
     }
 
-    pub fn push_row(&mut self, entries: impl Iterator<Item = (usize, f64)>) {
+    /// Adds a row, or a column.
+    pub fn push(&mut self, entries: impl IntoIterator<Item = (usize, f64)>) {
         for (column, value) in entries {
             self.col_idx.push(column as u32);
             self.values.push(value);

@@ -1,15 +1,88 @@
-//! The repeats of one solver: the tolerance that will do, passes over the ticks, and what is recorded of them.
+//! A solver as a contest runs it, its repeats, and their record: the tolerance that will do, passes over the ticks.
 
 use std::time::Instant;
 
-use crate::baseline::record::Baseline;
+use serde::{Deserialize, Serialize};
+
+use crate::cycles::{self, median_and_spread};
+use crate::record_file::word;
 use signorini_scene::error::Result;
 
 use super::quadratic::Quadratic;
-use super::timed_solver::{InitialGuess, TimedSolver};
 
-/// Seconds of a repeat, at least.
-const REPEAT: f64 = 0.1;
+/// A solver on the matrices of a scene.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Baseline {
+    /// `kernel PSOR`, `Clarabel`, …
+    pub solver: String,
+    /// `full`, `condensed`.
+    pub problem: String,
+    /// Unknowns of that problem.
+    pub unknowns: usize,
+    /// `cold`, `warm`.
+    pub start: String,
+    /// Cycles of a solve on this machine, the median; setup that a loop does once is not in it.
+    pub cycles: f64,
+    /// (largest − smallest)/median of the repeats.
+    pub cycles_spread: f64,
+    /// Cycles of the slowest tick, the median over the repeats.
+    pub worst: f64,
+    /// The loosest tolerance, in powers of ten, at which `algebraic_error` comes to lie within `target`.
+    pub tolerance: f64,
+    /// Cycles over those of the kernel's best answer in f64 for the same problem and start.
+    pub ratio: f64,
+    /// Cycles over those of the kernel's condensed model in f64, same start.
+    pub to_condensed: Option<f64>,
+    /// Energy distance to the solution of the discrete problem, the largest of all ticks.
+    pub algebraic_error: f64,
+    /// Largest `algebraic_error` that will do: 1 % of the discretisation error.
+    pub target: f64,
+    /// Sweeps or iterations.
+    pub iterations: u32,
+}
+
+/// The state that a solve begins with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum InitialGuess {
+    Cold,
+    /// From what the last run left.
+    Warm,
+}
+
+/// One solve.
+#[derive(Debug, Clone)]
+pub(super) struct Run {
+    pub cycles: f64,
+    pub iterations: u32,
+    pub u: Vec<f64>,
+}
+
+/// A solver with its problem.
+pub(super) trait TimedSolver {
+    /// Solves a tick and counts its own cycles: copies of data and of the answer are not part of it.
+    fn run(&mut self, tick: usize, start: InitialGuess, tolerance: f64) -> Result<Run>;
+
+    /// The starts that the solver has.
+    fn starts(&self) -> &'static [InitialGuess] {
+        &[InitialGuess::Cold, InitialGuess::Warm]
+    }
+
+    /// The exponent of the finest tolerance that makes sense.
+    fn finest(&self) -> i32 {
+        -13
+    }
+}
+
+/// The cycles of `work` and what it returns.
+pub(super) fn counted<T>(work: impl FnOnce() -> T) -> (f64, T) {
+    let start = cycles::now();
+    let result = work();
+    (cycles::now().saturating_sub(start) as f64, result)
+}
+
+/// Seconds of a repeat, at least; tests ask for no times.
+const REPEAT: f64 = if cfg!(test) { 0.0 } else { 0.1 };
 /// Seconds after which no repeat begins.
 const ENOUGH: f64 = 2.0;
 /// Seconds after which the trial itself is the measurement.
@@ -113,7 +186,7 @@ impl Task<'_> {
         iterations.sort_unstable();
         let iterations = iterations[iterations.len() / 2];
         let worst = cycles.iter().fold(0.0, |most: f64, &cycles| most.max(cycles));
-        let (cycles, _) = median_and_spread(cycles.into_iter());
+        let (cycles, _) = median_and_spread(cycles);
         Ok(Pass { cycles, worst, iterations, distance })
     }
 
@@ -124,7 +197,7 @@ impl Task<'_> {
             solver: name.to_owned(),
             problem: self.problem.to_owned(),
             unknowns: self.quadratic.matrix.order(),
-            start: start.name().to_owned(),
+            start: word(&start),
             tolerance: 10f64.powi(*exponent),
             cycles,
             cycles_spread,
@@ -136,12 +209,4 @@ impl Task<'_> {
             iterations: passes.last().map_or(0, |pass| pass.iterations),
         }
     }
-}
-
-/// The median, and (largest − smallest)/median.
-fn median_and_spread(cycles: impl Iterator<Item = f64>) -> (f64, f64) {
-    let mut sorted: Vec<f64> = cycles.collect();
-    sorted.sort_unstable_by(f64::total_cmp);
-    let median = sorted[sorted.len() / 2];
-    (median, (sorted[sorted.len() - 1] - sorted[0]) / median.max(1.0))
 }

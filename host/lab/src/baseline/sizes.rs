@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use super::benchmark::Benchmark;
 use super::load_case::LoadCase;
+use super::series::Baseline;
 use super::{SHARE, discretisation_error, osqp};
-use crate::baseline::record::Baseline;
 use crate::checkout::root;
 use crate::cycles::{NARROW, REGISTERS};
 use signorini_problem::Problem;
@@ -60,7 +60,7 @@ pub struct Size {
 ///
 /// # Errors
 /// The scene `meshes/catalogue/moving-tri.toml` is not there.
-pub fn sizes(progress: impl Fn(&str)) -> Result<Sizes> {
+pub fn sizes(mut progress: impl FnMut(&str)) -> Result<Sizes> {
     let scene = Scene::read(&root()?.join("meshes/catalogue/moving-tri.toml"))?;
     progress("building OSQP");
     let program = osqp::program();

@@ -2,33 +2,21 @@
 
 mod limits;
 
-use signorini_tolerances::lab::{AS_BAKED, PIVOTING};
-use std::path::PathBuf;
-
 use super::condensed::condensed;
 use super::full::quadratic;
 use super::load_case::LoadCase;
 use super::sizes::{Sizes, size};
 use super::table;
+use crate::trade::tests::{problem, scene};
 use signorini_condense::condense;
-use signorini_problem::{Parts, Problem};
-use signorini_scene::mesh;
-use signorini_scene::scene::Scene;
-
-fn read(file: &str) -> Scene {
-    let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../meshes"));
-    Scene::read(&root.join(file)).unwrap()
-}
-
-pub(super) fn catalogue(name: &str) -> Scene {
-    read(&format!("catalogue/{name}.toml"))
-}
+use signorini_problem::Parts;
+use signorini_tolerances::lab::{AS_BAKED, PIVOTING};
 
 /// Answers are compared inside: a solver that is further from the active set's than 1 % of the discretisation
 /// error says so in its record.
 #[test]
 fn all_solvers_agree_on_small_grids() {
-    let scene = catalogue("moving-tri");
+    let scene = scene("catalogue/moving-tri");
     let mut notes = Vec::new();
     let rows: Vec<_> =
         [3, 4, 8].map(|n| size(&scene, n, 3, None, &mut notes).unwrap()).into_iter().collect();
@@ -53,9 +41,8 @@ fn all_solvers_agree_on_small_grids() {
 /// Contact moves from tick to tick, so that warm starts have something to do.
 #[test]
 fn contact_moves() {
-    for file in ["catalogue/h-tri.toml", "scenes/benbelgacem.toml"] {
-        let scene = read(file);
-        let problem = Problem::new(&scene, mesh::read(&scene.mesh.value).unwrap()).unwrap();
+    for file in ["catalogue/h-tri", "scenes/benbelgacem"] {
+        let problem = problem(file);
         let parts = Parts::examine(&problem).unwrap();
         let moments = LoadCase::drawn(&problem, 20);
         let (full, _) = quadratic(&problem, &parts, &moments).unwrap();
@@ -72,8 +59,7 @@ fn contact_moves() {
 /// The condensed problem is the one that is baked.
 #[test]
 fn condensed_as_baked() {
-    let scene = read("scenes/slab.toml");
-    let problem = Problem::new(&scene, mesh::read(&scene.mesh.value).unwrap()).unwrap();
+    let problem = problem("scenes/slab");
     let parts = Parts::examine(&problem).unwrap();
     let (full, factor) = quadratic(&problem, &parts, &LoadCase::drawn(&problem, 2)).unwrap();
     let (ours, model) = condensed(&problem, &full, &factor).unwrap();
@@ -91,8 +77,7 @@ fn condensed_as_baked() {
 /// On a scene of its own mesh.
 #[test]
 fn a_scene_with_every_solver_but_osqp() {
-    let scene = read("scenes/strip.toml");
-    let problem = Problem::new(&scene, mesh::read(&scene.mesh.value).unwrap()).unwrap();
+    let problem = problem("scenes/strip");
     let found = super::benchmark::Benchmark {
         problem: &problem,
         moments: &LoadCase::drawn(&problem, 2),

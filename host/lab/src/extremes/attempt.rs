@@ -1,19 +1,17 @@
 //! A case as a user would pose it: a scene file and a mesh file, read, checked and solved.
 
-use std::fmt::Write;
 use std::path::Path;
 use std::sync::Arc;
 
 use super::case::ExtremeCase;
-use super::grid::msh;
+use crate::record_file::word;
 use signorini_problem::Problem;
 use signorini_scene::error::{Error, Result};
-use signorini_scene::mesh::Mesh;
+use signorini_scene::mesh::{Mesh, gmsh::write as msh};
 use signorini_scene::scene::Scene;
-use signorini_scene::setting::Precision;
 use signorini_session::tick::{Budget, ScheduledTick, TickRecord, play};
 use signorini_solve::adaptive::mesh_of_scene;
-use signorini_solve::{Ending, Options, ScalarKind, Solution, solve};
+use signorini_solve::{Ending, Options, Solution, solve};
 
 /// An answer of the solver.
 #[derive(Debug, Clone)]
@@ -36,7 +34,7 @@ pub fn attempt(case: &ExtremeCase, folder: &Path) -> Result<Attempt> {
     let (path, mesh) = (folder.join("scene.toml"), folder.join("mesh.msh"));
     let write = |path: &Path, text: String| std::fs::write(path, text).map_err(Error::io(path));
     write(&path, case.posed.scene() + &setting(case))?;
-    write(&mesh, msh(&case.posed.mesh()))?;
+    write(&mesh, msh::text(&case.posed.mesh()))?;
     let scene = Scene::read(&path)?;
     let problem = Problem::new(&scene, mesh_of_scene(&scene)?.mesh)?;
     if case.effort.ticks > 0 {
@@ -58,16 +56,9 @@ pub fn attempt(case: &ExtremeCase, folder: &Path) -> Result<Attempt> {
 
 /// A fixed ω is a setting of the scene.
 fn setting(case: &ExtremeCase) -> String {
-    let mut text = String::new();
-    if let Some(omega) = case.effort.omega {
-        let scalar = match case.scalar {
-            ScalarKind::F64 => Precision::F64,
-            ScalarKind::F32 => Precision::F32,
-        };
-        let scalar = serde_json::to_string(&scalar).unwrap_or_default();
-        let _ = write!(text, "[setting]\nomega = {omega:?}\nscalar = {scalar}\nmodel = \"full\"\n");
-    }
-    text
+    let Some(omega) = case.effort.omega else { return String::new() };
+    let scalar = word(&case.scalar);
+    format!("[setting]\nomega = {omega:?}\nscalar = \"{scalar}\"\nmodel = \"full\"\n")
 }
 
 /// Ticks at t = 0, 1, 2, …; of the sweeps the most of one tick count.

@@ -76,12 +76,7 @@ impl Grid {
             }
             _ => vec![1.0; self.n as usize],
         };
-        let total: f64 = heights.iter().sum();
-        let sums = heights.iter().scan(0.0, |sum, height| {
-            *sum += height;
-            Some(*sum / total)
-        });
-        [0.0].into_iter().chain(sums).collect()
+        partition(&heights)
     }
 
     /// Where vertex i of line j lies.
@@ -111,6 +106,16 @@ impl Grid {
     }
 }
 
+/// The ends of intervals of these widths one after the other, scaled so that they are 0 to 1.
+pub(super) fn partition(widths: &[f64]) -> Vec<f64> {
+    let total: f64 = widths.iter().sum();
+    let sums = widths.iter().scan(0.0, |sum, width| {
+        *sum += width;
+        Some(*sum / total)
+    });
+    [0.0].into_iter().chain(sums).collect()
+}
+
 /// q with (1 + q + … + q^{n−1}) · `first` = n, by bisection: the heights add up to 1.
 fn growth(first: f64, n: u32) -> f64 {
     let sum = |q: f64| (0..n).map(|j| q.powf(f64::from(j))).sum::<f64>() * first;
@@ -122,50 +127,11 @@ fn growth(first: f64, n: u32) -> f64 {
     low
 }
 
-/// Gmsh MSH 2.2 ASCII, with the surfaces and curves of the mesh.
-pub fn msh(mesh: &Mesh) -> String {
-    use std::fmt::Write;
-    let mut text = String::from("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n");
-    let _ = writeln!(text, "{}", mesh.curves.len() + mesh.surfaces.len());
-    for (tag, curve) in mesh.curves.iter().enumerate() {
-        let _ = writeln!(text, "1 {} \"{}\"", tag + 1, curve.name);
-    }
-    for (tag, surface) in mesh.surfaces.iter().enumerate() {
-        let _ = writeln!(text, "2 {} \"{}\"", tag + 1, surface.name);
-    }
-    let _ = writeln!(text, "$EndPhysicalNames\n$Nodes\n{}", mesh.vertices.len());
-    for (at, [x, y]) in mesh.vertices.iter().enumerate() {
-        let _ = writeln!(text, "{} {x:e} {y:e} 0", at + 1);
-    }
-    let lines: usize = mesh.curves.iter().map(|curve| curve.edges.len()).sum();
-    let _ = writeln!(text, "$EndNodes\n$Elements\n{}", lines + mesh.cells());
-    let mut number = 0;
-    let mut element = |kind: u32, tag: usize, corners: &[u32]| {
-        number += 1;
-        let _ = write!(text, "{number} {kind} 2 {tag} {tag}");
-        corners.iter().for_each(|corner| {
-            let _ = write!(text, " {}", corner + 1);
-        });
-        text.push('\n');
-    };
-    for (tag, curve) in mesh.curves.iter().enumerate() {
-        curve.edges.iter().for_each(|edge| element(1, tag + 1, edge));
-    }
-    for (tag, surface) in mesh.surfaces.iter().enumerate() {
-        for &cell in &surface.cells {
-            match (cell as usize).checked_sub(mesh.triangles.len()) {
-                None => element(2, tag + 1, &mesh.triangles[cell as usize]),
-                Some(quad) => element(3, tag + 1, &mesh.quads[quad]),
-            }
-        }
-    }
-    text + "$EndElements\n"
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use signorini_scene::mesh;
+    use signorini_scene::mesh::gmsh::write;
     use signorini_scene::mesh::shape::{Defect, orientation};
     use signorini_tolerances::lab::ASPECT;
 
@@ -183,7 +149,7 @@ mod tests {
         for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
             let mesh = Grid { n: 3, cells, shape: Shape::Graded { aspect: 1e5 } }.mesh();
             let path = folder.path().join("grid.msh");
-            std::fs::write(&path, msh(&mesh)).unwrap();
+            std::fs::write(&path, write::text(&mesh)).unwrap();
             let read = mesh::read(&path).unwrap();
             assert_eq!(read.vertices, mesh.vertices);
             assert_eq!(

@@ -10,10 +10,11 @@
 //! Useful: not above [`USEFUL`] times the bound that the exact discrete solution gets (or what the scalar's
 //! digits make of the energy norm, where that is more), and not above the energy norm itself.
 
+use std::sync::mpsc::RecvTimeoutError;
+
 use serde::{Deserialize, Serialize};
 
 use super::measure::{Measured, Reference};
-use super::watch::Lost;
 use signorini_scene::error::Error;
 use signorini_solve::ScalarKind;
 
@@ -28,7 +29,9 @@ pub const DIGITS: [f64; 2] = [1e-10, 1e-4];
 pub const FAR: f64 = 4.0;
 
 /// The worth of an answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default, Serialize, Deserialize,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
     /// Within [`USEFUL`] of the best that the grid allows, and certified.
@@ -38,6 +41,7 @@ pub enum Outcome {
     /// Refused, with a message.
     TypedError,
     /// Anything else.
+    #[default]
     Wrong,
 }
 
@@ -80,11 +84,11 @@ pub enum Ended {
     },
 }
 
-impl From<Lost> for Ended {
-    fn from(lost: Lost) -> Self {
+impl From<RecvTimeoutError> for Ended {
+    fn from(lost: RecvTimeoutError) -> Self {
         match lost {
-            Lost::TimedOut => Self::TimedOut,
-            Lost::Panicked => Self::Panicked,
+            RecvTimeoutError::Timeout => Self::TimedOut,
+            RecvTimeoutError::Disconnected => Self::Panicked,
         }
     }
 }

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use super::case::ExtremeCase;
 use super::record::Row;
-use crate::trade::journal::Journal;
-use crate::trade::measured_setting::{digest, program};
+use crate::trade::journal::{Journal, digest, program};
+
 use crate::trade::shard::Shard;
 use signorini_scene::error::{Error, Result};
 
@@ -89,7 +89,7 @@ fn held<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::record::fixture;
+    use super::super::record::tests::fixture;
     use super::*;
 
     #[test]

@@ -104,21 +104,11 @@ pub fn measure(case: &ExtremeCase, attempt: &Attempt) -> Result<Measured> {
             }
         }
     };
-    let of_fields = match posed.grid.shape {
-        Shape::Trapezoids => {
-            let errors = errors(exact, &problem, &u, &flux)?;
-            Some([errors.h1, errors.flux])
-        }
-        _ => None,
-    };
-    Ok(Measured {
-        bound,
-        error,
-        uncertain,
-        reference,
-        of_fields,
-        finite: finite && error.is_finite(),
-    })
+    let is_bent = posed.grid.shape == Shape::Trapezoids;
+    let of_fields = is_bent.then(|| errors(exact, &problem, &u, &flux)).transpose()?;
+    let of_fields = of_fields.map(|errors| [errors.h1, errors.flux]);
+    let finite = error.is_finite();
+    Ok(Measured { bound, error, uncertain, reference, of_fields, finite })
 }
 
 /// Of the ticks the one whose bound is worst kept, against the exact discrete solution of its time.

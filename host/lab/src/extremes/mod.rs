@@ -3,7 +3,7 @@
 //! ```text
 //!   axis, plan ─► Case ─► posed (solution, grid: scene and mesh at that scale) ─► attempt (read, check, solve)
 //!                   └───► the same at scale 1 ─► measure (exact solution, direct solver) ─► judge ─► record
-//!   record ─► section, table
+//!   record ─► section
 //! ```
 //! Every case is a scene file and a mesh file that go through the reader, the checks and the default
 //! options of [`signorini_solve`], on a thread of its own that may panic or be left alone after its limit of time. The
@@ -24,11 +24,12 @@ pub mod random;
 pub mod record;
 pub mod section;
 mod solution;
-mod table;
 mod watch;
 
+use std::cmp::Reverse;
 use std::time::{Duration, Instant};
 
+use crate::record_file::word;
 use attempt::{Attempt, attempt};
 use case::ExtremeCase;
 use flush::flushed;
@@ -38,54 +39,33 @@ use measure::{Measured, measure, of_ticks};
 use record::{Record, Row, definitions};
 use watch::watched;
 
-pub use table::text;
+pub use record::text;
 
 use signorini_problem::threads::on_two_threads;
 use signorini_scene::error::{Error, Result};
-use signorini_solve::ScalarKind;
 
 /// Longer than any case takes by a factor of some ten, on a machine that has other work: what has no answer by then hangs.
 const LIMIT: Duration = Duration::from_secs(900);
 
-/// Cases of all studies, or of those whose name contains `only`.
-#[derive(Debug)]
-pub struct Plan(Vec<ExtremeCase>);
+/// The cases of all studies, or those whose name contains `only`.
+pub fn cases(only: Option<&str>) -> Vec<ExtremeCase> {
+    let mut cases = plan::cases();
+    cases.retain(|case| only.is_none_or(|only| case.name().contains(only)));
+    cases
+}
 
-impl Plan {
-    /// Everything, or what `only` names.
-    pub fn new(only: Option<&str>) -> Self {
-        let mut cases = plan::cases();
-        cases.retain(|case| only.is_none_or(|only| case.name().contains(only)));
-        Self(cases)
-    }
-
-    /// How many cases there are.
-    pub fn len(&self) -> usize {
-        self.0.len()
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
-    /// Runs those that are not yet `kept` in two threads, the largest first; calls `done` after each.
-    ///
-    /// # Errors
-    /// No temporary folder for the scenes; finished cases cannot be kept.
-    pub fn run(&self, kept: &Kept, done: impl Fn() + Sync) -> Result<Record> {
-        let mut order: Vec<usize> = (0..self.0.len()).collect();
-        order.sort_by_key(|&at| std::cmp::Reverse(self.0[at].posed.grid.n));
-        let rows = on_two_threads(
-            &order,
-            |&at| Ok((at, kept.row(&self.0[at], || row(&self.0[at]))?)),
-            done,
-        )?;
-        let mut rows: Vec<(usize, Row)> = rows;
-        rows.sort_by_key(|&(at, _)| at);
-        let cases = rows.into_iter().map(|(_, row)| row).collect();
-        Ok(Record { definitions: definitions(), seconds: kept.seconds(), cases })
-    }
+/// Runs the cases that are not yet `kept` in two threads, the largest first; calls `done` after each.
+///
+/// # Errors
+/// No temporary folder for the scenes; finished cases cannot be kept.
+pub fn run(cases: &[ExtremeCase], kept: &Kept, done: impl Fn() + Sync) -> Result<Record> {
+    let mut order: Vec<usize> = (0..cases.len()).collect();
+    order.sort_by_key(|&at| Reverse(cases[at].posed.grid.n));
+    let found = |&at: &usize| Ok((at, kept.row(&cases[at], || row(&cases[at]))?));
+    let mut rows = on_two_threads(&order, found, done)?;
+    rows.sort_by_key(|&(at, _)| at);
+    let cases = rows.into_iter().map(|(_, row)| row).collect();
+    Ok(Record { definitions: definitions(), seconds: kept.seconds(), cases })
 }
 
 /// Remains of a case: the answer, how wrong it is, and how long it took.
@@ -130,33 +110,29 @@ fn measured(case: &ExtremeCase, attempt: Attempt) -> Result<(Attempt, Measured)>
 
 /// The numbers of a case; those that are not finite are left out.
 fn described(case: &ExtremeCase, answer: Option<&(Attempt, Measured)>) -> Row {
-    let (attempt, measured) = answer.map(|(attempt, measured)| (attempt, measured)).unzip();
-    let finite = |number: f64| number.is_finite().then_some(number);
-    let bound = measured.and_then(|measured| measured.bound).and_then(finite);
-    let error = measured.map(|measured| measured.error).and_then(finite);
-    let reference = measured.and_then(|measured| measured.reference);
-    let of_fields = measured.and_then(|measured| measured.of_fields);
-    Row {
+    let row = Row {
         axis: case.axis.clone(),
         value: case.value,
         axis2: case.across.as_ref().map(|(axis, _)| axis.clone()),
         value2: case.across.as_ref().map(|&(_, value)| value),
-        scalar: match case.scalar {
-            ScalarKind::F64 => "f64".to_owned(),
-            ScalarKind::F32 => "f32".to_owned(),
-        },
-        outcome: judge::Outcome::Wrong,
+        scalar: word(&case.scalar),
+        ..Row::default()
+    };
+    let Some((attempt, measured)) = answer else { return row };
+    let finite = |number: f64| number.is_finite().then_some(number);
+    let (bound, error) = (measured.bound.and_then(finite), finite(measured.error));
+    let [error_u, error_flux] = measured.of_fields.map_or([None; 2], |of| of.map(finite));
+    Row {
         error_over_bound: error.zip(bound).and_then(|(error, bound)| ratio(error, bound)),
-        sweeps: attempt.map(|attempt| attempt.answer.sweeps),
-        unknowns: attempt.map(|attempt| attempt.unknowns),
-        status: attempt.map(|attempt| attempt.answer.status.name().to_owned()),
+        sweeps: Some(attempt.answer.sweeps),
+        unknowns: Some(attempt.unknowns),
+        status: Some(attempt.answer.status.name().to_owned()),
         error,
         bound,
-        reference_bound: reference.and_then(|reference| reference.bound).and_then(finite),
-        energy: reference.map(|reference| reference.energy).and_then(finite),
-        error_u: of_fields.map(|[u, _]| u).and_then(finite),
-        error_flux: of_fields.map(|[_, flux]| flux).and_then(finite),
-        seconds: 0.0,
-        note: String::new(),
+        reference_bound: measured.reference.and_then(|of| of.bound).and_then(finite),
+        energy: measured.reference.and_then(|of| finite(of.energy)),
+        error_u,
+        error_flux,
+        ..row
     }
 }

@@ -1,12 +1,14 @@
-//! The findings of a run, as `extremes.json` and `extremes.csv` hold them.
+//! The findings of a run, as `extremes.json` and `extremes.csv` hold them and as the terminal shows them.
 
+use std::fmt::Write;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
 use super::judge::{DIGITS, FAR, INTEGRATED, Outcome, USEFUL};
-use crate::csv_file::csv_file;
-use signorini_scene::error::{Error, Result};
+use crate::record_file;
+use signorini_draw::{Column, Table};
+use signorini_scene::error::Result;
 
 /// The committed record, from the root of the checkout.
 pub const RECORD: &str = "host/benches/extremes/extremes.json";
@@ -32,7 +34,7 @@ pub struct Definition {
 }
 
 /// A case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Row {
     /// The axis, and which of several studies along it.
     pub axis: String,
@@ -97,6 +99,14 @@ pub fn definitions() -> Vec<Definition> {
 }
 
 impl Record {
+    /// The text of `extremes.csv`: the same cases.
+    ///
+    /// # Errors
+    /// Never for plain data.
+    pub fn csv(&self) -> Result<Vec<u8>> {
+        record_file::csv("extremes.csv", &self.cases)
+    }
+
     /// The text of `extremes.json`: a line per case.
     pub fn json(&self) -> String {
         let line = |value: serde_json::Result<String>| value.unwrap_or_default();
@@ -111,33 +121,22 @@ impl Record {
         )
     }
 
-    /// The text of `extremes.csv`: the same cases.
-    ///
-    /// # Errors
-    /// Never for plain data.
-    pub fn csv(&self) -> Result<Vec<u8>> {
-        csv_file("extremes.csv", &self.cases)
-    }
-
     /// Reads the record at `path`; none where there is no file.
     ///
     /// # Errors
     /// A file that is no record, with its name.
     pub fn read(path: &Path) -> Result<Option<Self>> {
-        if !path.is_file() {
-            return Ok(None);
-        }
-        let text = std::fs::read_to_string(path).map_err(Error::io(path))?;
-        serde_json::from_str(&text).map(Some).map_err(|cause| {
-            let name = path.display();
-            let hint = "run `signorini extremes` again";
-            Error::Check(format!("{name}: no record of extremes: {cause}; {hint}"))
-        })
+        record_file::read(path, "extremes", "signorini extremes")
     }
 
     /// How many cases have this outcome.
     pub fn count(&self, outcome: Outcome) -> usize {
         self.cases.iter().filter(|case| case.outcome == outcome).count()
+    }
+
+    /// How many cases ended in which way, in words.
+    pub fn counts(&self) -> String {
+        Outcome::ALL.map(|of| format!("{} {}", self.count(of), of.name())).join(", ")
     }
 
     /// The studies in their order: the axis, what it is crossed with, and the cases.
@@ -154,89 +153,57 @@ impl Record {
     }
 }
 
-/// Cases for tests: one axis, one pair, all outcomes.
-#[cfg(test)]
-pub(super) fn fixture() -> Record {
-    let row = |at: usize, axis: &str, value: f64, across: Option<f64>, scalar: &str| {
-        let outcome = Outcome::ALL[at % 4];
-        let solved = outcome != Outcome::TypedError;
-        Row {
-            axis: axis.to_owned(),
-            value,
-            axis2: across.map(|_| "load < 1".to_owned()),
-            value2: across,
-            scalar: scalar.to_owned(),
-            outcome,
-            error_over_bound: solved.then_some(0.5 + at as f64 / 64.0),
-            sweeps: solved.then_some(10_u32.pow(at as u32 % 7)),
-            unknowns: solved.then_some(100),
-            status: solved.then(|| "converged".to_owned()),
-            error: solved.then_some(0.1),
-            bound: solved.then_some(0.2),
-            reference_bound: solved.then_some(0.2),
-            energy: solved.then_some(1.0),
-            error_u: None,
-            error_flux: None,
-            seconds: 0.25,
-            note: if at.is_multiple_of(4) { String::new() } else { format!("note {at} & <more>") },
+/// The cases of a study in one scalar.
+struct Line<'r> {
+    name: String,
+    scalar: &'static str,
+    cases: Vec<&'r Row>,
+}
+
+/// A line for each study: how many cases ended in which way, and the most sweeps; then what is wrong.
+pub fn text(record: &Record) -> String {
+    let mut columns = vec![
+        Column::words("extremes", |line: &Line| line.name.clone()),
+        Column::words("scalar", |line: &Line| line.scalar.to_owned()),
+    ];
+    columns.extend(Outcome::ALL.map(|outcome| {
+        Column::number(outcome.name(), move |line: &Line| {
+            match line.cases.iter().filter(|case| case.outcome == outcome).count() {
+                0 => "·".to_owned(),
+                some => some.to_string(),
+            }
+        })
+    }));
+    columns.push(Column::number("most sweeps", |line: &Line| {
+        let sweeps = line.cases.iter().filter_map(|case| case.sweeps).max();
+        sweeps.map_or("–".to_owned(), |sweeps| sweeps.to_string())
+    }));
+    let mut text = Table::new(&columns, lines(record)).text() + "\n";
+    for case in record.cases.iter().filter(|case| case.outcome == Outcome::Wrong) {
+        let _ = writeln!(text, "wrong: {}: {}", place(case), case.note);
+    }
+    let _ = write!(text, "{} cases: {}", record.cases.len(), record.counts());
+    text
+}
+
+fn lines(record: &Record) -> Vec<Line<'_>> {
+    let mut lines = Vec::new();
+    for (axis, across, cases) in record.studies() {
+        let name = across.map_or(axis.to_owned(), |across| format!("{axis} × {across}"));
+        for (scalar, name) in [("f64", name), ("f32", String::new())] {
+            let cases = cases.iter().copied().filter(|case| case.scalar == scalar).collect();
+            lines.push(Line { name, scalar, cases });
         }
-    };
-    let mut cases = Vec::new();
-    for (at, scalar) in ["f64", "f32"].into_iter().enumerate() {
-        cases.extend(
-            (0..4).map(|k| row(k + at, "contrast", 10_f64.powi(3 * k as i32), None, scalar)),
-        );
-        cases.extend((0..6).map(|k| {
-            row(k, "unit of length", [1e-15, 1.0][k % 2], Some([1e-30, 1.0, 1e30][k / 2]), scalar)
-        }));
     }
-    Record { definitions: definitions(), seconds: 12.0, cases }
+    lines
+}
+
+/// Where a case lies, in words.
+pub(super) fn place(case: &Row) -> String {
+    let across = case.axis2.as_ref().zip(case.value2);
+    let across = across.map(|(axis, value)| format!(", {axis} {value:e}")).unwrap_or_default();
+    format!("{} {:e}{across}, {}", case.axis, case.value, case.scalar)
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_record_survives_its_file_and_a_broken_one_is_named() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("extremes.json");
-        assert_eq!(Record::read(&path).unwrap(), None);
-        std::fs::write(&path, fixture().json()).unwrap();
-        assert_eq!(Record::read(&path).unwrap(), Some(fixture()));
-        std::fs::write(&path, "{").unwrap();
-        let error = Record::read(&path).unwrap_err().to_string();
-        assert!(error.contains("extremes.json") && error.contains("again"), "{error}");
-    }
-
-    #[test]
-    fn the_contract_of_the_json() {
-        let json: serde_json::Value = serde_json::from_str(&fixture().json()).unwrap();
-        let case = &json["cases"][1];
-        assert_eq!(
-            (&case["axis"], &case["outcome"]),
-            (&"contrast".into(), &"certified-poor".into())
-        );
-        assert!(case["axis2"].is_null() && case["value2"].is_null());
-        assert!(case["value"].is_number() && case["sweeps"].is_number());
-        assert!(case["error_over_bound"].is_number() && case["scalar"] == "f64");
-    }
-
-    #[test]
-    fn a_line_a_case() {
-        let text = String::from_utf8(fixture().csv().unwrap()).unwrap();
-        assert_eq!(text.lines().count(), 1 + fixture().cases.len());
-        assert!(text.starts_with("axis,value,axis2,value2,scalar,outcome,error_over_bound,sweeps"));
-        assert!(text.contains(",typed-error,,,"));
-    }
-
-    #[test]
-    fn studies_keep_their_order() {
-        let record = fixture();
-        let studies = record.studies();
-        let names: Vec<_> =
-            studies.iter().map(|(axis, across, all)| (*axis, *across, all.len())).collect();
-        assert_eq!(names, [("contrast", None, 8), ("unit of length", Some("load < 1"), 12)]);
-        assert_eq!(Outcome::ALL.map(|outcome| record.count(outcome)).iter().sum::<usize>(), 20);
-    }
-}
+pub(super) mod tests;

@@ -2,8 +2,7 @@
 
 use super::judge::Outcome;
 use super::plan::remark;
-use super::record::{Record, Row};
-use super::table::place;
+use super::record::{Record, Row, place};
 use signorini_draw::{Column, Extremes, ExtremesStudy, OutcomeMap, Square, Table, plain};
 
 /// Everything of the section.
@@ -21,9 +20,7 @@ pub fn section(record: &Record) -> Extremes {
 }
 
 fn summary(record: &Record) -> String {
-    let counts =
-        Outcome::ALL.map(|outcome| format!("{} {}", record.count(outcome), outcome.name()));
-    format!("{} cases in {:.0} s: {}.", record.cases.len(), record.seconds, counts.join(", "))
+    format!("{} cases in {:.0} s: {}.", record.cases.len(), record.seconds, record.counts())
 }
 
 fn study(axis: &str, across: Option<&str>, cases: &[&Row]) -> ExtremesStudy {
@@ -180,7 +177,7 @@ fn reasons(record: &Record) -> Table {
 
 #[cfg(test)]
 mod tests {
-    use super::super::record::fixture;
+    use super::super::record::tests::fixture;
     use super::*;
     use signorini_draw::extremes_page;
 

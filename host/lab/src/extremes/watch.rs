@@ -3,32 +3,20 @@
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::Duration;
 
-/// The reason why work has no result.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Lost {
-    /// A panic.
-    Panicked,
-    /// No end in time; the thread is left to itself.
-    TimedOut,
-}
-
 /// Runs `work` on a thread of its own, for at most `limit`.
 ///
 /// # Errors
-/// A panic, or no result in time.
+/// `Disconnected` after a panic; `Timeout` where there is no result in time: the thread is left to itself.
 pub fn watched<T: Send + 'static>(
     limit: Duration,
     work: impl FnOnce() -> T + Send + 'static,
-) -> Result<T, Lost> {
+) -> Result<T, RecvTimeoutError> {
     let (sender, receiver) = sync_channel(1);
     std::thread::spawn(move || {
         // A caller that waits no longer takes no result.
         let _ = sender.send(work());
     });
-    receiver.recv_timeout(limit).map_err(|error| match error {
-        RecvTimeoutError::Timeout => Lost::TimedOut,
-        RecvTimeoutError::Disconnected => Lost::Panicked,
-    })
+    receiver.recv_timeout(limit)
 }
 
 #[cfg(test)]
@@ -39,9 +27,12 @@ mod tests {
     fn results_panics_and_hangs() {
         let long = Duration::from_secs(600);
         assert_eq!(watched(long, || 7), Ok(7));
-        assert_eq!(watched(long, || -> u32 { panic!("asked for by a test") }), Err(Lost::Panicked));
+        assert_eq!(
+            watched(long, || -> u32 { panic!("asked for by a test") }),
+            Err(RecvTimeoutError::Disconnected)
+        );
         let (_keep, never) = sync_channel::<u32>(1);
         let hang = move || never.recv().unwrap_or(0);
-        assert_eq!(watched(Duration::from_millis(20), hang), Err(Lost::TimedOut));
+        assert_eq!(watched(Duration::from_millis(20), hang), Err(RecvTimeoutError::Timeout));
     }
 }

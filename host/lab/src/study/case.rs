@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use serde::Serialize;
+
 use super::bound::Certified;
-use super::checks;
-use super::cost;
-use super::known::{KnownScene, Run};
+use super::checks::{self, Check};
+use super::cost::{self, Cost};
 use super::outputs::KnownOutputs;
 use super::panel::panel;
 use crate::cycles;
@@ -15,6 +16,49 @@ use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_solve::adaptive::mesh_of_scene;
 use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
+
+/// The findings on a scene.
+#[derive(Debug, Clone, Serialize)]
+pub struct KnownScene {
+    /// The scene file's name.
+    pub name: String,
+    /// Its title.
+    pub title: String,
+    /// Triangles and quads.
+    pub cells: [usize; 2],
+    /// Edges not on the Dirichlet boundary.
+    pub unknowns: usize,
+    /// Active contact edges, and all of them.
+    pub contact: [usize; 2],
+    /// ∫_C (σ·n − q)
+    pub force: f64,
+    /// ‖A^½∇_h u_h‖
+    pub energy: f64,
+    /// The kernel in f64.
+    pub f64: Run,
+    /// The kernel in f32.
+    pub f32: Run,
+    /// The declared outputs.
+    pub outputs: KnownOutputs,
+    /// The checks.
+    pub checks: Vec<Check>,
+}
+
+/// The kernel in one scalar.
+#[derive(Debug, Clone, Serialize)]
+pub struct Run {
+    /// Sweeps down to the rounding floor, the error bound there, and distances to the exact solution.
+    #[serde(flatten)]
+    pub certified: Certified,
+    /// The ω it found.
+    pub omega: f64,
+    /// Largest distance to the reference, relative to the range of u.
+    pub distance: f64,
+    /// Cycles per unknown for the whole solve.
+    pub solve_cycles: f64,
+    /// Cycles of a sweep.
+    pub cost: Cost,
+}
 
 /// Solves the scene at `path` three times and compares.
 pub fn study(path: &Path) -> Result<(KnownScene, ScenePanel)> {

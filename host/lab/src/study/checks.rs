@@ -4,6 +4,7 @@ use serde::Serialize;
 use signorini_kernel::Real;
 use signorini_kernel::law::EdgeLaw;
 
+use crate::record_file::word;
 use signorini_problem::Problem;
 use signorini_solve::{ScalarKind, Solution};
 
@@ -85,10 +86,7 @@ pub fn distance(u: &[f64], reference: &[f64]) -> f64 {
 
 /// A scene in one scalar.
 pub fn subject(name: &str, scalar: ScalarKind) -> String {
-    match scalar {
-        ScalarKind::F64 => format!("{name}, f64"),
-        ScalarKind::F32 => format!("{name}, f32"),
-    }
+    format!("{name}, {}", word(&scalar))
 }
 
 /// Convergence, agreement with the reference and the method's identities.

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use signorini_kernel::element::QuadElement;
+use signorini_kernel::element::QuadElement::{self, Nonparametric, Parametric};
 
 use super::checks::Check;
 use signorini_draw::{Chart, Curve, Strip, measured_rate};
@@ -12,7 +12,8 @@ use signorini_problem::Problem;
 use signorini_problem::threads::on_two_threads;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
-use signorini_scene::mesh::structured::{Cells, Trapezoids, grid, trapezoids};
+use signorini_scene::mesh::structured::Trapezoids::{Everywhere, InTwoRows};
+use signorini_scene::mesh::structured::{Cells, grid, trapezoids};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::Setting;
 use signorini_solve::norms::{Errors, of_solution};
@@ -21,15 +22,45 @@ use signorini_solve::{Options, SolverKind, solve};
 /// Catalogue scenes with boundary curves `contact` and `dirichlet`, refined up to 2·64 × 64.
 const SCENES: [&str; 4] = ["a", "b", "h", "hg"];
 const LEVELS: [u32; 4] = [8, 16, 32, 64];
+
 /// The scene that shows what trapezoids do.
 const ON_TRAPEZOIDS: &str = "b";
 
 /// The grid that a scene is refined on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Grid {
-    Squares(Cells),
-    Trapezoids(Trapezoids, QuadElement),
+#[derive(Debug)]
+struct Grid {
+    name: &'static str,
+    mesh: fn(u32) -> Mesh,
+    element: QuadElement,
+    /// Rates of h1, l2 and flux that theory gives. On trapezoids the parametric element lacks a linear function:
+    /// its error is of the size of ∇u there, √h of it where they fill two rows.
+    expected: [f64; 3],
 }
+
+const FULL: [f64; 3] = [1.0, 2.0, 1.0];
+const HALF: [f64; 3] = [0.5, 1.0, 1.0];
+const NONE: [f64; 3] = [0.0; 3];
+
+const fn on(
+    name: &'static str,
+    mesh: fn(u32) -> Mesh,
+    element: QuadElement,
+    expected: [f64; 3],
+) -> Grid {
+    Grid { name, mesh, element, expected }
+}
+
+static SQUARES: [Grid; 2] = [
+    on("triangles", |n| grid(n, Cells::Triangles), Parametric, FULL),
+    on("quads", |n| grid(n, Cells::Quads), Parametric, FULL),
+];
+
+static TRAPEZOIDS: [Grid; 4] = [
+    on("two rows of trapezoids", |n| trapezoids(n, InTwoRows), Parametric, HALF),
+    on("two rows of trapezoids, nonparametric", |n| trapezoids(n, InTwoRows), Nonparametric, FULL),
+    on("trapezoids", |n| trapezoids(n, Everywhere), Parametric, NONE),
+    on("trapezoids, nonparametric", |n| trapezoids(n, Everywhere), Nonparametric, FULL),
+];
 
 /// One scene on one kind of cells, refined.
 #[derive(Debug, Clone, Serialize)]
@@ -47,32 +78,24 @@ pub struct ConvergenceStudy {
     /// The checks.
     pub checks: Vec<Check>,
     #[serde(skip)]
-    grid: Grid,
+    grid: &'static Grid,
 }
 
 /// A scene still to be refined.
 #[derive(Debug, Clone)]
 pub struct ConvergencePlan {
     scene: PathBuf,
-    grid: Grid,
+    grid: &'static Grid,
 }
 
 /// The studies of the main job, the long ones first.
-pub fn planned(root: &Path) -> Result<Vec<ConvergencePlan>> {
+pub fn planned(root: &Path) -> Vec<ConvergencePlan> {
     let folder = root.join("meshes/catalogue");
     let scene = |name: &str| folder.join(format!("{name}-tri.toml"));
-    let plans = SCENES.iter().rev().flat_map(|name| {
-        let on = |cells| ConvergencePlan { scene: scene(name), grid: Grid::Squares(cells) };
-        [Cells::Triangles, Cells::Quads].map(on)
-    });
-    let places = [Trapezoids::InTwoRows, Trapezoids::Everywhere];
-    let elements = [QuadElement::Parametric, QuadElement::Nonparametric];
-    let bent = places.into_iter().flat_map(|place| {
-        let on =
-            |of| ConvergencePlan { scene: scene(ON_TRAPEZOIDS), grid: Grid::Trapezoids(place, of) };
-        elements.map(on)
-    });
-    Ok(plans.chain(bent).collect())
+    let on = |name, grid| ConvergencePlan { scene: scene(name), grid };
+    let squares = SCENES.iter().rev().flat_map(|name| SQUARES.iter().map(move |grid| (name, grid)));
+    let squares = squares.map(|(name, grid)| on(name, grid));
+    squares.chain(TRAPEZOIDS.iter().map(|grid| on(ON_TRAPEZOIDS, grid))).collect()
 }
 
 /// Runs the studies; calls `done` after each.
@@ -83,54 +106,12 @@ pub fn run(plans: &[ConvergencePlan], done: impl Fn() + Sync) -> Result<Vec<Conv
 }
 
 impl Grid {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Squares(Cells::Triangles) => "triangles",
-            Self::Squares(Cells::Quads) => "quads",
-            Self::Squares(Cells::Mixed) => "mixed",
-            Self::Trapezoids(Trapezoids::InTwoRows, QuadElement::Parametric) => {
-                "two rows of trapezoids"
-            }
-            Self::Trapezoids(Trapezoids::InTwoRows, QuadElement::Nonparametric) => {
-                "two rows of trapezoids, nonparametric"
-            }
-            Self::Trapezoids(Trapezoids::Everywhere, QuadElement::Parametric) => "trapezoids",
-            Self::Trapezoids(Trapezoids::Everywhere, QuadElement::Nonparametric) => {
-                "trapezoids, nonparametric"
-            }
-        }
-    }
-
-    fn mesh(self, n: u32) -> Mesh {
-        match self {
-            Self::Squares(cells) => grid(n, cells),
-            Self::Trapezoids(place, _) => trapezoids(n, place),
-        }
-    }
-
-    fn element(self) -> QuadElement {
-        match self {
-            Self::Squares(_) => QuadElement::Parametric,
-            Self::Trapezoids(_, element) => element,
-        }
-    }
-
-    /// The rates of h1, l2 and flux that theory gives. On trapezoids the parametric element lacks a linear
-    /// function: its error is of the size of ∇u there, √h of it where they fill two rows.
-    fn expected(self) -> [f64; 3] {
-        match self {
-            Self::Trapezoids(Trapezoids::InTwoRows, QuadElement::Parametric) => [0.5, 1.0, 1.0],
-            Self::Trapezoids(Trapezoids::Everywhere, QuadElement::Parametric) => [0.0; 3],
-            _ => [1.0, 2.0, 1.0],
-        }
-    }
-
     /// Checks of the rates.
-    fn checks(self, name: &str, [h1, l2, flux]: [f64; 3]) -> Vec<Check> {
+    fn checks(&self, name: &str, [h1, l2, flux]: [f64; 3]) -> Vec<Check> {
         let claim = "the mean-square error of the flux ‖σ − σ_h‖ falls with rate 1";
         let flux = Check::at_least(name, claim, flux, 0.97);
-        match self {
-            Self::Trapezoids(Trapezoids::InTwoRows, QuadElement::Parametric) => {
+        match self.expected {
+            HALF => {
                 let half = "the gradient error |u − u_h|₁ of the parametric element falls with rate ½ on two rows of trapezoids";
                 let one = "the mean-square error of u ‖u − u_h‖ of the parametric element falls with rate 1 on two rows of trapezoids";
                 vec![
@@ -139,7 +120,7 @@ impl Grid {
                     flux,
                 ]
             }
-            Self::Trapezoids(Trapezoids::Everywhere, QuadElement::Parametric) => {
+            NONE => {
                 let claim = "the parametric element does not converge on trapezoids: rate of the gradient error \
                              |u − u_h|₁";
                 vec![Check::at_most(name, claim, h1.abs(), 0.1)]
@@ -164,25 +145,25 @@ impl ConvergencePlan {
     fn run(&self) -> Result<ConvergenceStudy> {
         let Self { scene, grid } = self;
         let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
-        let name = format!("{}, {}", stem.trim_end_matches("-tri"), grid.name());
+        let name = format!("{}, {}", stem.trim_end_matches("-tri"), grid.name);
         let scene = Scene::read(scene)?;
         let own = scene.setting.unwrap_or_default();
-        let scene = Scene { setting: Some(Setting { element: grid.element(), ..own }), ..scene };
+        let scene = Scene { setting: Some(Setting { element: grid.element, ..own }), ..scene };
         let (mut found, mut force) = (Vec::new(), Vec::new());
         for n in LEVELS {
-            let problem = Problem::new(&scene, grid.mesh(n))?;
+            let problem = Problem::new(&scene, (grid.mesh)(n))?;
             let options = Options { solver: SolverKind::Kernel, ..Options::default() };
             let solution = solve(&problem, &options)?;
             found.extend(of_solution(&problem, &solution)?);
             force.push(solution.contact_force);
         }
         let rate = |at: usize| {
-            let series = QUANTITIES[at].series(&name, *grid, &found);
+            let series = QUANTITIES[at].series(&name, grid, &found);
             measured_rate(&widths(), &series.values).unwrap_or(f64::NAN)
         };
         let rates = [0, 1, 2].map(rate);
         let checks = grid.checks(&name, rates);
-        let (n, grid) = (LEVELS.to_vec(), *grid);
+        let n = LEVELS.to_vec();
         Ok(ConvergenceStudy { name, n, errors: found, force, rates, checks, grid })
     }
 }
@@ -204,11 +185,11 @@ const QUANTITIES: [Quantity; 3] = [
 ];
 
 impl Quantity {
-    fn series(&self, name: &str, grid: Grid, errors: &[Errors]) -> Curve {
+    fn series(&self, name: &str, grid: &Grid, errors: &[Errors]) -> Curve {
         Curve {
             label: name.to_owned(),
             values: errors.iter().map(|errors| Some((self.pick)(errors))).collect(),
-            expected_rate: Some(grid.expected()[self.place]),
+            expected_rate: Some(grid.expected[self.place]),
             ..Curve::default()
         }
     }
@@ -222,7 +203,8 @@ fn widths() -> Vec<f64> {
 /// The pictures: one per error on squares, one on trapezoids, with a curve per study.
 pub fn plots(studies: &[ConvergenceStudy]) -> Vec<Chart> {
     let plot = |quantity: &Quantity, bent: bool| {
-        let on = studies.iter().filter(|study| bent == matches!(study.grid, Grid::Trapezoids(..)));
+        let is_bent = |grid: &Grid| TRAPEZOIDS.iter().any(|of| of.name == grid.name);
+        let on = studies.iter().filter(|study| is_bent(study.grid) == bent);
         let series = on.map(|study| quantity.series(&study.name, study.grid, &study.errors));
         let place = if bent { ", on trapezoids" } else { "" };
         Chart {

@@ -32,47 +32,37 @@ pub struct CutOff {
     pub checks: Vec<Check>,
 }
 
-/// A scene with an exact solution, still to be stopped.
-#[derive(Debug, Clone)]
-pub struct CutOffPlan {
-    name: String,
-    scene: Scene,
-}
-
-/// The scenes that have an exact solution.
-pub fn planned(scenes: &[PathBuf]) -> Result<Vec<CutOffPlan>> {
+/// The scenes that have an exact solution, by their names.
+pub fn planned(scenes: &[PathBuf]) -> Result<Vec<(String, Scene)>> {
     let read = |path: &PathBuf| {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(CutOffPlan { name, scene: Scene::read(path)? })
+        Ok((name, Scene::read(path)?))
     };
     let mut plans = scenes.iter().map(read).collect::<Result<Vec<_>>>()?;
-    plans.retain(|plan| plan.scene.exact.is_some());
+    plans.retain(|(_, scene)| scene.exact.is_some());
     Ok(plans)
 }
 
-/// Runs the plans; calls `done` after each.
-pub fn run(plans: &[CutOffPlan], done: impl Fn() + Sync) -> Result<Vec<CutOff>> {
-    on_two_threads(plans, CutOffPlan::run, done)
+/// Stops each of these scenes again and again; calls `done` after each.
+pub fn run(plans: &[(String, Scene)], done: impl Fn() + Sync) -> Result<Vec<CutOff>> {
+    on_two_threads(plans, |(name, scene)| stopped(name, scene), done)
 }
 
-impl CutOffPlan {
-    fn run(&self) -> Result<CutOff> {
-        let (name, scene) = (self.name.clone(), &self.scene);
-        let problem = Problem::new(scene, mesh_of_scene(scene)?.mesh)?;
-        let converged = solve(&problem, &Options::default())?;
-        let energy = converged.energy(&problem);
-        let (mut stops, mut checks) = (Vec::new(), Vec::new());
-        for max_sweeps in STOPS {
-            let options = Options { max_sweeps, ..Options::default() };
-            let stop = Certified::new(&problem, &solve(&problem, &options)?)?;
-            let subject = format!("{name} after {} sweeps", stop.sweeps);
-            checks.extend(stop.when_cut_off(&subject, energy));
-            stops.push(stop);
-        }
-        stops.push(Certified::new(&problem, &converged)?);
-        let efficiency = stops.iter().map(|stop| stop.efficiency(energy)).collect();
-        Ok(CutOff { name, stops, efficiency, checks })
+fn stopped(name: &str, scene: &Scene) -> Result<CutOff> {
+    let problem = Problem::new(scene, mesh_of_scene(scene)?.mesh)?;
+    let converged = solve(&problem, &Options::default())?;
+    let energy = converged.energy(&problem);
+    let (mut stops, mut checks) = (Vec::new(), Vec::new());
+    for max_sweeps in STOPS {
+        let options = Options { max_sweeps, ..Options::default() };
+        let stop = Certified::new(&problem, &solve(&problem, &options)?)?;
+        let subject = format!("{name} after {} sweeps", stop.sweeps);
+        checks.extend(stop.when_cut_off(&subject, energy));
+        stops.push(stop);
     }
+    stops.push(Certified::new(&problem, &converged)?);
+    let efficiency = stops.iter().map(|stop| stop.efficiency(energy)).collect();
+    Ok(CutOff { name: name.to_owned(), stops, efficiency, checks })
 }
 
 /// gap over the energy error of u_h: a row for each scene, a column for each stop.

@@ -3,11 +3,9 @@
 mod bound;
 mod case;
 mod checks;
-mod contact_line;
 mod convergence;
 mod cost;
 mod cut_off;
-mod known;
 mod outputs;
 mod panel;
 mod table;
@@ -20,10 +18,10 @@ use crate::extremes::section::section as extremes_section;
 use crate::trade::records::{self, RECORD};
 use crate::trade::section::section;
 use crate::trade::verdict::{KnobValue, knob_values};
+use case::KnownScene;
 use checks::Check;
 use convergence::ConvergenceStudy;
 use cut_off::CutOff;
-use known::KnownScene;
 use signorini_draw::{Report, html};
 use signorini_files::atomic::write_atomically;
 use signorini_problem::progress::{say, steps};
@@ -57,7 +55,7 @@ pub fn run() -> Result<u8> {
     let scenes = scenes(&root.join("meshes"))?;
     let trades = records::read(&root.join(RECORD))?;
     let pushed = extremes::Record::read(&root.join(extremes::RECORD))?.unwrap_or_default();
-    let studies = convergence::planned(root)?;
+    let studies = convergence::planned(root);
     let stopped = cut_off::planned(&scenes)?;
     let bar = steps(scenes.len() + studies.len() + stopped.len());
     let (mut cases, mut panels) = (Vec::new(), Vec::new());
@@ -74,8 +72,8 @@ pub fn run() -> Result<u8> {
     let stopped = cut_off::run(&stopped, || bar.inc(1))?;
     bar.finish_and_clear();
 
-    say(format_args!("{}", table::scenes(&cases)));
-    say(format_args!("{}", table::convergence(&studies)));
+    say(table::scenes(&cases));
+    say(table::convergence(&studies));
     let checks: Vec<&Check> = (cases.iter().flat_map(|case| &case.checks))
         .chain(studies.iter().flat_map(|study| &study.checks))
         .chain(stopped.iter().flat_map(|study| &study.checks))

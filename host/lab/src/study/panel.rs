@@ -1,7 +1,8 @@
-//! A solved scene as the report draws it.
+//! A solved scene as the report draws it; its contact boundary is one line, its edges in the order of a walk.
 
-use super::contact_line::{LineEdge, walk};
-use super::known::KnownScene;
+use std::collections::HashMap;
+
+use super::case::KnownScene;
 use super::{OF_ENERGY, OF_FLUX, OF_GRADIENT, OF_U};
 use signorini_certify::ErrorBound;
 use signorini_draw::{
@@ -138,4 +139,45 @@ fn facts(case: &KnownScene) -> Vec<(String, String)> {
         facts.push((name.to_owned(), format!("{ratio:.3}")));
     }
     facts
+}
+
+/// A contact edge on the line.
+#[derive(Debug, Clone, Copy)]
+struct LineEdge {
+    /// Its position among the contact edges.
+    contact: usize,
+    /// Whether it is walked against its direction.
+    reversed: bool,
+    /// Arc length where it begins.
+    start: f64,
+}
+
+/// Orders the contact edges by arc length; separate pieces of the boundary follow one another.
+fn walk(problem: &Problem) -> Vec<LineEdge> {
+    let counts = problem.topology.counts;
+    let ends = |contact: usize| problem.ends[counts.free + contact];
+    let mut at_vertex: HashMap<u32, Vec<usize>> = HashMap::new();
+    for contact in 0..counts.contact {
+        ends(contact).iter().for_each(|&v| at_vertex.entry(v).or_default().push(contact));
+    }
+    // Pieces with two ends are begun at the end from which the domain lies on the left.
+    let is_end = |contact: &usize| at_vertex[&ends(*contact)[0]].len() == 1;
+    let all = 0..counts.contact;
+    let starts = all.clone().filter(is_end).chain(all);
+    let mut used = vec![false; counts.contact];
+    let mut line = Vec::new();
+    let mut length = 0.0;
+    for first in starts {
+        let mut from = ends(first)[0];
+        let mut next = Some(first).filter(|&first| !used[first]);
+        while let Some(contact) = next {
+            used[contact] = true;
+            let reversed = ends(contact)[0] != from;
+            line.push(LineEdge { contact, reversed, start: length });
+            length += problem.lengths[counts.free + contact];
+            from = ends(contact)[usize::from(!reversed)];
+            next = at_vertex[&from].iter().copied().find(|&other| !used[other]);
+        }
+    }
+    line
 }

@@ -1,9 +1,10 @@
 //! The main job's tables, for the terminal and for the report.
 
+use super::case::KnownScene;
 use super::checks::Check;
 use super::convergence::ConvergenceStudy;
-use super::known::KnownScene;
 use super::{OF_FLUX, OF_GRADIENT, OF_U};
+use crate::cycles::median_and_spread;
 use signorini_certify::ErrorBound;
 use signorini_draw::{self as report, Column, Table};
 use signorini_solve::norms::Errors;
@@ -99,10 +100,8 @@ fn median(cases: &[KnownScene], pick: impl Fn(&KnownScene) -> f64) -> f64 {
     middle(cases.iter().map(pick).collect())
 }
 
-fn middle(mut values: Vec<f64>) -> f64 {
-    values.retain(|value| value.is_finite());
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
+fn middle(values: Vec<f64>) -> f64 {
+    median_and_spread(values.into_iter().filter(|value| value.is_finite())).0
 }
 
 /// Errors on the finest grid, and rates over all of them.

@@ -17,23 +17,19 @@ use signorini_problem::scalar::Scalar;
 use signorini_scene::error::{Error, Result};
 use signorini_solve::ScalarKind;
 
-/// The outcome of a measurement.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Measured {
-    /// The image ran, with the bits of this machine.
-    Runs(Box<Firmware>),
-    /// There is no image for this scene and board, and why: no model for its setting, or no room.
-    Impossible(String),
-}
-
-/// Bakes a problem with its setting, builds its image under the name `name`, plays it.
+/// Bakes a problem with its setting, builds its image under the name `name`, plays it: what ran, with the bits of
+/// this machine, or why there is no image for this scene and board: no model for its setting, or no room.
 ///
 /// # Errors
 /// No checkout of the sources; a tool that fails; bits that differ from this machine's.
-pub fn measure(problem: &Problem, board: &Board, name: &str) -> Result<Measured> {
+pub fn measure(
+    problem: &Problem,
+    board: &Board,
+    name: &str,
+) -> Result<std::result::Result<Firmware, String>> {
     match module(problem, name) {
         Ok(module) => judged(Firmware::measure(&module, board)),
-        Err(Error::Input(refused)) => Ok(Measured::Impossible(refused.message().to_owned())),
+        Err(Error::Input(refused)) => Ok(Err(refused.message().to_owned())),
         Err(error) => Err(error),
     }
 }
@@ -62,14 +58,13 @@ fn emitted<R: Scalar>(problem: &Problem) -> Result<Emitted> {
     Ok(emit(problem, &Choice::<R>::new(problem, Wanted::default())?))
 }
 
-fn judged(found: std::result::Result<Firmware, NoResult>) -> Result<Measured> {
+fn judged(
+    found: std::result::Result<Firmware, NoResult>,
+) -> Result<std::result::Result<Firmware, String>> {
     match found {
-        Ok(firmware) => match firmware.verdict() {
-            Ok(()) => Ok(Measured::Runs(Box::new(firmware))),
-            Err(why) => Err(Error::Check(why)),
-        },
+        Ok(firmware) => firmware.verdict().map(|()| Ok(firmware)).map_err(Error::Check),
         Err(why @ (NoResult::NoRoom { .. } | NoResult::BeyondCounter)) => {
-            Ok(Measured::Impossible(why.to_string()))
+            Ok(Err(why.to_string()))
         }
         Err(why) => Err(Error::Check(why.to_string())),
     }
@@ -83,9 +78,9 @@ mod tests {
     fn no_room_and_no_count_are_reasons_and_nothing_else_is() {
         let reason = judged(Err(NoResult::NoRoom { memory: "RAM", missing: 77 }));
         let said = "no room in RAM: 77 bytes are missing".to_owned();
-        assert!(matches!(reason, Ok(Measured::Impossible(why)) if why == said));
+        assert!(matches!(reason, Ok(Err(why)) if why == said));
         let reason = judged(Err(NoResult::BeyondCounter));
-        assert!(matches!(reason, Ok(Measured::Impossible(why)) if why.contains("counter")));
+        assert!(matches!(reason, Ok(Err(why)) if why.contains("counter")));
         let failed = judged(Err(NoResult::Failed("QEMU: status 3".to_owned())));
         assert!(matches!(failed, Err(Error::Check(why)) if why == "QEMU: status 3"));
     }

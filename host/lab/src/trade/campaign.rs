@@ -7,18 +7,18 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::files::{FRAGMENT, json};
+use super::files::FRAGMENT;
 use super::front::Wish;
 use super::mpi;
 use super::record::Trade;
 use super::records::{RECORD, SIZES};
 use super::shard::Shard;
-use super::study::{Study, StudyState};
+use super::study::Study;
 use super::target::Target;
 use crate::baseline;
-use crate::checkout::root;
-use crate::checkout::scenes;
-use signorini_files::atomic::write_atomically;
+use crate::checkout::{root, scenes};
+use crate::record_file::json;
+use signorini_files::atomic::{writable, write_atomically};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 
@@ -29,16 +29,8 @@ pub struct Campaign {
     sizes: Option<PathBuf>,
 }
 
-/// A case that is done.
-#[derive(Debug, Clone, Copy)]
-pub struct FinishedSetting<'a> {
-    /// How many were before it, in all studies.
-    pub number: usize,
-    /// How many there are, as far as planned.
-    pub of: usize,
-    /// Name of the case.
-    pub name: &'a str,
-}
+/// Called with each case that is done: its number in all studies, how many there are as far as planned, its name.
+pub type Done<'d> = dyn FnMut(usize, usize, &str) + 'd;
 
 /// The outcome of a campaign.
 #[derive(Debug, Default)]
@@ -73,16 +65,8 @@ impl Campaign {
                     "their results would go to one folder: study them one by one, with --out";
                 return Err(InputError::new(message).hint(hint).into());
             }
-            let folder = match out {
-                Some(out) if paths.len() == 1 => out.to_owned(),
-                out => out.unwrap_or(Path::new("out")).join(&name),
-            };
-            if folder.ancestors().find(|path| path.exists()).is_some_and(|path| !path.is_dir()) {
-                let message =
-                    format!("--out {}: is a file, expected a directory", folder.display());
-                let hint = "name a directory, or one that does not exist yet";
-                return Err(InputError::new(message).hint(hint).into());
-            }
+            let folder = folder_of(path, paths.len(), out);
+            writable("--out", &folder)?;
             refuse_own(path, &folder)?;
             studies.push(Study::open(path, target, folder, with_peers)?);
         }
@@ -121,12 +105,7 @@ impl Campaign {
     ///
     /// # Errors
     /// Wrong input, files that cannot be written.
-    pub fn run(
-        &self,
-        shard: Option<Shard>,
-        wish: &Wish,
-        done: &mut dyn FnMut(FinishedSetting),
-    ) -> Result<Ended> {
+    pub fn run(&self, shard: Option<Shard>, wish: &Wish, done: &mut Done) -> Result<Ended> {
         if let Some(shard) = shard {
             return self.share(shard, wish, done);
         }
@@ -143,12 +122,7 @@ impl Campaign {
         Ok(ended)
     }
 
-    fn share(
-        &self,
-        shard: Shard,
-        wish: &Wish,
-        done: &mut dyn FnMut(FinishedSetting),
-    ) -> Result<Ended> {
+    fn share(&self, shard: Shard, wish: &Wish, done: &mut Done) -> Result<Ended> {
         let by_scene = !shard.is_whole() && self.studies.len() >= shard.count();
         let mut ended = Ended::default();
         let mut before = 0;
@@ -160,21 +134,16 @@ impl Campaign {
             let (mut number, mut of) = (0, 0);
             let mut tell = |all: usize, name: &str| {
                 (number, of) = (number + 1, all);
-                let name = &format!("{}: {name}", study.name);
-                done(FinishedSetting { number: before + number, of: before + all, name });
+                done(before + number, before + all, &format!("{}: {name}", study.name));
             };
             match study.run(shard, by_scene, wish, &mut tell)? {
-                StudyState::Whole(trade) => ended.trades.push((study.folder.clone(), *trade)),
-                StudyState::Part => ended.left += 1,
+                Some(trade) => ended.trades.push((study.folder.clone(), trade)),
+                None => ended.left += 1,
             }
             before += of;
         }
         if let (Some(file), true) = (&self.sizes, shard.is_whole()) {
-            let done = std::cell::RefCell::new(done);
-            let tell = |name: &str| {
-                (done.borrow_mut())(FinishedSetting { number: before, of: before + 1, name });
-            };
-            let sizes = baseline::sizes(tell)?;
+            let sizes = baseline::sizes(|name| done(before, before + 1, name))?;
             write_atomically(file, json(&sizes).as_bytes())?;
         }
         // Last of all: journals that are gone cannot tell what an interrupted campaign has measured.
@@ -182,6 +151,14 @@ impl Campaign {
             self.studies.iter().try_for_each(Study::close)?;
         }
         Ok(ended)
+    }
+}
+
+/// The folder of a scene's files among so many: `out` itself for one alone, else one in it.
+pub fn folder_of(scene: &Path, count: usize, out: Option<&Path>) -> PathBuf {
+    match out {
+        Some(out) if count == 1 => out.to_owned(),
+        out => out.unwrap_or(Path::new("out")).join(scene.file_stem().unwrap_or_default()),
     }
 }
 

@@ -1,7 +1,6 @@
 //! The Pareto front, and the setting to take.
 
 use super::digits::whole;
-use super::picture::cost_unit;
 use super::record::{Point, Recommendation, Trade};
 use super::reference::EXACT;
 use signorini_scene::goal::Goal;
@@ -101,7 +100,7 @@ pub fn sentence(trade: &Trade, point: &Point) -> String {
     format!(
         "For {} {} a tick take {name}: energy error {}{certified}{force}.{by}",
         whole(point.cost()),
-        cost_unit(&trade.target),
+        trade.target.cost_unit(),
         part(error.energy, trade.energy)
     )
 }
@@ -120,10 +119,10 @@ fn nothing(trade: &Trade, wish: &Wish) -> String {
     };
     let asked = match (wish.budget, wish.error) {
         (Some(budget), Some(_)) => {
-            format!("accurate enough within {} {}", whole(budget), cost_unit(&trade.target))
+            format!("accurate enough within {} {}", whole(budget), trade.target.cost_unit())
         }
         (Some(budget), None) => {
-            format!("within {} {}", whole(budget), cost_unit(&trade.target))
+            format!("within {} {}", whole(budget), trade.target.cost_unit())
         }
         _ => "accurate enough".to_owned(),
     };
@@ -132,7 +131,7 @@ fn nothing(trade: &Trade, wish: &Wish) -> String {
          takes {} with {:.3e}.",
         cheapest.name,
         whole(cheapest.cost()),
-        cost_unit(&trade.target),
+        trade.target.cost_unit(),
         cheapest.error.energy,
         best.name,
         whole(best.cost()),

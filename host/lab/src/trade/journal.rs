@@ -13,6 +13,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions, TryLockError};
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -193,6 +194,20 @@ fn journals(folder: &Path) -> Result<Vec<PathBuf>> {
     }
     paths.sort();
     Ok(paths)
+}
+
+/// A mark of this very program: another build measures anew.
+pub(crate) fn program() -> String {
+    let bytes = std::env::current_exe().and_then(fs::read);
+    let digest = |bytes: Vec<u8>| format!("{:016x}", digest(&bytes));
+    bytes.map_or_else(|_| env!("CARGO_PKG_VERSION").to_owned(), digest)
+}
+
+/// A number that two things hardly share.
+pub(crate) fn digest(of: &(impl Hash + ?Sized)) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    of.hash(&mut hasher);
+    hasher.finish()
 }
 
 #[cfg(test)]

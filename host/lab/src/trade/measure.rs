@@ -1,14 +1,15 @@
 //! One setting measured: what a tick costs, and how far its answer is from the truth.
 
 use super::record::Point;
-use super::reference::{Approximation, ReferenceSolution};
-use crate::baseline::record::PointError;
+use super::reference::ReferenceSolution;
+use crate::trade::record::PointError;
 
-use crate::cycles;
+use crate::cycles::{self, median_and_spread};
+use crate::record_file::word;
 use signorini_problem::Problem;
 use signorini_problem::inputs::{InputSpace, drawn};
 use signorini_scene::error::Result;
-use signorini_scene::setting::{MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
+use signorini_scene::setting::{Method, ModelKind, Omega, Precision, Setting, Start};
 use signorini_session::{Session, completed, with_session};
 use signorini_solve::Solution;
 
@@ -48,7 +49,7 @@ pub fn measure(problem: &Problem, truth: &ReferenceSolution) -> Result<Point> {
         };
         Ok((timing, session.answer(problem)?))
     })?;
-    let error = errors(problem, truth, &answer)?;
+    let error = truth.errors(problem, &answer)?;
     Ok(point(problem, &setting, timing, &answer, error))
 }
 
@@ -65,7 +66,8 @@ fn cold(session: &mut dyn Session, defaults: &[f64]) -> Result<Timing> {
             break;
         }
     }
-    Ok(Timing { cycles: median(&mut costs), spread: spread(&costs), sweeps })
+    let (cycles, spread) = median_and_spread(costs.iter().map(|&cost| cost as f64));
+    Ok(Timing { cycles, spread, sweeps })
 }
 
 /// Ticks with inputs drawn from their ranges, and a last one at the defaults, whose answer is kept.
@@ -81,44 +83,19 @@ fn warm(session: &mut dyn Session, spaces: &[InputSpace]) -> Result<Timing> {
         sweeps.clear();
         for inputs in drawn::<f64>(spaces, TICKS).skip(1) {
             let start = cycles::now();
-            sweeps.push(u64::from(session.tick(&inputs)?));
+            sweeps.push(f64::from(session.tick(&inputs)?));
             let cost = cycles::now().saturating_sub(start);
-            costs.push(cost);
+            costs.push(cost as f64);
             all += cost;
         }
-        medians.push(median(&mut costs) as u64);
+        medians.push(median_and_spread(costs).0);
         if all > LONG {
             break;
         }
     }
     session.tick(defaults)?;
-    let cycles = median(&mut medians);
-    Ok(Timing { cycles, spread: spread(&medians), sweeps: median(&mut sweeps) as u32 })
-}
-
-fn median(numbers: &mut [u64]) -> f64 {
-    numbers.sort_unstable();
-    numbers.get(numbers.len() / 2).copied().unwrap_or(0) as f64
-}
-
-/// (largest − smallest)/median of sorted numbers.
-fn spread(sorted: &[u64]) -> f64 {
-    let (Some(first), Some(last)) = (sorted.first(), sorted.last()) else { return 0.0 };
-    (last - first) as f64 / (sorted[sorted.len() / 2] as f64).max(1.0)
-}
-
-fn errors(problem: &Problem, truth: &ReferenceSolution, answer: &Solution) -> Result<PointError> {
-    let certified = answer.bound.is_some().then(|| answer.certified.admissible());
-    truth.errors(
-        problem,
-        &Approximation {
-            u: &answer.u,
-            flux: &answer.flux,
-            force: answer.contact_force,
-            length: answer.contact_length,
-            certified,
-        },
-    )
+    let (cycles, spread) = median_and_spread(medians);
+    Ok(Timing { cycles, spread, sweeps: median_and_spread(sweeps).0 as u32 })
 }
 
 fn point(
@@ -155,17 +132,16 @@ fn point(
     let contact = problem.topology.counts.contact;
     let mut point = Point {
         name: String::new(),
-        scalar: scalar_name(setting).to_owned(),
-        math: if setting.math == MathKind::Libm { "libm" } else { "micromath" }.to_owned(),
+        scalar: word(&setting.scalar.unwrap_or(Precision::F64)),
+        math: word(&setting.math),
         cells: cells.to_owned(),
         level: setting.refine,
         unknowns,
         stop,
         sweeps: timing.sweeps,
-        start: if setting.start == Start::Warm { "warm" } else { "cold" }.to_owned(),
+        start: word(&setting.start),
         omega: omega.to_owned(),
-        model: if setting.model == Some(ModelKind::Condensed) { "condensed" } else { "full" }
-            .to_owned(),
+        model: word(&setting.model.unwrap_or(ModelKind::Full)),
         certificate: setting.certificate,
         error,
         bound: answer.bound.map(|bound| bound.total).filter(|bound| bound.is_finite()),
@@ -181,14 +157,6 @@ fn point(
     };
     point.name = name(&point, contact);
     point
-}
-
-fn scalar_name(setting: &Setting) -> &'static str {
-    match setting.scalar {
-        Some(Precision::F32) => "f32",
-        Some(Precision::Mixed) => "f32+f64",
-        _ => "f64",
-    }
 }
 
 /// All that tells it from the other points of its study; numbers are unknowns, n those of a condensed model.

@@ -8,18 +8,12 @@
 
 pub mod board;
 pub mod campaign;
-pub mod csv;
 mod digits;
 pub mod files;
-#[cfg(test)]
-pub(crate) mod fixtures;
-pub mod fragment;
 pub mod front;
 pub mod journal;
-mod listings;
 pub mod math;
 pub mod measure;
-pub(crate) mod measured_setting;
 mod meshes;
 pub mod mpi;
 pub mod picture;
@@ -34,4 +28,6 @@ pub mod shard;
 pub mod study;
 pub mod table;
 pub mod target;
+#[cfg(test)]
+pub(crate) mod tests;
 pub mod verdict;

@@ -31,7 +31,7 @@ pub struct Session {
 /// and so has a process that no launcher started.
 pub fn shard() -> (Session, Shard) {
     let ranks = Ranks::start();
-    let shard = Shard::new(ranks.rank() + 1, ranks.count()).unwrap_or(Shard::WHOLE);
+    let shard = Shard::new(ranks.rank + 1, ranks.count).unwrap_or(Shard::WHOLE);
     (Session { ranks: Some(ranks) }, shard)
 }
 
@@ -48,13 +48,12 @@ impl Session {
     /// That of `done`, or of `merge`.
     pub fn gather(mut self, done: Result<()>, merge: impl FnOnce() -> Result<u8>) -> Result<u8> {
         let Some(ranks) = self.ranks.take() else { return Ok(0) };
-        if ranks.count() == 1 {
+        if ranks.count == 1 {
             done?;
             return merge();
         }
         let worst = ranks.worst(done.as_ref().map_or_else(|error| error.exit_status(), |()| 0));
-        let merged =
-            if ranks.rank() == 0 { merge().map(|status| status.max(worst)) } else { Ok(0) };
+        let merged = if ranks.rank == 0 { merge().map(|status| status.max(worst)) } else { Ok(0) };
         done.and(merged)
     }
 }
@@ -68,9 +67,6 @@ impl Drop for Session {
 
 #[cfg(feature = "mpi")]
 use ranks::Ranks;
-
-#[cfg(not(feature = "mpi"))]
-use alone::Ranks;
 
 #[cfg(feature = "mpi")]
 mod ranks {
@@ -89,6 +85,8 @@ mod ranks {
     /// All ranks of the job. When dropped, by a panic too, it waits until it is on every rank: the end of
     /// Open MPI waits likewise, but the standard does not promise it.
     pub(super) struct Ranks {
+        pub(super) rank: usize,
+        pub(super) count: usize,
         world: SimpleCommunicator,
         // Declared last: dropped, it ends MPI.
         _universe: Option<Universe>,
@@ -96,16 +94,10 @@ mod ranks {
 
     impl Ranks {
         pub(super) fn start() -> Self {
-            let universe = mpi::initialize();
-            Self { world: SimpleCommunicator::world(), _universe: universe }
-        }
-
-        pub(super) fn rank(&self) -> usize {
-            usize::try_from(self.world.rank()).unwrap_or(0)
-        }
-
-        pub(super) fn count(&self) -> usize {
-            usize::try_from(self.world.size()).unwrap_or(1)
+            let (universe, world) = (mpi::initialize(), SimpleCommunicator::world());
+            let rank = usize::try_from(world.rank()).unwrap_or(0);
+            let count = usize::try_from(world.size()).unwrap_or(1);
+            Self { rank, count, world, _universe: universe }
         }
 
         /// Returns on no rank before all have called it.
@@ -134,33 +126,27 @@ mod ranks {
 
     impl fmt::Debug for Ranks {
         fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-            write!(f, "rank {} of {}", self.rank(), self.count())
+            write!(f, "rank {} of {}", self.rank, self.count)
         }
     }
 }
 
+/// The only rank.
 #[cfg(not(feature = "mpi"))]
-mod alone {
-    /// The only rank.
-    #[derive(Debug)]
-    pub(super) struct Ranks;
+#[derive(Debug)]
+struct Ranks {
+    rank: usize,
+    count: usize,
+}
 
-    impl Ranks {
-        pub(super) fn start() -> Self {
-            Self
-        }
+#[cfg(not(feature = "mpi"))]
+impl Ranks {
+    fn start() -> Self {
+        Self { rank: 0, count: 1 }
+    }
 
-        pub(super) fn rank(&self) -> usize {
-            0
-        }
-
-        pub(super) fn count(&self) -> usize {
-            1
-        }
-
-        pub(super) fn worst(&self, status: u8) -> u8 {
-            status
-        }
+    fn worst(&self, status: u8) -> u8 {
+        status
     }
 }
 

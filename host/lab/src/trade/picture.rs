@@ -17,24 +17,6 @@ const GROUPS: [fn(&Point) -> String; 4] = [
     |point| point.scalar.clone(),
 ];
 
-/// The cost of a point on the target of its study; `None` where it was not measured there.
-pub fn cost(target: &str, point: &Point) -> Option<f64> {
-    if target == "host" { Some(point.cycles) } else { point.instructions.map(|count| count as f64) }
-}
-
-/// The unit of [`cost`].
-pub fn cost_unit(target: &str) -> &'static str {
-    if target == "host" { "cycles" } else { "instructions" }
-}
-
-/// How people name a target.
-pub fn target_name(target: &str) -> String {
-    match target {
-        "host" => "host".to_owned(),
-        core => format!("Cortex-{}", core.to_uppercase()),
-    }
-}
-
 /// The picture of a study.
 pub fn picture(trade: &Trade) -> ParetoPlot {
     let (series, group) = series(&trade.points);
@@ -42,7 +24,7 @@ pub fn picture(trade: &Trade) -> ParetoPlot {
     let point = |point: &Point| ParetoPoint {
         name: point.name.clone(),
         note: note(trade, point),
-        cost: cost(&trade.target, point).unwrap_or(f64::NAN),
+        cost: point.cost(),
         error: point.error.energy,
         bound: point.bound,
         series: series.iter().position(|name| *name == group(point)).unwrap_or(0),
@@ -50,8 +32,8 @@ pub fn picture(trade: &Trade) -> ParetoPlot {
         recommended: recommended.is_some_and(|taken| taken.name == point.name),
     };
     ParetoPlot {
-        title: format!("{}: error over cost on the {}", trade.title, target_name(&trade.target)),
-        cost: format!("{} a tick", cost_unit(&trade.target)),
+        title: format!("{}: error over cost on the {}", trade.title, trade.target.title()),
+        cost: format!("{} a tick", trade.target.cost_unit()),
         size: trade.energy,
         points: trade.points.iter().map(point).collect(),
         series,
@@ -74,15 +56,15 @@ fn series(points: &[Point]) -> (Vec<String>, fn(&Point) -> String) {
 
 /// `12 300 cycles a tick, error 1.23 %, bound 4.56 %`
 fn note(trade: &Trade, point: &Point) -> String {
-    let cost = digits::or_dash(cost(&trade.target, point), digits::cost);
+    let cost = digits::cost(point.cost());
     let error = digits::percent(point.error.energy, trade.energy);
     let bound = digits::or_dash(point.bound, |bound| digits::percent(bound, trade.energy));
-    format!("{cost} {} a tick, error {error} %, bound {bound} %", cost_unit(&trade.target))
+    format!("{cost} {} a tick, error {error} %, bound {bound} %", trade.target.cost_unit())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixtures::{names, trade};
+    use super::super::tests::{names, trade};
     use super::*;
     use signorini_draw::pareto_file;
 
@@ -116,8 +98,9 @@ mod tests {
         trade.points[1].error.energy = 0.0;
         trade.energy = 0.0;
         assert!(!drawn(&trade).contains(" %</text>"), "percents of nothing");
-        trade.target = "m4f".to_owned();
-        trade.points.iter_mut().for_each(|point| point.instructions = None);
+        trade.points.iter_mut().for_each(|point| {
+            (point.cycles, point.instructions) = (f64::NAN, None);
+        });
         assert!(drawn(&trade).contains("no setting with a cost and an error"));
         trade.points.clear();
         drawn(&trade);

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::baseline::record::{Baseline, PointError};
+use super::target::Target;
+use crate::baseline::Baseline;
 use signorini_scene::setting::Setting;
 
 /// The study of one scene.
@@ -13,7 +14,7 @@ pub struct Trade {
     /// Its title.
     pub title: String,
     /// `host`, `m4f` or `m7`: whose cost decides.
-    pub target: String,
+    pub target: Target,
     /// The registers that this program was built for, where cycles were counted; empty in records that do not tell.
     #[serde(default)]
     pub registers: String,
@@ -91,6 +92,23 @@ pub struct Point {
     pub pareto: bool,
     /// The setting, as a scene's `[setting]` has it.
     pub setting: Setting,
+}
+
+/// Distances to the truth, absolute, in the units of the scene.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct PointError {
+    /// ‖A^½∇_h(u − u_h)‖
+    pub energy: f64,
+    /// Distance of s and τ, which the bound bounds; none without certificate.
+    pub combined: Option<f64>,
+    /// ‖u − u_h‖
+    pub l2: f64,
+    /// ‖σ − σ_h‖
+    pub flux: f64,
+    /// |∫_C (σ·n − q) − ∫_C (τ·n − q)|, τ the flux of the answer within the law of contact.
+    pub force: f64,
+    /// Difference of the lengths of the contact sets.
+    pub length: f64,
 }
 
 impl Point {

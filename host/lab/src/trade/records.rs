@@ -12,6 +12,7 @@ use serde::de::DeserializeOwned;
 
 use super::record::Trade;
 use crate::baseline::Sizes;
+use crate::record_file;
 use signorini_scene::error::{Error, Result};
 
 /// The folder of all records, from the root of the checkout.
@@ -36,11 +37,10 @@ pub struct Records {
 /// # Errors
 /// A record that cannot be read, with its name.
 pub fn read(folder: &Path) -> Result<Records> {
-    let sizes = folder.join(SIZES);
     Ok(Records {
         host: read_folder(&folder.join("host"))?,
         m4f: read_folder(&folder.join("m4f"))?,
-        sizes: if sizes.is_file() { Some(read_record(&sizes)?) } else { None },
+        sizes: read_record(&folder.join(SIZES))?,
     })
 }
 
@@ -49,24 +49,18 @@ fn read_folder(folder: &Path) -> Result<Vec<Trade>> {
     let paths =
         entries.map(|entry| Ok(entry.map_err(Error::io(folder))?.path().join("trade.json")));
     let mut paths: Vec<PathBuf> = paths.collect::<Result<_>>()?;
-    paths.retain(|path| path.is_file());
     paths.sort();
-    paths.iter().map(|path| read_record(path)).collect()
+    paths.iter().filter_map(|path| read_record(path).transpose()).collect()
 }
 
-fn read_record<T: DeserializeOwned>(path: &Path) -> Result<T> {
-    let text = std::fs::read_to_string(path).map_err(Error::io(path))?;
-    serde_json::from_str(&text).map_err(|cause| {
-        let name = path.display();
-        Error::Check(format!(
-            "{name}: no record of a trade study: {cause}; run `signorini trade` again"
-        ))
-    })
+fn read_record<T: DeserializeOwned>(path: &Path) -> Result<Option<T>> {
+    record_file::read(path, "a trade study", "signorini trade")
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixtures::trade;
+    use super::super::target::Target;
+    use super::super::tests::trade;
     use super::*;
 
     fn write(folder: &Path, trade: &Trade) -> PathBuf {
@@ -82,14 +76,14 @@ mod tests {
         let none = read(folder.path()).unwrap();
         assert!(none.host.is_empty() && none.m4f.is_empty());
         let (pit, levee) = (trade("pit", 3), trade("levee", 5));
-        let board = Trade { target: "m4f".to_owned(), ..trade("pit", 2) };
+        let board = Trade { target: Target::M4f, ..trade("pit", 2) };
         write(&folder.path().join("host"), &pit);
         write(&folder.path().join("host"), &levee);
         write(&folder.path().join("m4f"), &board);
         std::fs::write(folder.path().join("host/sizes.json"), "{}").unwrap();
         let found = read(folder.path()).unwrap();
         let known = |trades: &[Trade]| {
-            let known = trades.iter().map(|t| (t.scene.clone(), t.target.clone(), t.points.len()));
+            let known = trades.iter().map(|t| (t.scene.clone(), t.target, t.points.len()));
             known.collect::<Vec<_>>()
         };
         assert_eq!(known(&found.host), known(&[levee, pit]));

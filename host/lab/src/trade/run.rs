@@ -1,22 +1,23 @@
 //! A study being run: what no journal knows is measured, and everything is put together.
 
-use super::board::{self, Measured};
+use std::rc::Rc;
+
+use super::board;
 use super::front::{Wish, mark, recommend};
 use super::journal::Journal;
-use super::measured_setting::{Facts, MeasuredSetting, overflow};
 use super::meshes::{Meshes, finest};
 use super::plan::{LARGEST_ON_BOARD, Plan, SceneFacts, TOO_LARGE};
-use super::record::{FunctionCost, Recommendation, Skipped, Trade};
-use super::reference::ReferenceSolution;
+use super::record::{FunctionCost, Point, Recommendation, Skipped, Trade};
+use super::reference::{Facts, ReferenceSolution};
 use super::shard::Shard;
-use super::study::{Study, StudyState};
+use super::study::Study;
 use super::target::Target;
 use super::{math, measure};
 use crate::baseline;
-use crate::baseline::record::Baseline;
+use crate::baseline::Baseline;
 use crate::cycles::{NARROW, REGISTERS};
 use signorini_problem::{Approach, Problem};
-use signorini_scene::error::{Error, Result};
+use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::adapted::adapted;
 use signorini_scene::setting::{ModelKind, Precision, Setting};
@@ -24,6 +25,9 @@ use signorini_solve::tuned_omega;
 
 /// The algebraic error that a tuned ω reaches from a cold start.
 const GOAL: f64 = 1e-3;
+
+/// A setting measured, or why it could not be.
+type Case = std::result::Result<Box<Point>, String>;
 
 /// A study with what its process knows.
 pub(super) struct Run<'s> {
@@ -33,12 +37,13 @@ pub(super) struct Run<'s> {
     by_scene: bool,
     meshes: Meshes,
     journal: Journal,
-    truth: Option<ReferenceSolution>,
+    truth: Option<Rc<ReferenceSolution>>,
 }
 
 impl Study {
-    /// Measures what no journal knows, and puts it together. Where cases are shared `by_scene`, all of this one are
-    /// this process's. `done` hears of every case: how many there are, and what it was.
+    /// Measures what no journal knows, and puts it together; `None` where other processes have the rest. Where cases
+    /// are shared `by_scene`, all of this one are this process's. `done` hears of every case: how many there are, and
+    /// what it was.
     ///
     /// # Errors
     /// Wrong input, files that cannot be written.
@@ -48,29 +53,26 @@ impl Study {
         by_scene: bool,
         wish: &Wish,
         done: &mut dyn FnMut(usize, &str),
-    ) -> Result<StudyState> {
-        Run::open(self, shard, by_scene)?.finish(wish, done)
+    ) -> Result<Option<Trade>> {
+        let mut meshes = Meshes::new(&self.scene)?;
+        let journal = self.journal(shard, &mut meshes)?;
+        Run { study: self, shard, by_scene, meshes, journal, truth: None }.finish(wish, done)
     }
 }
 
-impl<'s> Run<'s> {
-    /// Opens the journal of a study.
-    pub fn open(study: &'s Study, shard: Shard, by_scene: bool) -> Result<Self> {
-        let mut meshes = Meshes::new(&study.scene)?;
-        let journal = study.journal(shard, &mut meshes)?;
-        Ok(Self { study, shard, by_scene, meshes, journal, truth: None })
-    }
-
-    /// Measures this process's cases, and puts the record together where it is the only one. `done` hears of every
-    /// case: how many there are, and what it was.
-    pub fn finish(mut self, wish: &Wish, done: &mut dyn FnMut(usize, &str)) -> Result<StudyState> {
+impl Run<'_> {
+    fn finish(mut self, wish: &Wish, done: &mut dyn FnMut(usize, &str)) -> Result<Option<Trade>> {
         let Plan { settings, skipped } = self.plan()?;
         let has_extras = !self.study.is_alone() && self.study.with_peers;
         let all = settings.len() + if has_extras { 2 } else { 0 };
         let mut cases = Vec::new();
         for (at, setting) in settings.iter().enumerate() {
             let case = self.case(setting, self.is_mine(at))?;
-            done(all, case.as_ref().map_or("", MeasuredSetting::name));
+            done(
+                all,
+                case.as_ref()
+                    .map_or("", |case| case.as_ref().map_or_else(|why| why, |of| &of.name)),
+            );
             cases.extend(case);
         }
         let (mut baselines, mut functions) = (Some((Vec::new(), Vec::new())), Some(Vec::new()));
@@ -90,12 +92,12 @@ impl<'s> Run<'s> {
         let (true, Some(facts), Some(baselines), Some(functions)) =
             (whole, facts, baselines, functions)
         else {
-            return Ok(StudyState::Part);
+            return Ok(None);
         };
         let mut trade = self.together(skipped, facts, cases, baselines, functions);
         trade.recommendation = recommend(&trade, wish);
         super::files::write(&self.study.folder, &self.study.scene, &trade)?;
-        Ok(StudyState::Whole(Box::new(trade)))
+        Ok(Some(trade))
     }
 
     fn is_mine(&self, case: usize) -> bool {
@@ -128,71 +130,60 @@ impl<'s> Run<'s> {
     }
 
     /// Finds what is known of a setting, measured now where it is this process's; `None`: another has it.
-    fn case(&mut self, setting: &Setting, mine: bool) -> Result<Option<MeasuredSetting>> {
+    fn case(&mut self, setting: &Setting, mine: bool) -> Result<Option<Case>> {
         let key = serde_json::to_string(setting).unwrap_or_default();
-        if let Some(known) = self.journal.known(&key) {
-            return Ok(Some(known));
+        let known = self.journal.known(&key);
+        if known.is_some() || !mine {
+            return Ok(known);
         }
-        if !mine {
-            return Ok(None);
-        }
-        self.find_truth()?;
-        let case = match self.measured(setting) {
-            Ok(case) => case,
+        let truth = self.find_truth()?;
+        let case = match self.measured(setting, &truth) {
             // What one setting does not allow for is no reason to leave the others.
-            Err(Error::Input(error)) if !self.study.is_alone() => {
-                Some(MeasuredSetting::Left(error.message().to_owned()))
-            }
-            Err(error) => return Err(error),
+            Err(Error::Input(error)) if !self.study.is_alone() => Err(error.message().to_owned()),
+            found => found?,
         };
-        let Some(case) = case else { return Ok(None) };
         if self.journal.add(&key, &case).is_ok() {
             return Ok(Some(case));
         }
-        let case = MeasuredSetting::Left("the numbers found overflow".to_owned());
+        let case = Err("the numbers found overflow".to_owned());
         self.journal.add(&key, &case)?;
         Ok(Some(case))
     }
 
     /// Works out the truth, where that is not yet done, and keeps what the record says of it.
-    fn find_truth(&mut self) -> Result<()> {
-        if self.truth.is_some() {
-            return Ok(());
+    fn find_truth(&mut self) -> Result<Rc<ReferenceSolution>> {
+        if let Some(known) = &self.truth {
+            return Ok(known.clone());
         }
         let (scene, own) = (&self.study.scene, &self.meshes.own);
         let level = finest(&Problem::new(scene, own.clone())?);
         let refined = |mesh: &Mesh, times| adapted(mesh.clone(), None, times);
-        let found = ReferenceSolution::new(scene, own, level, refined)?;
-        let facts = Facts {
-            words: found.words(),
-            energy: found.energy(),
-            force: found.force(),
-            length: found.length(),
-        };
-        self.journal.add("truth", &facts).map_err(|_| overflow(scene))?;
-        self.truth = Some(found);
-        Ok(())
+        let found = Rc::new(ReferenceSolution::new(scene, own, level, refined)?);
+        self.journal.add("truth", &found.facts).map_err(|_| {
+            InputError::new("the energy or the contact force of the solution overflows")
+                .file(&scene.path)
+                .hint("scale the data so that they are neither tiny nor huge")
+        })?;
+        Ok(self.truth.insert(found).clone())
     }
 
-    /// Measures a setting, once the truth is known.
-    fn measured(&mut self, setting: &Setting) -> Result<Option<MeasuredSetting>> {
-        let Some(truth) = &self.truth else { return Ok(None) };
+    fn measured(&mut self, setting: &Setting, truth: &ReferenceSolution) -> Result<Case> {
         let problem = self.meshes.of_setting(setting)?;
         if is_too_large(self.study, setting, &problem) {
-            return Ok(Some(MeasuredSetting::Left(TOO_LARGE.to_owned())));
+            return Ok(Err(TOO_LARGE.to_owned()));
         }
         let mut point = measure::measure(&problem, truth)?;
         if let Some(board) = self.study.target.board() {
             match board::measure(&problem, &board, &self.study.module(&point.name))? {
-                Measured::Runs(firmware) => {
+                Ok(firmware) => {
                     point.instructions = Some(firmware.instructions_per_tick.median);
                     point.ram_bytes = Some(firmware.ram_bytes);
                     point.flash_bytes = Some(firmware.flash_bytes);
                 }
-                Measured::Impossible(reason) => return Ok(Some(MeasuredSetting::Left(reason))),
+                Err(reason) => return Ok(Err(reason)),
             }
         }
-        Ok(Some(MeasuredSetting::Point(Box::new(point))))
+        Ok(Ok(Box::new(point)))
     }
 
     /// Puts everything but the recommendation together.
@@ -200,20 +191,18 @@ impl<'s> Run<'s> {
         &self,
         mut skipped: Vec<Skipped>,
         facts: Facts,
-        cases: Vec<MeasuredSetting>,
+        cases: Vec<Case>,
         (baselines, mut notes): (Vec<Baseline>, Vec<String>),
         math: Vec<FunctionCost>,
     ) -> Trade {
         let mut points = Vec::new();
         for case in cases {
             match case {
-                MeasuredSetting::Point(point) => points.push(*point),
-                MeasuredSetting::Left(reason) => {
-                    match skipped.iter_mut().find(|known| known.reason == reason) {
-                        Some(known) => known.count += 1,
-                        None => skipped.push(Skipped { reason, count: 1 }),
-                    }
-                }
+                Ok(point) => points.push(*point),
+                Err(reason) => match skipped.iter_mut().find(|known| known.reason == reason) {
+                    Some(known) => known.count += 1,
+                    None => skipped.push(Skipped { reason, count: 1 }),
+                },
             }
         }
         mark(&mut points);
@@ -222,7 +211,7 @@ impl<'s> Run<'s> {
         Trade {
             scene: name.clone(),
             title: scene.title.clone(),
-            target: target.to_string(),
+            target: *target,
             registers: REGISTERS.to_owned(),
             truth: facts.words,
             energy: facts.energy,

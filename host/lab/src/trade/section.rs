@@ -4,13 +4,14 @@ use std::collections::BTreeSet;
 
 use super::digits::{or_dash, percent};
 use super::front::sentence;
-use super::listings::{baselines, costs, front, math, skipped};
-use super::picture::{picture, target_name};
+use super::picture::picture;
 use super::record::{Point, Trade};
 use super::records::Records;
+use super::table::{baselines, costs, front, math, skipped};
+use super::target::Target;
 use super::verdict::{certificate, knob_values, sentences};
 use crate::baseline;
-use crate::baseline::record::Baseline;
+use crate::baseline::Baseline;
 use signorini_draw::{Column, Table, TradePanel, TradeStudy, Tradeoff, plain};
 
 /// Everything of the section.
@@ -49,32 +50,26 @@ fn summary(scenes: &[Scene]) -> Table {
         let trade = scene.iter().flatten().next();
         trade.map(|trade| trade.scene.clone()).unwrap_or_default()
     };
+    let number = |name: &str, at: usize, text: fn(&Trade, &Point) -> String| {
+        Column::number(name, move |scene: &&Scene| taken(scene[at], text))
+    };
+    let setting = |name: &str, at: usize| {
+        Column::words(name, move |scene: &&Scene| taken(scene[at], |_, point| point.name.clone()))
+    };
     let mut columns = vec![
         Column::words("scene", name),
-        Column::words("take on the host", |scene: &&Scene| {
-            taken(scene[0], |_, point| point.name.clone())
+        setting("take on the host", 0),
+        number("error of u_h %", 0, |trade, point| percent(point.error.energy, trade.energy)),
+        number("error of s, τ %", 0, |trade, point| {
+            or_dash(point.error.combined, |error| percent(error, trade.energy))
         }),
-        Column::number("error of u_h %", |scene: &&Scene| {
-            taken(scene[0], |trade, point| percent(point.error.energy, trade.energy))
+        number("bound of s, τ %", 0, |trade, point| {
+            or_dash(point.bound, |bound| percent(bound, trade.energy))
         }),
-        Column::number("error of s, τ %", |scene: &&Scene| {
-            taken(scene[0], |trade, point| {
-                or_dash(point.error.combined, |error| percent(error, trade.energy))
-            })
-        }),
-        Column::number("bound of s, τ %", |scene: &&Scene| {
-            taken(scene[0], |trade, point| {
-                or_dash(point.bound, |bound| percent(bound, trade.energy))
-            })
-        }),
-        Column::number("cycles/unknown", |scene: &&Scene| {
-            taken(scene[0], |_, point| plain(point.cycles_per_unknown))
-        }),
-        Column::words("take on the M4F", |scene: &&Scene| {
-            taken(scene[1], |_, point| point.name.clone())
-        }),
+        number("cycles/unknown", 0, |_, point| plain(point.cycles_per_unknown)),
+        setting("take on the M4F", 1),
     ];
-    columns.extend(costs("m4f").iter().map(|&(name, text)| {
+    columns.extend(costs(Target::M4f).iter().map(|&(name, text)| {
         Column::number(name, move |scene: &&Scene| taken(scene[1], |_, point| text(point)))
     }));
     columns.extend(["Clarabel", "OSQP"].map(|solver| {
@@ -114,7 +109,7 @@ fn study(trade: &Trade) -> TradeStudy {
     let truth = format!("Errors are distances to {}", trade.truth);
     let taken = trade.recommendation.point.as_ref().map(|point| sentence(trade, point));
     TradeStudy {
-        heading: format!("On the {}", target_name(&trade.target)),
+        heading: format!("On the {}", trade.target.title()),
         recommendation: taken.unwrap_or_else(|| trade.recommendation.text.clone()),
         notes: [truth].into_iter().chain(skipped(trade)).collect(),
         picture: picture(trade),
@@ -128,13 +123,13 @@ fn study(trade: &Trade) -> TradeStudy {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixtures::trade;
+    use super::super::tests::trade;
     use super::*;
     use signorini_draw::{Report, html};
 
     #[test]
     fn a_row_a_scene_with_both_targets() {
-        let board = Trade { target: "m4f".to_owned(), ..trade("pit", 8) };
+        let board = Trade { target: Target::M4f, ..trade("pit", 8) };
         let records = Records {
             host: vec![trade("levee", 8), trade("pit", 8)],
             m4f: vec![board],
@@ -155,7 +150,7 @@ mod tests {
 
     #[test]
     fn what_would_not_fit_a_board_has_no_numbers_there() {
-        let mut board = Trade { target: "m4f".to_owned(), ..trade("pit", 8) };
+        let mut board = Trade { target: Target::M4f, ..trade("pit", 8) };
         board.recommendation.point = None;
         board.baselines.clear();
         let found = section(&Records { m4f: vec![board], ..Records::default() });

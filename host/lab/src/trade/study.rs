@@ -3,10 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::board;
-use super::journal::Journal;
-use super::measured_setting::{digest, program};
+use super::journal::{Journal, digest, program};
 use super::meshes::Meshes;
-use super::record::Trade;
 use super::shard::Shard;
 use super::target::Target;
 use crate::checkout::root;
@@ -32,15 +30,6 @@ pub struct Study {
     pub with_peers: bool,
     /// A warning of what is left out where the scene depends on t.
     pub(super) at_rest: Option<String>,
-}
-
-/// The part of a study that is known.
-#[derive(Debug)]
-pub enum StudyState {
-    /// Everything.
-    Whole(Box<Trade>),
-    /// This process's cases; others have the rest.
-    Part,
 }
 
 impl Study {

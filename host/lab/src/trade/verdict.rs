@@ -8,8 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::Serialize;
 
 use super::digits::grouped;
-use super::picture::target_name;
 use super::record::{Point, Trade};
+use super::target::Target;
 use signorini_draw::plain;
 
 /// A name and how to read it off a point.
@@ -39,7 +39,7 @@ fn stop(point: &Point) -> String {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct KnobValue {
     /// Of which target's studies.
-    pub target: String,
+    pub target: Target,
     /// The knob: `scalar`, `level`, …
     pub knob: &'static str,
     /// Its value.
@@ -54,20 +54,20 @@ pub struct KnobValue {
 
 /// Every value of every knob that was a choice somewhere, target by target, in the order of the knobs.
 pub fn knob_values<'t>(trades: impl IntoIterator<Item = &'t Trade>) -> Vec<KnobValue> {
-    let mut found: BTreeMap<(String, usize, String), [usize; 3]> = BTreeMap::new();
+    let mut found: BTreeMap<(Target, usize, String), [usize; 3]> = BTreeMap::new();
     for trade in trades {
         for (at, (_, read)) in KNOBS.iter().enumerate() {
             let values: BTreeSet<String> = trade.points.iter().map(read).collect();
             for value in values.iter().filter(|_| values.len() > 1) {
                 let points = || trade.points.iter().filter(|point| read(point) == *value);
                 let on_front = points().filter(|point| point.pareto).count();
-                let key = (trade.target.clone(), at, value.clone());
+                let key = (trade.target, at, value.clone());
                 let sums = found.entry(key).or_default();
                 *sums = [sums[0] + 1, sums[1] + points().count(), sums[2] + on_front];
             }
         }
     }
-    let value = |(key, sums): ((String, usize, String), [usize; 3])| {
+    let value = |(key, sums): ((Target, usize, String), [usize; 3])| {
         let ((target, at, value), [studies, points, on_front]) = (key, sums);
         let (knob, _) = KNOBS[at];
         KnobValue { target, knob, value, studies, points, on_front }
@@ -78,7 +78,7 @@ pub fn knob_values<'t>(trades: impl IntoIterator<Item = &'t Trade>) -> Vec<KnobV
 /// A sentence a target and knob: `On the host, scalar: f32 is on a front with 31 of 80 points; f64 never
 /// pays (0 of 40 points in 12 scenes)`.
 pub fn sentences(values: &[KnobValue]) -> Vec<String> {
-    let groups = values.chunk_by(|a, b| (&a.target, a.knob) == (&b.target, b.knob));
+    let groups = values.chunk_by(|a, b| (a.target, a.knob) == (b.target, b.knob));
     groups.map(sentence).collect()
 }
 
@@ -102,8 +102,8 @@ fn sentence(values: &[KnobValue]) -> String {
     let parts = [paying.collect::<Vec<_>>().join(", "), never.collect::<Vec<_>>().join(", ")];
     let parts: Vec<&str> =
         parts.iter().map(String::as_str).filter(|part| !part.is_empty()).collect();
-    let (target, knob) = values.first().map_or(("", ""), |value| (&*value.target, value.knob));
-    format!("On the {}, {knob}: {}", target_name(target), parts.join("; "))
+    let (target, knob) = values.first().map_or(("", ""), |of| (of.target.title(), of.knob));
+    format!("On the {target}, {knob}: {}", parts.join("; "))
 }
 
 /// The cost of the certificate: the median of cycles with it over cycles without, of points that differ in
@@ -134,7 +134,7 @@ fn certificate_ratios(trade: &Trade) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixtures::point;
+    use super::super::tests::point;
     use super::*;
 
     fn trade(target: &str, points: &[(&str, &str, bool)]) -> Trade {
@@ -150,7 +150,7 @@ mod tests {
             model: String::new(),
             ..p
         });
-        Trade { points: points.collect(), ..super::super::fixtures::trade(target, 0) }
+        Trade { points: points.collect(), ..super::super::tests::trade(target, 0) }
     }
 
     #[test]
@@ -193,7 +193,7 @@ mod tests {
     fn targets_are_judged_apart() {
         let host = trade("a", &[("f32", "exact", true), ("f64", "exact", false)]);
         let mut board = trade("a", &[("f32", "exact", false), ("f64", "exact", true)]);
-        board.target = "m4f".to_owned();
+        board.target = Target::M4f;
         let found = sentences(&knob_values([&host, &board]));
         assert!(found[0].contains("host") && found[0].contains("f64 never"), "{found:?}");
         assert!(found[1].contains("Cortex-M4F") && found[1].contains("f32 never"), "{found:?}");

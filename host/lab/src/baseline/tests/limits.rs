@@ -1,11 +1,8 @@
 //! All solvers on problems whose fluxes have limits: answers are those of the kernel's solve, and of each other.
 
-use std::path::PathBuf;
-
-use signorini_problem::{Parts, Problem};
+use crate::trade::tests::problem;
+use signorini_problem::Parts;
 use signorini_scene::error::Result;
-use signorini_scene::mesh;
-use signorini_scene::scene::Scene;
 use signorini_solve::{Options, SolverKind, solve};
 use signorini_tolerances::lab::{CLARABEL_LIMITED, PIVOTING_LIMITED};
 
@@ -17,13 +14,7 @@ use super::super::full::quadratic;
 use super::super::load_case::LoadCase;
 use super::super::program::Program;
 use super::super::quadratic::{Matrix, Quadratic, QuadraticLoads};
-use super::super::timed_solver::{InitialGuess, TimedSolver};
-
-fn problem(name: &str) -> Result<Problem> {
-    let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../meshes"));
-    let scene = Scene::read(&root.join(format!("{name}.toml")))?;
-    Problem::new(&scene, mesh::read(&scene.mesh.value)?)
-}
+use super::super::series::{InitialGuess, TimedSolver};
 
 /// The unknowns one by one, relative to the largest.
 fn check(name: &str, found: &[f64], u: &[f64]) {
@@ -37,7 +28,7 @@ fn check(name: &str, found: &[f64], u: &[f64]) {
 #[test]
 fn clarabel_agrees_where_fluxes_have_limits() -> Result<()> {
     for name in ["limits/l-tri", "limits/l-quad", "scenes/antiicing"] {
-        let problem = problem(name)?;
+        let problem = problem(name);
         let here = [LoadCase::at(&problem.scene, problem.time)];
         let (full, factor) = quadratic(&problem, &Parts::examine(&problem)?, &here)?;
         let solution =
@@ -61,7 +52,7 @@ fn clarabel_agrees_where_fluxes_have_limits() -> Result<()> {
 #[test]
 fn all_solvers_follow_limits_from_tick_to_tick() -> Result<()> {
     for name in ["limits/l-tri", "scenes/antiicing"] {
-        let (problem, mut notes) = (problem(name)?, Vec::new());
+        let (problem, mut notes) = (problem(name), Vec::new());
         let moments = LoadCase::drawn(&problem, 3);
         let (full, _) = quadratic(&problem, &Parts::examine(&problem)?, &moments)?;
         let size = full.distance(0, &vec![0.0; full.matrix.order()]);
@@ -87,8 +78,8 @@ fn all_solvers_follow_limits_from_tick_to_tick() -> Result<()> {
 /// K = (2, −1; −1, 2) with both unknowns in contact.
 fn small(spans: [f64; 2]) -> Result<Quadratic> {
     let mut matrix = Matrix::new();
-    matrix.push_row([(0, 2.0), (1, -1.0)].into_iter());
-    matrix.push_row([(0, -1.0), (1, 2.0)].into_iter());
+    matrix.push([(0, 2.0), (1, -1.0)]);
+    matrix.push([(0, -1.0), (1, 2.0)]);
     let tick = QuadraticLoads::new(vec![-3.0, 1.0], vec![0.0, -1.0], spans.to_vec());
     Ok(Quadratic::new(matrix, Vec::new(), vec![tick])?.0)
 }
@@ -98,10 +89,10 @@ fn a_slack_stands_where_there_is_a_limit() -> Result<()> {
     let quadratic = small([1.5, f64::NEG_INFINITY])?;
     let program = Program::new(&quadratic)?;
     // u₁ + s ≥ 0,  −u₂ ≥ 1,  s ≥ 0.
-    assert_eq!(program.constraints.starts, [0, 1, 2, 4]);
-    assert_eq!(program.constraints.rows, [0, 1, 0, 2]);
+    assert_eq!(program.constraints.row_ptr, [0, 1, 2, 4]);
+    assert_eq!(program.constraints.col_idx, [0, 1, 0, 2]);
     assert_eq!(program.constraints.values, [1.0, -1.0, 1.0, 1.0]);
-    assert_eq!(program.matrix.starts, [0, 1, 3, 3]);
+    assert_eq!(program.matrix.row_ptr, [0, 1, 3, 3]);
     let tick = &quadratic.ticks[0];
     assert_eq!(program.cost(tick), [3.0, -1.0, 1.5]);
     assert_eq!(program.least(tick), [0.0, 1.0, 0.0]);

@@ -2,17 +2,22 @@
 
 use std::fmt::Write;
 
-use super::dice::Random;
+use serde::Serialize;
+
 use super::mesh::{Kind, MeshPlan, Outline, Regions};
 use super::posed::Hold;
 use super::{catalogue, data, made};
+use crate::record_file::word;
+use signorini_problem::random::Random;
 use signorini_scene::mesh::Mesh;
 use signorini_solve::ScalarKind;
 
 /// Where its truth comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Yardstick {
     /// A solution of the catalogue, at any scale.
+    #[default]
     Catalogue,
     /// A function was chosen, and the data made for it.
     Made,
@@ -21,15 +26,19 @@ pub enum Yardstick {
 }
 
 /// The solver.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Way {
     /// Sweeps of the kernel, as `solve` has them.
+    #[default]
     Sweeps,
     /// The host's factorisation.
     Direct,
     /// The tick of a full controller.
+    #[serde(rename = "full tick")]
     Full,
     /// The tick of a condensed one.
+    #[serde(rename = "condensed tick")]
     Condensed,
 }
 
@@ -157,11 +166,7 @@ fn effort(random: &mut Random, way: Way, defaults: &[f64]) -> Effort {
 /// The `[setting]` that makes commands do the same.
 fn setting(random: &mut Random, effort: &Effort, kind: Kind) -> String {
     let mut text = String::from("[setting]\n");
-    let scalar = match effort.scalar {
-        ScalarKind::F64 => "f64",
-        ScalarKind::F32 => "f32",
-    };
-    let _ = writeln!(text, "scalar = \"{scalar}\"");
+    let _ = writeln!(text, "scalar = \"{}\"", word(&effort.scalar));
     if kind != Kind::Triangles && random.chance(0.3) {
         text += "element = \"nonparametric\"\n";
     }

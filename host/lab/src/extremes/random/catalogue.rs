@@ -1,12 +1,11 @@
 //! Scenes with a solution of the catalogue: jumps, anisotropy, obliqueness and scales of any size.
 
-use super::dice::Random;
-use super::ends::span;
 use super::mesh::{self, MeshPlan, Regions};
-use super::posed::{Hold, Posed};
+use super::posed::{Hold, Posed, span};
 use crate::extremes::grid::{Grid, Shape};
 use crate::extremes::posed::{Hold as Side, Posed as Known, Scales};
 use crate::extremes::solution::{Shear, Solution};
+use signorini_problem::random::Random;
 use signorini_scene::mesh::structured::Cells;
 
 /// Draws one.

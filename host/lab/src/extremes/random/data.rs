@@ -3,11 +3,10 @@
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-use super::dice::Random;
-use super::ends::{Ends, span};
 use super::function::{Frame, Function, Rough};
 use super::mesh::{self, MeshPlan};
-use super::posed::{Hold, Posed};
+use super::posed::{Ends, Hold, Posed, span};
+use signorini_problem::random::Random;
 
 /// Draws one; `moving`: with inputs.
 pub(super) fn draw(random: &mut Random, plan: &MeshPlan, moving: bool) -> Posed {

@@ -4,7 +4,7 @@
 //!   ∇ = Σ c φ′(z) (a, b),   ∇∇ᵀ = Σ c φ″(z) (a, b)(a, b)ᵀ
 //! ```
 
-use super::dice::Random;
+use signorini_problem::random::Random;
 
 /// φ
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -8,11 +8,10 @@
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-use super::dice::Random;
-use super::ends::{Ends, span};
 use super::function::{Frame, Function, Rough};
 use super::mesh::{self, Drawn, MeshPlan, Outline, Regions};
-use super::posed::{Hold, Posed};
+use super::posed::{Ends, Hold, Posed, span};
+use signorini_problem::random::Random;
 
 /// u with ∇u, σ = A∇u and f as texts, and the materials.
 struct Chosen {

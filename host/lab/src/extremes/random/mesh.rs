@@ -7,13 +7,18 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::dice::Random;
+use serde::Serialize;
+
+use crate::extremes::grid::partition;
+use signorini_problem::random::Random;
 use signorini_scene::mesh::{Curve, Mesh, Surface};
 
 /// The cells of a mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Kind {
     /// Triangles alone.
+    #[default]
     Triangles,
     /// Quads alone.
     Quads,
@@ -92,7 +97,7 @@ impl Lines {
         let [columns, rows] = [2 * half as u32, rows as u32];
         let mut graded = |lines: u32| {
             let growth = if plan.graded { random.signed_log(1.05, 2.0) } else { 1.0 };
-            partition(lines, if growth < 0.0 { -1.0 / growth } else { growth })
+            growing(lines, if growth < 0.0 { -1.0 / growth } else { growth })
         };
         let half: Vec<f64> = graded(columns / 2);
         let left = half.iter().rev().map(|x| -x);
@@ -143,19 +148,10 @@ impl Lines {
 }
 
 /// 0 to 1 in so many steps, each `growth` times the one before, at most 1e3 in all.
-fn partition(steps: u32, growth: f64) -> Vec<f64> {
+fn growing(steps: u32, growth: f64) -> Vec<f64> {
     let most = 1e3_f64.powf(1.0 / f64::from(steps));
     let growth = growth.clamp(1.0 / most, most);
-    let widths: Vec<f64> = (0..steps).map(|step| growth.powf(f64::from(step))).collect();
-    let total: f64 = widths.iter().sum();
-    let mut ends = vec![0.0];
-    let mut sum = 0.0;
-    for width in widths {
-        sum += width;
-        ends.push(sum / total);
-    }
-    ends[steps as usize] = 1.0;
-    ends
+    partition(&(0..steps).map(|step| growth.powf(f64::from(step))).collect::<Vec<_>>())
 }
 
 /// Draws a mesh.

@@ -1,7 +1,7 @@
 //! `signorini extremes --random N --seed S`: whole scenes drawn at random, each judged by a truth of its own.
 //!
 //! ```text
-//!   dice ─► mesh, function ─► catalogue, made, data ─► Case ─► attempt ─► measure (exact, or nested) ─► verdict ─► row ─► record
+//!   mesh, function ─► catalogue, made, data ─► Case ─► attempt ─► measure (exact, or nested) ─► verdict ─► row ─► record
 //! ```
 //! Case k of a seed depends on nothing but k and the seed, so that each can be had alone.
 
@@ -9,8 +9,6 @@ mod attempt;
 mod case;
 mod catalogue;
 mod data;
-mod dice;
-mod ends;
 mod function;
 mod made;
 mod measure;
@@ -25,6 +23,7 @@ pub mod row;
 mod tests;
 mod verdict;
 
+use std::ops::RangeInclusive;
 use std::path::Path;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
@@ -36,22 +35,15 @@ use record::Record;
 use row::Row;
 use verdict::{broken_by, ended};
 
-use super::grid::msh;
 use super::judge::{Ended, Outcome, judge};
 use super::watch::watched;
 use signorini_files::atomic::write_atomically;
 use signorini_problem::threads::on_two_threads;
 use signorini_scene::error::{Error, Result};
+use signorini_scene::mesh::gmsh::write as msh;
 
 /// A case without an answer by then hangs.
 const LIMIT: Duration = Duration::from_secs(1800);
-
-/// Which scenes are drawn.
-#[derive(Debug, Clone)]
-pub struct RandomPlan {
-    seed: u64,
-    cases: Vec<u32>,
-}
 
 /// Called with all rows that are there so far.
 pub type Keep<'k> = dyn Fn(&[Row]) -> Result<()> + Sync + 'k;
@@ -59,51 +51,29 @@ pub type Keep<'k> = dyn Fn(&[Row]) -> Result<()> + Sync + 'k;
 /// Cases between two records of a run that is not over.
 const OFTEN: usize = 250;
 
-impl RandomPlan {
-    /// The first `count` cases of a seed.
-    pub fn new(seed: u64, count: u32) -> Self {
-        Self { seed, cases: (0..count).collect() }
-    }
-
-    /// One case of a seed.
-    pub fn one(seed: u64, case: u32) -> Self {
-        Self { seed, cases: vec![case] }
-    }
-
-    /// How many there are.
-    pub fn len(&self) -> usize {
-        self.cases.len()
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.cases.is_empty()
-    }
-
-    /// Runs them in two threads; calls `done` after each and `keep` now and then.
-    ///
-    /// # Errors
-    /// What `keep` returns.
-    pub fn run(&self, done: impl Fn() + Sync, keep: &Keep) -> Result<(Record, Vec<Row>)> {
-        let start = Instant::now();
-        let rows = Mutex::new(Vec::with_capacity(self.cases.len()));
-        let work = |&number: &u32| {
-            let row = row(self.seed, number);
-            let Ok(mut rows) = rows.lock() else { return Ok(()) };
-            rows.push(row);
-            if rows.len().is_multiple_of(OFTEN) { keep(&rows) } else { Ok(()) }
-        };
-        on_two_threads(&self.cases, work, done)?;
-        let mut rows = rows.into_inner().unwrap_or_default();
-        rows.sort_by_key(|row| row.case);
-        keep(&rows)?;
-        Ok((Record::new(self.seed, start.elapsed().as_secs_f64(), &rows), rows))
-    }
-
-    /// The record of rows that may not be all.
-    pub fn record(&self, seconds: f64, rows: &[Row]) -> Record {
-        Record::new(self.seed, seconds, rows)
-    }
+/// Draws these cases of a seed and runs them in two threads; calls `done` after each and `keep` now and then.
+///
+/// # Errors
+/// What `keep` returns.
+pub fn run(
+    seed: u64,
+    cases: RangeInclusive<u32>,
+    done: impl Fn() + Sync,
+    keep: &Keep,
+) -> Result<Record> {
+    let start = Instant::now();
+    let rows = Mutex::new(Vec::new());
+    let work = |&number: &u32| {
+        let row = row(seed, number);
+        let Ok(mut rows) = rows.lock() else { return Ok(()) };
+        rows.push(row);
+        if rows.len().is_multiple_of(OFTEN) { keep(&rows) } else { Ok(()) }
+    };
+    on_two_threads(&cases.collect::<Vec<_>>(), work, done)?;
+    let mut rows = rows.into_inner().unwrap_or_default();
+    rows.sort_by_key(|row| row.case);
+    keep(&rows)?;
+    Ok(Record::new(seed, start.elapsed().as_secs_f64(), &rows))
 }
 
 /// Writes the scene and the mesh of a case into `folder`.
@@ -119,7 +89,7 @@ pub fn write(seed: u64, number: u32, folder: &Path) -> Result<()> {
         effort.way, effort.scalar, effort.sweeps, effort.earlier, effort.inputs
     );
     write_atomically(&folder.join("scene.toml"), (how + &case.scene).as_bytes())?;
-    write_atomically(&folder.join("mesh.msh"), msh(&case.mesh).as_bytes())
+    write_atomically(&folder.join("mesh.msh"), msh::text(&case.mesh).as_bytes())
 }
 
 /// Draws, solves, measures and judges one case.
@@ -145,10 +115,7 @@ fn row(seed: u64, number: u32) -> Row {
 
 /// Measures an answer, if its numbers are finite, and judges it.
 fn answered(case: &RandomCase, attempt: &Attempt) -> Row {
-    let measured = match attempt.is_finite() {
-        true => measure(case, attempt),
-        false => Ok(None),
-    };
+    let measured = if attempt.is_finite() { measure(case, attempt) } else { Ok(None) };
     let measured = match measured {
         Ok(measured) => measured,
         Err(error) => {

@@ -3,11 +3,11 @@
 //! A child's reference coordinates are an affine function of its parent's, on quads too: what both functions are
 //! is known at any point of the finer mesh, without a search.
 
-use signorini_certify::admissible::{Admissible, Chordal};
+use signorini_certify::admissible::{self, Admissible};
 use signorini_certify::cell::{Cell, Jet};
 use signorini_certify::conductivity::{Conductivity, inverse, product};
 use signorini_certify::curved::followed;
-use signorini_certify::deviation::{Deviations, Lift};
+use signorini_certify::deviation::Deviations;
 use signorini_certify::weighed::{minus, on_robin};
 use signorini_problem::field::CellField;
 use signorini_problem::quadrature::{Point, gauss};
@@ -50,8 +50,7 @@ struct Part<'a> {
 /// A function on one cell.
 struct OnCell<'a> {
     cell: Cell,
-    chordal: Chordal,
-    lift: Lift<'a, 'a>,
+    s: admissible::OnCell<'a, 'a>,
     tau: CellField,
     u: CellField,
 }
@@ -100,8 +99,7 @@ impl<'a> Part<'a> {
         let MeshSolution { problem, admissible, u } = self.side;
         OnCell {
             cell: Cell::of(problem, at),
-            chordal: admissible.chordal(problem, at),
-            lift: Lift::on_cell(problem, at, &self.deviations),
+            s: admissible.on_cell(problem, at, &self.deviations),
             tau: CellField::new(problem, at, admissible.tau, admissible.tau),
             u: CellField::new(problem, at, u, u),
         }
@@ -110,12 +108,7 @@ impl<'a> Part<'a> {
 
 impl OnCell<'_> {
     fn s(&self, reference: [f64; 3]) -> Result<Jet> {
-        let local = self.cell.local(reference);
-        let mut s = self.chordal.at(&local);
-        if !self.lift.is_zero() {
-            s.add(1.0, self.lift.at(&local)?);
-        }
-        Ok(s)
+        self.s.at(&self.cell.local(reference))
     }
 }
 

@@ -3,31 +3,31 @@
 use serde::Serialize;
 
 use super::attempt::Attempt;
-use super::case::{RandomCase, Way, Yardstick};
+use super::case::{Effort, RandomCase, Way, Yardstick};
 use super::measure::Measured;
 use super::mesh::Kind;
 use super::posed::Hold;
 use super::verdict::Broken;
-use crate::csv_file::csv_file;
 use crate::extremes::judge::{Outcome, ratio};
+use crate::record_file::{self, word};
 use signorini_scene::error::Result;
 use signorini_solve::ScalarKind;
 
 /// A line of `random.csv`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Row {
     /// Its number.
     pub case: u32,
     /// Where its truth comes from.
-    pub truth: &'static str,
+    pub truth: Yardstick,
     /// The condition that holds it.
-    pub hold: &'static str,
+    pub hold: Hold,
     /// Its cells.
-    pub cells: &'static str,
+    pub cells: Kind,
     /// Its scalar.
-    pub scalar: &'static str,
+    pub scalar: ScalarKind,
     /// The solver.
-    pub way: &'static str,
+    pub way: Way,
     /// A limit on the sweeps.
     pub limit: Option<u32>,
     /// The worth of the answer.
@@ -62,48 +62,9 @@ pub struct Row {
 impl Row {
     /// The row of a case before it is solved.
     pub fn of(case: &RandomCase) -> Self {
-        Self {
-            case: case.number,
-            truth: match case.truth {
-                Yardstick::Catalogue => "catalogue",
-                Yardstick::Made => "made",
-                Yardstick::Finer => "finer",
-            },
-            hold: match case.hold {
-                Hold::Dirichlet => "dirichlet",
-                Hold::Robin => "robin",
-                Hold::Contact => "contact alone",
-            },
-            cells: match case.kind {
-                Kind::Triangles => "triangles",
-                Kind::Quads => "quads",
-                Kind::Both => "both",
-            },
-            scalar: match case.effort.scalar {
-                ScalarKind::F64 => "f64",
-                ScalarKind::F32 => "f32",
-            },
-            way: match case.effort.way {
-                Way::Sweeps => "sweeps",
-                Way::Direct => "direct",
-                Way::Full => "full tick",
-                Way::Condensed => "condensed tick",
-            },
-            limit: case.effort.sweeps,
-            outcome: Outcome::Wrong,
-            unknowns: None,
-            status: None,
-            sweeps: None,
-            error_over_bound: None,
-            of_u_over_bound: None,
-            identity_off: None,
-            output_over_interval: None,
-            relative_bound: None,
-            seconds: 0.0,
-            seconds_in_all: 0.0,
-            note: String::new(),
-            broken: Vec::new(),
-        }
+        let Effort { scalar, way, sweeps: limit, .. } = case.effort;
+        let RandomCase { number, truth, hold, kind: cells, .. } = *case;
+        Self { case: number, truth, hold, cells, scalar, way, limit, ..Self::default() }
     }
 
     /// With the numbers of its answer.
@@ -130,13 +91,13 @@ impl Row {
     /// The classes that it counts in.
     pub fn classes(&self) -> Vec<String> {
         let cut = if self.limit.is_some() { "with a limit" } else { "to the end" };
-        let names = [self.truth, self.hold, self.cells, self.scalar, self.way, cut];
-        names.map(str::to_owned).to_vec()
+        let how = [word(&self.cells), word(&self.scalar), word(&self.way), cut.to_owned()];
+        [word(&self.truth), word(&self.hold)].into_iter().chain(how).collect()
     }
 
     /// The ratios whose largest is recorded.
     pub fn ratios(&self) -> Vec<(&'static str, f64)> {
-        let finer = self.truth == "finer";
+        let finer = self.truth == Yardstick::Finer;
         let of = |name, ratio: Option<f64>| ratio.map(|ratio| (name, ratio));
         let [error, of_u, output] = match finer {
             true => [
@@ -165,5 +126,5 @@ impl Row {
 /// # Errors
 /// Never for plain data.
 pub fn csv(rows: &[Row]) -> Result<Vec<u8>> {
-    csv_file("random.csv", rows)
+    record_file::csv("random.csv", rows)
 }

@@ -4,8 +4,9 @@ use proptest::prelude::*;
 use tempfile::{TempDir, tempdir};
 
 use super::*;
-use crate::baseline::record::PointError;
 use crate::trade::record::Point;
+use crate::trade::record::PointError;
+use crate::trade::tests as fixtures;
 use signorini_scene::setting::{Omega, Setting};
 
 const OF: &str = "levee, its mesh";
@@ -21,28 +22,12 @@ fn open(folder: &TempDir, shard: &str) -> Journal {
 fn point(value: f64) -> Point {
     Point {
         name: "quads \"1\"\nf32 · ω".to_owned(),
-        scalar: "f32".to_owned(),
-        math: "libm".to_owned(),
-        cells: "quads".to_owned(),
-        level: 1,
-        unknowns: 1264,
-        stop: "12 sweeps".to_owned(),
-        sweeps: 12,
-        start: "warm".to_owned(),
-        omega: "tuned".to_owned(),
-        model: "full".to_owned(),
-        certificate: true,
         error: PointError { energy: value, combined: None, l2: -value, ..PointError::default() },
         bound: Some(value),
-        bound_of_u: None,
         cycles: value,
-        cycles_spread: 0.1,
-        cycles_per_unknown: 1.0,
         instructions: Some(u64::MAX),
-        ram_bytes: None,
-        flash_bytes: None,
-        pareto: false,
         setting: Setting { omega: Omega::Fixed(value), ..Setting::default() },
+        ..fixtures::point(7)
     }
 }
 

@@ -3,7 +3,7 @@
 //! The patterns of inputs have no t and are tables on a device; their functions are not counted.
 
 use super::super::record::FunctionCost;
-use super::change::{Change, State};
+use super::State;
 use signorini_bake::costs::Costs;
 use signorini_problem::{Assembled, EdgeKind, Problem};
 use signorini_scene::error::Result;
@@ -34,7 +34,7 @@ pub(super) fn rows(problem: &Problem) -> Result<Vec<FunctionCost>> {
     let before = State::from(solved(problem)?);
     let costs = Costs::measured();
     let row = |used: Use| -> Result<FunctionCost> {
-        let mut row = FunctionCost {
+        let row = FunctionCost {
             function: used.name.to_owned(),
             used_in: used.keys.join(", "),
             calls: used.calls,
@@ -42,14 +42,9 @@ pub(super) fn rows(problem: &Problem) -> Result<Vec<FunctionCost>> {
             ..FunctionCost::default()
         };
         match replaced(problem, used.arithmetic) {
-            Ok(solution) => {
-                let after = State::from(solution);
-                let change = Change::between(&assembled, &before, &after).map_err(&unfit)?;
-                (row.energy, row.force, row.length) = (change.energy, change.force, change.length);
-            }
-            Err(error) => row.note = Some(error.reason()),
+            Ok(solution) => row.changed(&assembled, &before, &solution.into()).map_err(&unfit),
+            Err(error) => Ok(FunctionCost { note: Some(error.reason()), ..row }),
         }
-        Ok(row)
     };
     uses.into_iter().map(row).collect()
 }

@@ -9,7 +9,7 @@ use signorini_kernel::solver::{Settings, Solver, Status};
 use signorini_kernel::{Error, Libm, Math, Micromath, contact};
 
 use super::super::record::FunctionCost;
-use super::change::{Change, State};
+use super::State;
 use signorini_bake::costs::Costs;
 use signorini_problem::{Assembled, Parts, Problem};
 use signorini_scene::error::Result;
@@ -39,31 +39,30 @@ fn compared(
     };
     let (exact, fast) = (solves[0](single)?, solves[1](single)?);
     let saved = Costs::measured().saved_by(NAME).unwrap_or_default();
-    let change = Change::between(wide, &exact.state, &fast.state)?;
-    let named = |place: &str| FunctionCost {
+    let row = |place: &str, calls: u64| FunctionCost {
         function: NAME.to_owned(),
         used_in: place.to_owned(),
+        calls,
         saved,
         ..FunctionCost::default()
     };
     let search = FunctionCost {
-        energy: change.energy,
-        force: change.force,
-        length: change.length,
         sweeps: Some(i64::from(fast.sweeps) - i64::from(exact.sweeps)),
-        calls: fast.calls,
         note: ends(&exact, &fast),
-        ..named("search for ω")
+        ..row("search for ω", fast.calls).changed(wide, &exact.state, &fast.state)?
     };
-    let lengths = Lengths::of(single, &exact.u)?;
-    let measured = FunctionCost {
+    let (mesh, edges, law) = (single.mesh()?, single.edges(), single.law());
+    let is_active = |&at: &usize| contact::is_active(edges.counts(), law, &exact.u, at);
+    let active = (0..edges.counts().contact).filter(is_active).count() as u64;
+    let length = contact::length::<_, _, Libm>(&mesh, edges, law, &exact.u);
+    let other = contact::length::<_, _, Micromath>(&mesh, edges, law, &exact.u);
+    let lengths = (active > 0).then(|| FunctionCost {
         energy: Some(0.0),
         force: Some(0.0),
-        length: lengths.error,
-        calls: lengths.calls,
-        ..named("lengths of edges")
-    };
-    Ok(if lengths.calls > 0 { vec![search, measured] } else { vec![search] })
+        length: Some(f64::from((other - length) / length).abs()),
+        ..row("lengths of edges", active)
+    });
+    Ok([search].into_iter().chain(lengths).collect())
 }
 
 /// A note on solves that do not end well.
@@ -118,26 +117,5 @@ impl<M: Math<f32>> Math<f32> for Counted<M> {
     fn sqrt(x: f32) -> f32 {
         CALLS.set(CALLS.get() + 1);
         M::sqrt(x)
-    }
-}
-
-/// The length of the contact set by both square roots.
-struct Lengths {
-    /// Relative error; none where nothing is in contact.
-    error: Option<f64>,
-    /// Active edges.
-    calls: u64,
-}
-
-impl Lengths {
-    fn of(assembled: &Assembled<f32>, u: &[f32]) -> std::result::Result<Self, Error> {
-        let (mesh, edges, law) = (assembled.mesh()?, assembled.edges(), assembled.law());
-        let counts = edges.counts();
-        let is_active = |&at: &usize| contact::is_active(counts, law, u, at);
-        let calls = (0..counts.contact).filter(is_active).count() as u64;
-        let exact = contact::length::<_, _, Libm>(&mesh, edges, law, u);
-        let fast = contact::length::<_, _, Micromath>(&mesh, edges, law, u);
-        let error = (calls > 0).then(|| f64::from((fast - exact) / exact).abs());
-        Ok(Self { error, calls })
     }
 }

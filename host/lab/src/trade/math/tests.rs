@@ -1,21 +1,14 @@
 //! Scenes that call functions, a scene that calls none, and loads that a wrong function spoils.
 
-use std::path::Path;
-
 use super::{FunctionCost, of_scene};
+use crate::trade::tests::scene;
 use signorini_problem::Problem;
 use signorini_scene::error::Result;
 use signorini_scene::mesh;
 use signorini_scene::scene::Scene;
 
 fn rows(scene: &Scene) -> Result<Vec<FunctionCost>> {
-    let problem = Problem::new(scene, mesh::read(&scene.mesh.value)?)?;
-    of_scene(&problem)
-}
-
-fn scene(name: &str) -> Scene {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes");
-    Scene::read(&root.join(name)).unwrap()
+    of_scene(&Problem::new(scene, mesh::read(&scene.mesh.value)?)?)
 }
 
 fn row<'r>(rows: &'r [FunctionCost], function: &str, place: &str) -> &'r FunctionCost {
@@ -25,7 +18,7 @@ fn row<'r>(rows: &'r [FunctionCost], function: &str, place: &str) -> &'r Functio
 
 #[test]
 fn a_load_with_many_functions_has_a_row_for_each() {
-    let rows = rows(&scene("catalogue/h-tri.toml")).unwrap();
+    let rows = rows(&scene("catalogue/h-tri")).unwrap();
     let single = row(&rows, "f32 with libm", "value").energy.unwrap();
     assert!((1e-9..1e-6).contains(&single), "{single:e}");
     for function in ["sin", "cos", "atan2", "ln", "powf"] {
@@ -39,7 +32,7 @@ fn a_load_with_many_functions_has_a_row_for_each() {
 
 #[test]
 fn a_sine_in_the_source_moves_the_answer_by_a_thousandth() {
-    let rows = rows(&scene("scenes/benbelgacem.toml")).unwrap();
+    let rows = rows(&scene("scenes/benbelgacem")).unwrap();
     let sin = row(&rows, "sin", "source.f");
     assert!((1e-5..1e-2).contains(&sin.energy.unwrap()), "{sin:#?}");
     assert!((1e-6..1e-2).contains(&sin.force.unwrap()), "{sin:#?}");
@@ -48,7 +41,7 @@ fn a_sine_in_the_source_moves_the_answer_by_a_thousandth() {
 
 #[test]
 fn loads_without_functions_leave_the_square_root_of_the_kernel() {
-    let rows = rows(&scene("scenes/levee.toml")).unwrap();
+    let rows = rows(&scene("scenes/levee")).unwrap();
     assert!(rows.iter().all(|row| row.function == "sqrt"), "{rows:#?}");
     let search = row(&rows, "sqrt", "search for ω");
     assert!(search.energy.unwrap() < 1e-3, "{search:#?}");
@@ -59,7 +52,7 @@ fn loads_without_functions_leave_the_square_root_of_the_kernel() {
 
 #[test]
 fn a_function_that_puts_the_given_value_below_the_gap_is_reported() {
-    let square = scene("catalogue/a-tri.toml");
+    let square = scene("catalogue/a-tri");
     let (given, gap) = ("max(x,0)^3 - (y)*max(-(x),0)^3", "gap = \"0\"");
     let text = square.text.replace(given, "1.4143").replace(gap, "gap = \"sqrt(2*x*x)\"");
     let (text, _exact) = text.split_once("[exact]").unwrap();

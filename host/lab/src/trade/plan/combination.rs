@@ -7,10 +7,11 @@ use signorini_scene::setting::{MathKind, Method, ModelKind, Omega, Precision, Se
 impl Combination {
     /// Why it is left out; `None`: it is measured.
     pub fn reason(&self, ground: &SceneFacts) -> Option<&'static str> {
-        self.senseless(ground).or_else(|| self.out_of_reach(ground)).or_else(|| {
+        self.refused(ground).or_else(|| {
             if self.error.is_some() {
                 let reason = "meshes refined for an error are measured with exact methods in f32";
-                return (!self.is_exact(ground)).then_some(reason);
+                let usual = self.model == ModelKind::Condensed || self.starts_as_most(ground);
+                return (!(usual && self.is_usual())).then_some(reason);
             }
             let measured = match self.model {
                 ModelKind::Condensed => self.is_condensed_point(),
@@ -21,46 +22,34 @@ impl Combination {
         })
     }
 
-    /// Why it means nothing.
-    fn senseless(&self, ground: &SceneFacts) -> Option<&'static str> {
+    /// Why it means nothing, or why there is no code for it, or no room.
+    fn refused(&self, ground: &SceneFacts) -> Option<&'static str> {
         let condensed = self.model == ModelKind::Condensed;
-        let exact = self.stop == Stop::Exact;
+        let (exact, warm) = (self.stop == Stop::Exact, self.start == Start::Warm);
         let has_omega = self.omega != Factor::Auto;
         let fast = self.math == MathKind::Micromath;
-        first(&[
-            (
-                condensed && !matches!(self.stop, Stop::Exact | Stop::Sweeps(12)),
-                "shares and other sweeps than 12 are for full models",
-            ),
-            (!condensed && self.stop == Stop::Sweeps(12), "12 sweeps are for condensed models"),
+        let mixed = self.scalar == Precision::Mixed;
+        let loose = !condensed && ground.is_loose;
+        let on_board = ground.target != Target::Host;
+        let size = ground.unknowns << (2 * self.level);
+        let stop = self.stop;
+        let other = !matches!(stop, Stop::Exact | Stop::Sweeps(12));
+        let reasons = [
+            (condensed && other, "shares and other sweeps than 12 are for full models"),
+            (!condensed && stop == Stop::Sweeps(12), "12 sweeps are for condensed models"),
             (exact && !condensed && (has_omega || fast), "a factor has no ω"),
             (condensed && has_omega, "a condensed model has its best ω from the host"),
             (
-                matches!(self.stop, Stop::Sweeps(10 | 40)) && self.level > 0,
+                matches!(stop, Stop::Sweeps(10 | 40)) && self.level > 0,
                 "so few sweeps of a refined mesh never paid: a coarser mesh has the same error for less",
             ),
             (fast && self.scalar != Precision::F32, "micromath is for f32"),
             (fast && (has_omega || condensed), "micromath serves the search for ω alone"),
             (
-                matches!(self.stop, Stop::Share(_)) && !self.certificate,
+                matches!(stop, Stop::Share(_)) && !self.certificate,
                 "a share of the bound needs the bound",
             ),
-            (
-                self.start == Start::Warm && !ground.has_inputs,
-                "no inputs: nothing changes between ticks",
-            ),
-        ])
-    }
-
-    /// Why there is no code for it, or no room.
-    fn out_of_reach(&self, ground: &SceneFacts) -> Option<&'static str> {
-        let condensed = self.model == ModelKind::Condensed;
-        let mixed = self.scalar == Precision::Mixed;
-        let exact = self.stop == Stop::Exact;
-        let warm = self.start == Start::Warm;
-        let loose = !condensed && ground.is_loose;
-        let on_board = ground.target != Target::Host;
-        first(&[
+            (warm && !ground.has_inputs, "no inputs: nothing changes between ticks"),
             (ground.uses_time && on_board, "the data change with t, which firmware does not know"),
             (condensed && !ground.has_inputs, "no inputs: a condensed answer is a constant"),
             (condensed && !warm, "a condensed model starts at its default inputs"),
@@ -74,94 +63,84 @@ impl Combination {
                 "contact alone holds the domain: every full solve starts cold",
             ),
             (
-                loose && matches!(self.stop, Stop::Share(share) if share != 0.01),
+                loose && matches!(stop, Stop::Share(share) if share != 0.01),
                 "contact alone holds the domain: no share of the bound to stop at",
             ),
-            (
-                loose && self.math == MathKind::Micromath,
-                "contact alone holds the domain: solved with libm",
-            ),
+            (loose && fast, "contact alone holds the domain: solved with libm"),
             (on_board && mixed, "f32+f64 is for the host"),
             (
                 self.scalar == Precision::F64 && ground.target == Target::M4f,
                 "an M4F computes f64 in software: 45 times the instructions",
             ),
-            (
-                on_board && !condensed && ground.unknowns << (2 * self.level) > LARGEST_ON_BOARD,
-                TOO_LARGE,
-            ),
-        ])
+            (on_board && !condensed && size > LARGEST_ON_BOARD, TOO_LARGE),
+        ];
+        reasons.into_iter().find(|(holds, _)| *holds).map(|(_, reason)| reason)
     }
 
-    /// With the solution and its bound at the end of a usual tick.
-    fn is_exact(&self, ground: &SceneFacts) -> bool {
-        let usual = self.scalar == Precision::F32 && self.certificate && self.stop == Stop::Exact;
-        usual && (self.model == ModelKind::Condensed || self.start == main_start(ground))
+    /// Whether it starts as most points do.
+    fn starts_as_most(&self, ground: &SceneFacts) -> bool {
+        (self.start == Start::Warm) == (ground.has_inputs && !ground.is_loose)
+    }
+
+    /// Whether it ends with the solution and its bound, in f32.
+    fn is_usual(&self) -> bool {
+        self.scalar == Precision::F32 && self.certificate && self.stop == Stop::Exact
+    }
+
+    /// Whether the mesh is the scene's.
+    fn is_own(&self) -> bool {
+        self.cells.is_none() && self.level == 0
+    }
+
+    /// Whether no knob of the search for ω is turned.
+    fn is_plain(&self) -> bool {
+        self.math == MathKind::Libm && self.omega == Factor::Auto
     }
 
     /// Sweeps and shares on every mesh.
     fn is_crossed(&self, ground: &SceneFacts) -> bool {
+        let (single, host) = (self.scalar == Precision::F32, ground.target == Target::Host);
         let stop = match self.stop {
-            Stop::Share(share) => {
-                self.scalar == Precision::F32 && (share != 0.3 || ground.target == Target::Host)
-                    || self.scalar == Precision::F64 && share == 0.01
-            }
-            Stop::Sweeps(10 | 40) => {
-                !self.certificate
-                    && self.scalar == Precision::F32
-                    && (ground.target == Target::Host || self.cells.is_none())
-            }
+            Stop::Share(share) if single => share != 0.3 || host,
+            Stop::Share(share) => self.scalar == Precision::F64 && share == 0.01,
+            Stop::Sweeps(10 | 40) => !self.certificate && single && (host || self.cells.is_none()),
             _ => false,
         };
-        stop && self.math == MathKind::Libm
-            && self.omega == Factor::Auto
-            && self.start == main_start(ground)
+        stop && self.is_plain() && self.starts_as_most(ground)
     }
 
     /// One knob away from the base.
     fn is_single(&self, ground: &SceneFacts) -> bool {
-        if self.cells.is_some() || self.level > 0 {
-            return false;
-        }
-        let plain = self.math == MathKind::Libm && self.omega == Factor::Auto;
-        let base = self.stop == Stop::Share(0.1);
-        let single = self.scalar == Precision::F32;
-        let usual = self.start == main_start(ground);
-        let other_start =
-            plain && single && !usual && matches!(self.stop, Stop::Share(s) if s < 0.3);
-        let other_omega = self.math == MathKind::Libm && single && usual && base;
-        let swept = plain
-            && single
-            && usual
-            && self.certificate
-            && matches!(self.stop, Stop::Sweeps(5 | 20 | 80));
-        let double = plain && usual && base && self.scalar == Precision::F64;
-        let cold = self.start == Start::Cold;
-        let mixed =
-            plain && cold && self.scalar == Precision::Mixed && self.stop == Stop::Share(0.01);
-        let fast = self.math == MathKind::Micromath && usual && base;
+        let (plain, usual) = (self.is_plain(), self.starts_as_most(ground));
         let host = ground.target == Target::Host;
-        other_start
-            || other_omega && (host || self.omega == Factor::Tuned)
-            || host && (swept || double || mixed)
-            || fast
+        let at_base = usual && self.stop == Stop::Share(0.1);
+        let turned = match self.scalar {
+            _ if self.math == MathKind::Micromath => at_base,
+            Precision::F32 if plain && !usual => matches!(self.stop, Stop::Share(s) if s < 0.3),
+            Precision::F32 if at_base => host || self.omega == Factor::Tuned,
+            Precision::F32 => {
+                host && plain && self.certificate && matches!(self.stop, Stop::Sweeps(5 | 20 | 80))
+            }
+            Precision::F64 => host && plain && at_base,
+            Precision::Mixed => {
+                host && plain && self.start == Start::Cold && self.stop == Stop::Share(0.01)
+            }
+        };
+        self.is_own() && turned
     }
 
     /// The condensed models: exact on every mesh; on the scene's own also what else there is.
     fn is_condensed_point(&self) -> bool {
-        let usual = self.scalar == Precision::F32 && self.certificate && self.stop == Stop::Exact;
-        let own = self.cells.is_none() && self.level == 0;
         let others = [self.scalar != Precision::F32, !self.certificate, self.stop != Stop::Exact];
-        usual || own && others.into_iter().filter(|other| *other).count() == 1
+        self.is_usual() || self.is_own() && others.into_iter().filter(|other| *other).count() == 1
     }
 
     /// The factor of the full model: on the scene's cells, of whatever size, and on the others once; on the scene's
     /// own mesh also without its bound.
     fn is_factored_point(&self, ground: &SceneFacts) -> bool {
-        let usual = self.scalar == Precision::F32 && self.start == main_start(ground);
-        let own = self.cells.is_none() && self.level == 0;
         let everywhere = self.cells.is_none() || self.level == 0;
-        usual && if self.certificate { everywhere } else { own }
+        let place = if self.certificate { everywhere } else { self.is_own() };
+        self.scalar == Precision::F32 && self.starts_as_most(ground) && place
     }
 
     pub fn setting(&self, ground: &SceneFacts) -> Setting {
@@ -192,14 +171,4 @@ impl Combination {
             ..Setting::default()
         }
     }
-}
-
-/// The first reason that holds.
-fn first(reasons: &[(bool, &'static str)]) -> Option<&'static str> {
-    reasons.iter().find(|(holds, _)| *holds).map(|&(_, reason)| reason)
-}
-
-/// The start of most points.
-fn main_start(ground: &SceneFacts) -> Start {
-    if ground.has_inputs && !ground.is_loose { Start::Warm } else { Start::Cold }
 }

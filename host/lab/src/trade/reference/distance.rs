@@ -3,10 +3,10 @@
 //! The answer is evaluated in the cell of its own mesh that holds the point, so that the two meshes need
 //! not be nested: quads may be measured against triangles.
 
-use super::Approximation;
+use super::certified;
 use super::finer_solve::Reference;
 use super::places::Places;
-use crate::baseline::record::PointError;
+use crate::trade::record::PointError;
 use signorini_certify::admissible::{Admissible, OnCell};
 use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::{apply, dot, product};
@@ -17,6 +17,7 @@ use signorini_problem::field::CellField;
 use signorini_problem::quadrature::Point;
 use signorini_problem::search::LocatedPoint;
 use signorini_scene::error::Result;
+use signorini_solve::Solution;
 
 /// S and τ of an answer on one of its cells.
 struct Certified<'d, 's> {
@@ -27,18 +28,18 @@ struct Certified<'d, 's> {
 
 impl Reference {
     /// The norms over the domain; force and length are left 0.
-    pub(super) fn errors(&self, problem: &Problem, answer: &Approximation) -> Result<PointError> {
+    pub(super) fn errors(&self, problem: &Problem, answer: &Solution) -> Result<PointError> {
         let inside = self.points.iter().map(|point| point.x);
         let robin = self.robin.iter().map(|point| point.x);
         let places = self.places.on(&problem.mesh, || Places::find(problem, inside, robin))?;
         let combined = |of| self.combined(problem, &places, of);
-        let combined = answer.certified.as_ref().map(combined).transpose()?;
+        let combined = certified(answer).as_ref().map(combined).transpose()?;
         Ok(PointError { combined, ..self.broken(problem, &places, answer) })
     }
 
     /// Energy, L2 and flux, of u_h and σ_h.
-    fn broken(&self, problem: &Problem, places: &Places, answer: &Approximation) -> PointError {
-        let on_cell = |cell| CellField::new(problem, cell, answer.u, answer.flux);
+    fn broken(&self, problem: &Problem, places: &Places, answer: &Solution) -> PointError {
+        let on_cell = |cell| CellField::new(problem, cell, &answer.u, &answer.flux);
         let fields: Vec<_> = (0..problem.cells()).map(on_cell).collect();
         let (mut energy, mut l2, mut flux) = (0.0, 0.0, 0.0);
         for (known, place) in self.points.iter().zip(&places.cells) {

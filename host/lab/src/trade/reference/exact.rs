@@ -2,6 +2,7 @@
 
 use signorini_kernel::mesh::geometry::scaled_normal;
 
+use super::{EXACT, Facts};
 use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::{Conductivity, apply, dot, product};
 use signorini_certify::sampled::Sampled;
@@ -19,17 +20,14 @@ const PANELS: u32 = 32;
 /// length comes out too long by less than 10⁻³.
 const TOUCHING: f64 = 1e-10;
 
-/// Force and length of contact.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Contact {
-    /// ∫_C (σ·n − q)
-    pub(super) force: f64,
-    /// Length of the part of C where u = ψ.
-    pub(super) length: f64,
+/// The facts of an exact solution, `u` inside the cells.
+pub(super) fn facts(exact: &Exact, u: &impl Sampled, problem: &Problem) -> Result<Facts> {
+    let [force, length] = contact(exact, problem)?;
+    Ok(Facts { words: EXACT.to_owned(), energy: energy(u, problem)?, force, length })
 }
 
 /// ‖A^½∇u‖
-pub(super) fn energy(u: &impl Sampled, problem: &Problem) -> Result<f64> {
+fn energy(u: &impl Sampled, problem: &Problem) -> Result<f64> {
     let rule = gauss(POINTS);
     let mut square = 0.0;
     for at in 0..problem.cells() {
@@ -43,8 +41,8 @@ pub(super) fn energy(u: &impl Sampled, problem: &Problem) -> Result<f64> {
     Ok(square.sqrt())
 }
 
-/// Force and length of contact.
-pub(super) fn contact(exact: &Exact, problem: &Problem) -> Result<Contact> {
+/// ∫_C (σ·n − q), and the length of the part of C where u = ψ.
+fn contact(exact: &Exact, problem: &Problem) -> Result<[f64; 2]> {
     let counts = problem.topology.counts;
     let rule = on_panels(PANELS, &gauss(8));
     let mut samples = Samples::default();
@@ -53,7 +51,7 @@ pub(super) fn contact(exact: &Exact, problem: &Problem) -> Result<Contact> {
     }
     let threshold = TOUCHING * samples.largest;
     let touching = samples.openings.iter().filter(|[opening, _]| *opening <= threshold);
-    Ok(Contact { force: samples.force, length: touching.map(|[_, length]| length).sum() })
+    Ok([samples.force, touching.map(|[_, length]| length).sum()])
 }
 
 /// Sums and values over the points of C.

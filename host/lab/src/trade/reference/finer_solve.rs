@@ -8,11 +8,10 @@
 //! and [`recovery`] brings it nearer: ∇u ≈ G, σ ≈ AG, ‖A^½(∇u − G)‖ ≤ total/√2 + ‖A^½(p − G)‖.
 //! Of u itself the mean of u_h and s is taken, nearer to it than u_h by a third or more.
 
-use super::exact::Contact;
-use super::kept::Kept;
+use super::Facts;
 use super::places::Places;
-use super::points::{Inside, points};
-use super::recovery;
+use super::recovery::{self, Inside, points};
+use super::tables::Kept;
 use crate::trade::digits::grouped;
 use signorini_certify::admissible::Admissible;
 use signorini_certify::cell::Cell;
@@ -35,10 +34,6 @@ pub(super) struct Reference {
     pub(super) points: Vec<Inside>,
     pub(super) robin: Vec<OnRobin>,
     pub(super) places: Kept<Places>,
-    pub(super) contact: Contact,
-    unknowns: usize,
-    /// Bound on its own error in the energy norm.
-    certified: Option<f64>,
 }
 
 /// The solution at a point of the Robin boundary.
@@ -56,39 +51,28 @@ pub(super) struct OnRobin {
 
 impl Reference {
     /// Solves `scene` on `mesh` by the direct solver.
-    pub(super) fn new(scene: &Scene, mesh: Mesh) -> Result<Self> {
+    pub(super) fn new(scene: &Scene, mesh: Mesh) -> Result<(Self, Facts)> {
         let problem = Problem::new(scene, mesh)?;
         let options = Options { solver: SolverKind::Direct, ..Options::default() };
         let solution = solve(&problem, &options)?;
         let (mut points, robin) = sampled(&problem, &solution)?;
         let change = recovery::smooth(&problem, &mut points);
-        let certified = |total| total * std::f64::consts::FRAC_1_SQRT_2 + change;
-        let Solution { contact_force: force, contact_length: length, bound, .. } = solution;
-        Ok(Self {
-            points,
-            robin,
-            places: Kept::new(usize::MAX),
-            contact: Contact { force, length },
-            unknowns: problem.topology.counts.unknowns(),
-            certified: bound.map(|bound| certified(bound.total)),
-        })
-    }
-
-    /// ‖A^½∇u‖
-    pub(super) fn energy(&self) -> f64 {
-        let square = |at: &Inside| at.weight * product(&at.conductivity, at.gradient, at.gradient);
-        self.points.iter().map(square).sum::<f64>().sqrt()
-    }
-
-    pub(super) fn words(&self) -> String {
-        let own = match self.certified {
-            Some(error) => format!("its own certified error is at most {error:.1e}"),
+        let own = match solution.bound {
+            Some(bound) => {
+                let error = bound.total * std::f64::consts::FRAC_1_SQRT_2 + change;
+                format!("its own certified error is at most {error:.1e}")
+            }
             None => "its own error has no certified bound".to_owned(),
         };
-        let unknowns = grouped(self.unknowns as u64);
-        format!(
+        let unknowns = grouped(problem.topology.counts.unknowns() as u64);
+        let words = format!(
             "the faer reference on {unknowns} unknowns, two refinements finer than the finest mesh; {own}"
-        )
+        );
+        let square = |at: &Inside| at.weight * product(&at.conductivity, at.gradient, at.gradient);
+        let energy = points.iter().map(square).sum::<f64>().sqrt();
+        let Solution { contact_force: force, contact_length: length, .. } = solution;
+        let facts = Facts { words, energy, force, length };
+        Ok((Self { points, robin, places: Kept::new(usize::MAX) }, facts))
     }
 }
 

@@ -10,19 +10,16 @@
 mod distance;
 mod exact;
 mod finer_solve;
-mod kept;
 mod places;
-mod points;
 mod recovery;
 mod tables;
 #[cfg(test)]
 mod tests;
 
-use self::exact::Contact;
 use self::finer_solve::Reference;
-use self::kept::Kept;
-use self::tables::{KEPT, Tables};
-use crate::baseline::record::PointError;
+use self::tables::{KEPT, Kept, Tables};
+use crate::trade::record::PointError;
+use serde::{Deserialize, Serialize};
 use signorini_certify::admissible::Admissible;
 use signorini_certify::curved::followed;
 use signorini_certify::deviation::Deviations;
@@ -39,45 +36,31 @@ pub const FINER: u32 = 2;
 /// The words of a record whose scene has an exact solution.
 pub const EXACT: &str = "the exact solution";
 
+/// The facts of the truth that a record states.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Facts {
+    /// How it was found, in words.
+    pub words: String,
+    /// ‖A^½∇u‖
+    pub energy: f64,
+    /// ∫_C (σ·n − q)
+    pub force: f64,
+    /// Length of the part of C where u = ψ.
+    pub length: f64,
+}
+
 /// The solution of a scene as well as it is known.
 #[derive(Debug)]
 pub struct ReferenceSolution {
     source: Source,
-    energy: f64,
-    contact: Contact,
+    /// What a record states of it.
+    pub facts: Facts,
 }
 
 #[derive(Debug)]
 enum Source {
     Exact(Box<Exact>, Kept<Tables>),
     Reference(Reference),
-}
-
-/// An answer for a scene, on a mesh of its own.
-#[derive(Debug, Clone, Copy)]
-pub struct Approximation<'a> {
-    /// Mean of u_h over each edge.
-    pub u: &'a [f64],
-    /// ∫_E σ·n of each edge, along its direction's normal.
-    pub flux: &'a [f64],
-    /// ∫_C (σ·n − q)
-    pub force: f64,
-    /// Σ|E| over active contact edges.
-    pub length: f64,
-    /// s and τ of the certificate, if there is one.
-    pub certified: Option<Admissible<'a>>,
-}
-
-impl<'a> From<&'a Solution> for Approximation<'a> {
-    fn from(solution: &'a Solution) -> Self {
-        Self {
-            u: &solution.u,
-            flux: &solution.flux,
-            force: solution.contact_force,
-            length: solution.contact_length,
-            certified: solution.bound.map(|_| solution.certified.admissible()),
-        }
-    }
 }
 
 impl ReferenceSolution {
@@ -93,68 +76,38 @@ impl ReferenceSolution {
         refined: impl FnOnce(&Mesh, u32) -> Result<Mesh>,
     ) -> Result<Self> {
         let Some(exact) = &scene.exact else {
-            return Self::by_reference(scene, refined(mesh, finest + FINER)?);
+            let (reference, facts) = Reference::new(scene, refined(mesh, finest + FINER)?)?;
+            return Ok(Self { source: Source::Reference(reference), facts });
         };
         let problem = Problem::new(scene, mesh.clone())?;
         let recent = Kept::new(KEPT);
         let deviations = Deviations::at_time(&problem, problem.time)?;
         let tables = recent.on(&problem.mesh, || Tables::new(exact, &problem, &deviations))?;
-        Ok(Self {
-            source: Source::Exact(Box::new(exact.clone()), recent),
-            energy: exact::energy(&tables.u, &problem)?,
-            contact: exact::contact(exact, &problem)?,
-        })
-    }
-
-    /// Solves the scene on `mesh`.
-    fn by_reference(scene: &Scene, mesh: Mesh) -> Result<Self> {
-        let reference = Reference::new(scene, mesh)?;
-        Ok(Self {
-            energy: reference.energy(),
-            contact: reference.contact,
-            source: Source::Reference(reference),
-        })
-    }
-
-    /// Says in words how it was found.
-    pub fn words(&self) -> String {
-        match &self.source {
-            Source::Exact(..) => EXACT.to_owned(),
-            Source::Reference(reference) => reference.words(),
-        }
-    }
-
-    /// ‖A^½∇u‖
-    pub fn energy(&self) -> f64 {
-        self.energy
-    }
-
-    /// ∫_C (σ·n − q)
-    pub fn force(&self) -> f64 {
-        self.contact.force
-    }
-
-    /// Length of the part of C where u = ψ.
-    pub fn length(&self) -> f64 {
-        self.contact.length
+        let facts = exact::facts(exact, &tables.u, &problem)?;
+        Ok(Self { source: Source::Exact(Box::new(exact.clone()), recent), facts })
     }
 
     /// How far `answer`, found for `problem`, is from it. `problem` belongs to the scene that
-    /// this was made for, in any setting, with the loads of t = 0.
+    /// this was made for, in any setting, on any mesh, with the loads of t = 0.
     ///
     /// # Errors
     /// Data that are not finite at a quadrature point.
-    pub fn errors(&self, problem: &Problem, answer: &Approximation) -> Result<PointError> {
+    pub fn errors(&self, problem: &Problem, answer: &Solution) -> Result<PointError> {
         let inside = match &self.source {
             Source::Exact(exact, recent) => exactly(exact, recent, problem, answer)?,
             Source::Reference(reference) => reference.errors(problem, answer)?,
         };
         Ok(PointError {
-            force: (self.contact.force - answer.force).abs(),
-            length: (self.contact.length - answer.length).abs(),
+            force: (self.facts.force - answer.contact_force).abs(),
+            length: (self.facts.length - answer.contact_length).abs(),
             ..inside
         })
     }
+}
+
+/// s and τ of the certificate, if there is one.
+fn certified(answer: &Solution) -> Option<Admissible<'_>> {
+    answer.bound.map(|_| answer.certified.admissible())
 }
 
 /// The norms over the domain, against an exact solution.
@@ -162,19 +115,19 @@ fn exactly(
     exact: &Exact,
     recent: &Kept<Tables>,
     problem: &Problem,
-    answer: &Approximation,
+    answer: &Solution,
 ) -> Result<PointError> {
     let deviations = &Deviations::at_time(problem, problem.time)?;
     let tables = recent.on(&problem.mesh, || Tables::new(exact, problem, deviations))?;
     let (u, lift) = (&tables.u, &tables.lift);
-    let errors = norms::of_fields(problem, u, answer.u, answer.flux)?;
+    let errors = norms::of_fields(problem, u, &answer.u, &answer.flux)?;
     let combined = |admissible| {
         let deviations = &followed(problem, admissible)?;
         Integrands { exact, problem, admissible, deviations, u, lift, panels: 1 }.combined()
     };
     Ok(PointError {
         energy: errors.energy,
-        combined: answer.certified.as_ref().map(combined).transpose()?,
+        combined: certified(answer).as_ref().map(combined).transpose()?,
         l2: errors.l2,
         flux: errors.flux,
         ..PointError::default()

@@ -1,11 +1,15 @@
-//! The exact solution at the quadrature points of the meshes of a study.
+//! The exact solution at the quadrature points of the meshes of a study, and what is kept of the meshes used last.
 //!
 //! Its expressions cost microseconds a point, with 256 points a cell and up to 60 answers on a mesh.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use signorini_certify::deviation::Deviations;
 use signorini_certify::sampled::{Lifted, Solution, Table};
 use signorini_problem::Problem;
 use signorini_scene::error::Result;
+use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::Exact;
 
 /// Meshes whose tables are kept, of some 60 MB each at 10 000 cells. A study finishes with a mesh before
@@ -32,11 +36,52 @@ impl Tables {
     }
 }
 
+/// Something for each of the last `most` meshes, the newest first.
+#[derive(Debug)]
+pub(super) struct Kept<T> {
+    most: usize,
+    recent: Mutex<Vec<(u64, Arc<T>)>>,
+}
+
+impl<T> Kept<T> {
+    pub(super) fn new(most: usize) -> Self {
+        Self { most, recent: Mutex::default() }
+    }
+
+    /// Gives what is known on a mesh, or `make`s it.
+    pub(super) fn on(&self, mesh: &Mesh, make: impl FnOnce() -> Result<T>) -> Result<Arc<T>> {
+        let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
+        let key = fingerprint(mesh);
+        let known = match recent.iter().position(|(other, _)| *other == key) {
+            Some(at) => recent.remove(at).1,
+            None => {
+                // First, so that there is never one more than is kept.
+                recent.truncate(self.most - 1);
+                Arc::new(make()?)
+            }
+        };
+        recent.insert(0, (key, known.clone()));
+        Ok(known)
+    }
+
+    #[cfg(test)]
+    pub(super) fn count(&self) -> usize {
+        self.recent.lock().unwrap().len()
+    }
+}
+
+/// A number that two meshes hardly share.
+fn fingerprint(mesh: &Mesh) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    for x in mesh.vertices.as_flattened() {
+        x.to_bits().hash(&mut hasher);
+    }
+    (&mesh.triangles, &mesh.quads).hash(&mut hasher);
+    hasher.finish()
+}
+
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
-    use super::super::kept::Kept;
     use super::*;
     use signorini_problem::fixtures::{SMOOTH, on_grid};
     use signorini_scene::mesh::structured::{Cells, grid};

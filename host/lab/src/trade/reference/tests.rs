@@ -6,12 +6,12 @@ use signorini_tolerances::lab::{
     REFERENCE_L2_QUADS, SAME_NORMS,
 };
 use std::f64::consts::PI;
-use std::path::Path;
 
+use super::ReferenceSolution;
 use super::finer_solve::Reference;
-use super::points::Inside;
-use super::{Approximation, ReferenceSolution};
-use crate::baseline::record::PointError;
+use super::recovery::Inside;
+use crate::trade::record::PointError;
+use crate::trade::tests::scene as read;
 use signorini_certify::conductivity::product;
 use signorini_certify::weighed::minus;
 use signorini_problem::Problem;
@@ -22,11 +22,6 @@ use signorini_scene::mesh::{self, Mesh};
 use signorini_scene::scene::Scene;
 use signorini_solve::norms::of_solution;
 use signorini_solve::{Options, Solution, SolverKind, solve};
-
-fn read(path: &str) -> Scene {
-    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes");
-    Scene::read(&meshes.join(path)).unwrap()
-}
 
 fn solved(scene: &Scene, mesh: Mesh) -> (Problem, Solution) {
     let problem = Problem::new(scene, mesh).unwrap();
@@ -63,21 +58,21 @@ fn the_catalogue_has_its_forces_and_lengths() {
         ("patch-mixed", 4.0, 2.0),
     ];
     for (name, force, length) in cases {
-        let scene = read(&format!("catalogue/{name}.toml"));
+        let scene = read(&format!("catalogue/{name}"));
         let truth = exact(&scene, &grid(16, Cells::Quads));
-        assert_eq!(truth.words(), "the exact solution");
-        FORCE.check_relative(name, truth.force(), force);
-        LENGTH.check_relative(name, truth.length(), length);
+        assert_eq!(truth.facts.words, "the exact solution");
+        FORCE.check_relative(name, truth.facts.force, force);
+        LENGTH.check_relative(name, truth.facts.length, length);
     }
 }
 
 #[test]
 fn the_exact_solution_gives_the_norms_of_the_catalogue() {
-    let scene = read("catalogue/h-tri.toml");
+    let scene = read("catalogue/h-tri");
     let mesh = grid(16, Cells::Triangles);
     let truth = exact(&scene, &mesh);
     let (problem, solution) = solved(&scene, mesh);
-    let found = truth.errors(&problem, &Approximation::from(&solution)).unwrap();
+    let found = truth.errors(&problem, &solution).unwrap();
     CATALOGUE.check_relative("energy", found.energy, 9.74473e-2);
     CATALOGUE.check_relative("flux", found.flux, 9.74473e-2);
     CATALOGUE.check_relative("L2", found.l2, 1.97915e-3);
@@ -87,18 +82,18 @@ fn the_exact_solution_gives_the_norms_of_the_catalogue() {
     assert_eq!(found.combined, errors.combined);
     // ‖∇u‖² = ‖∇_h u_h‖² + ‖∇u − ∇_h u_h‖² up to what is of higher order.
     let energy = solution.energy(&problem).hypot(errors.energy);
-    FORCE_ERROR.check_relative("energy of the solution", truth.energy(), energy);
+    FORCE_ERROR.check_relative("energy of the solution", truth.facts.energy, energy);
 }
 
 #[test]
 fn answers_on_other_meshes_in_between_change_nothing() {
-    let scene = read("catalogue/ag-mixed.toml");
+    let scene = read("catalogue/ag-mixed");
     let meshes = [grid(16, Cells::Triangles), grid(9, Cells::Quads), grid(7, Cells::Mixed)];
     let truth = exact(&scene, &meshes[0]);
     let solved = meshes.map(|mesh| solved(&scene, mesh));
     for at in [0, 1, 2, 2, 0, 1] {
         let (problem, solution) = &solved[at];
-        let found = truth.errors(problem, &Approximation::from(solution)).unwrap();
+        let found = truth.errors(problem, solution).unwrap();
         let expected = of_solution(problem, solution).unwrap().unwrap();
         SAME_NORMS.check_relative("energy", found.energy, expected.energy);
         SAME_NORMS.check_relative("L2", found.l2, expected.l2);
@@ -111,11 +106,10 @@ fn answers_on_other_meshes_in_between_change_nothing() {
 /// far apart they may be in L2.
 fn compare(scene: &Scene, coarse: Mesh, fine: &Mesh, in_l2: Tolerance) {
     let (exact, reference) = (exact(scene, &coarse), reference(scene, fine));
-    REFERENCE.check_relative("energy of the solution", reference.energy(), exact.energy());
+    REFERENCE.check_relative("energy of the solution", reference.facts.energy, exact.facts.energy);
     let (problem, solution) = solved(scene, coarse);
-    let answer = Approximation::from(&solution);
-    let expected = exact.errors(&problem, &answer).unwrap();
-    let found = reference.errors(&problem, &answer).unwrap();
+    let expected = exact.errors(&problem, &solution).unwrap();
+    let found = reference.errors(&problem, &solution).unwrap();
     println!("{}\n  exact     {expected:?}\n  reference {found:?}", scene.title);
     for (found, expected, allowed, what) in [
         (found.energy, expected.energy, REFERENCE, "energy"),
@@ -125,22 +119,22 @@ fn compare(scene: &Scene, coarse: Mesh, fine: &Mesh, in_l2: Tolerance) {
     ] {
         allowed.check_relative(format_args!("{}: {what}", scene.title), found, expected);
     }
-    REFERENCE.check_relative("force", reference.force(), exact.force());
-    assert!((reference.length() - exact.length()).abs() < 2.5 / 32.0);
+    REFERENCE.check_relative("force", reference.facts.force, exact.facts.force);
+    assert!((reference.facts.length - exact.facts.length).abs() < 2.5 / 32.0);
 }
 
 #[test]
 fn a_reference_measures_what_the_exact_solution_does() {
     let fine = grid(32, Cells::Triangles);
     for name in ["h-tri", "j001-tri", "hg-tri", "ag-mixed"] {
-        let scene = read(&format!("catalogue/{name}.toml"));
+        let scene = read(&format!("catalogue/{name}"));
         compare(&scene, grid(8, Cells::Triangles), &fine, REFERENCE_L2);
     }
 }
 
 #[test]
 fn the_answer_may_have_other_cells_than_the_reference() {
-    let scene = read("catalogue/h-tri.toml");
+    let scene = read("catalogue/h-tri");
     compare(&scene, grid(8, Cells::Quads), &grid(32, Cells::Triangles), REFERENCE_L2_QUADS);
     compare(&scene, grid(8, Cells::Triangles), &grid(32, Cells::Quads), REFERENCE_L2);
     compare(&scene, grid(7, Cells::Mixed), &grid(32, Cells::Mixed), REFERENCE_L2);
@@ -166,10 +160,10 @@ fn the_recovered_gradient_is_much_nearer_than_the_broken_one() {
         ("h-tri", Cells::Quads, 0.4),
     ];
     for (name, cells, part) in cases {
-        let scene = read(&format!("catalogue/{name}.toml"));
+        let scene = read(&format!("catalogue/{name}"));
         let exact = scene.exact.as_ref().unwrap();
         let mesh = grid(16, cells);
-        let reference = Reference::new(&scene, mesh.clone()).unwrap();
+        let (reference, _) = Reference::new(&scene, mesh.clone()).unwrap();
         let square = |at: &Inside| {
             let (_, gradient) = exact_at(&scene, exact, at.x, 0.0).unwrap();
             let error = minus(at.gradient, gradient);
@@ -186,10 +180,10 @@ fn the_recovered_gradient_is_much_nearer_than_the_broken_one() {
 
 #[test]
 fn a_worse_answer_is_farther_away() {
-    let scene = read("catalogue/h-tri.toml");
+    let scene = read("catalogue/h-tri");
     let truth = reference(&scene, &grid(16, Cells::Triangles));
     let (problem, mut solution) = solved(&scene, grid(4, Cells::Quads));
-    let before = truth.errors(&problem, &Approximation::from(&solution)).unwrap();
+    let before = truth.errors(&problem, &solution).unwrap();
     for (at, u) in solution.u.iter_mut().enumerate() {
         *u += 0.02 * (at as f64).sin();
     }
@@ -197,32 +191,32 @@ fn a_worse_answer_is_farther_away() {
     solution.certified.vertices.iter_mut().for_each(|s| *s *= 1.05);
     solution.contact_force += 0.1;
     solution.contact_length += 0.5;
-    let after = truth.errors(&problem, &Approximation::from(&solution)).unwrap();
+    let after = truth.errors(&problem, &solution).unwrap();
     let numbers = |error: PointError| {
         [error.energy, error.l2, error.flux, error.combined.unwrap(), error.force, error.length]
     };
     let pairs = numbers(before).into_iter().zip(numbers(after));
     assert!(pairs.clone().all(|(before, after)| after > before), "{:?}", pairs.collect::<Vec<_>>());
-    let bare = Approximation { certified: None, ..Approximation::from(&solution) };
-    assert_eq!(truth.errors(&problem, &bare).unwrap().combined, None);
+    solution.bound = None;
+    assert_eq!(truth.errors(&problem, &solution).unwrap().combined, None);
 }
 
 #[test]
 fn every_scene_can_be_its_own_reference() {
     for name in ["benbelgacem", "levee", "membrane", "pit", "slab", "strip"] {
-        let scene = read(&format!("scenes/{name}.toml"));
+        let scene = read(&format!("scenes/{name}"));
         let mesh = mesh::read(&scene.mesh.value).unwrap();
         let truth = reference(&scene, &mesh);
         let (problem, solution) = solved(&scene, mesh);
-        let found = truth.errors(&problem, &Approximation::from(&solution)).unwrap();
-        println!("{name}: {}\n  {found:?}", truth.words());
+        let found = truth.errors(&problem, &solution).unwrap();
+        println!("{name}: {}\n  {found:?}", truth.facts.words);
         let largest = solution.u.iter().fold(0.0f64, |most, u| most.max(u.abs()));
         assert!(found.l2 <= 1e-2 * largest, "{name}: {found:?}");
-        ITSELF.check_over(name, found.force, truth.force());
+        ITSELF.check_over(name, found.force, truth.facts.force);
         assert_eq!(found.length, 0.0, "{name}");
         // ∇s and A⁻¹τ are equally far from their mean, and the recovered gradient is not far from it.
         let total = 2.0 * solution.bound.unwrap().total;
         assert!(found.combined.unwrap() <= total && found.energy <= total, "{name}: {found:?}");
-        assert!(found.energy > 0.0 && truth.energy() > found.energy, "{name}: {found:?}");
+        assert!(found.energy > 0.0 && truth.facts.energy > found.energy, "{name}: {found:?}");
     }
 }

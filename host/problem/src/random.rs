@@ -1,10 +1,15 @@
-//! Random numbers: equal seeds give equal scenes on every machine.
+//! Random numbers for scenes that are drawn: equal seeds give equal scenes on every machine.
 
 /// The generator splitmix64: a counter, scrambled.
 #[derive(Debug, Clone)]
 pub struct Random(u64);
 
 impl Random {
+    /// Equal seeds give equal numbers.
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
     /// Case `number` of a run, whose numbers do not depend on those of other cases.
     pub fn of_case(seed: u64, number: u32) -> Self {
         let mut own = Self(seed ^ u64::from(number).wrapping_mul(0xd605_bbb5_8c8a_bc2d));

@@ -1,9 +1,28 @@
-//! Studies for tests: plausible, deterministic, with everything in them.
+//! Scenes of the repository for tests, and studies: plausible, deterministic, with everything in them.
+
+use std::path::Path;
 
 use super::record::{FunctionCost, Point, Recommendation, Skipped, Trade};
-use crate::baseline::record::{Baseline, PointError};
+use super::target::Target;
+use crate::baseline::Baseline;
+use crate::trade::record::PointError;
 use signorini_draw::plain;
+use signorini_problem::Problem;
+use signorini_scene::mesh;
+use signorini_scene::scene::Scene;
 use signorini_scene::setting::Setting;
+
+/// A scene of `meshes`.
+pub fn scene(name: &str) -> Scene {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes");
+    Scene::read(&root.join(format!("{name}.toml"))).unwrap()
+}
+
+/// The scene on its mesh.
+pub fn problem(name: &str) -> Problem {
+    let scene = scene(name);
+    Problem::new(&scene, mesh::read(&scene.mesh.value).unwrap()).unwrap()
+}
 
 /// The name of a point as pictures write it.
 pub fn names(point: &Point) -> String {
@@ -76,7 +95,7 @@ pub fn trade(scene: &str, count: usize) -> Trade {
         scene: scene.to_owned(),
         title: format!("A {scene} <after> rain & snow"),
         registers: "any x86-64".to_owned(),
-        target: "host".to_owned(),
+        target: Target::Host,
         truth: "against the mesh two levels finer".to_owned(),
         energy: 2.0,
         force: 0.8,
@@ -106,7 +125,8 @@ pub fn trade(scene: &str, count: usize) -> Trade {
     }
 }
 
-fn baseline(solver: &str, ratio: f64, iterations: u32) -> Baseline {
+/// Another solver, so many times slower than the kernel.
+pub fn baseline(solver: &str, ratio: f64, iterations: u32) -> Baseline {
     Baseline {
         solver: solver.to_owned(),
         problem: "condensed".to_owned(),
