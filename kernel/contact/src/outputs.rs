@@ -53,7 +53,7 @@ pub enum Output<C, R> {
 pub type Measure<'a, R> = Output<&'a [R], R>;
 
 impl<C, R: Copy> Output<C, R> {
-    /// The same output of other columns and numbers.
+    /// This output with other columns and numbers.
     pub fn map<'o, D, S>(
         &'o self,
         column: impl Fn(&'o C) -> D,

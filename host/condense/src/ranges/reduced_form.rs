@@ -119,7 +119,7 @@ fn product(factor: &[f64], columns: &[Affine]) -> Vec<f64> {
     packed(&product.qr().thin_R().to_owned())
 }
 
-/// What rounding may hide of the columns of F′, `left` beside what M loses.
+/// Parts of the columns of F′ that rounding may hide, `left` beside those that M loses.
 fn lost(form: &Form, columns: &[Affine], left: &[f64]) -> Vec<f64> {
     let width = width(columns);
     // Sums of so many products, and the rotations of as many rows.

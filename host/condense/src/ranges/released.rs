@@ -135,7 +135,7 @@ struct ReleasedVertex {
     vertex: u32,
     /// s − ψ as factors of (p, x, d), in the unit of u.
     above: Vec<f64>,
-    /// What ψ has above its chord at most on edges beside it that s does not follow, for each pattern.
+    /// Height of ψ above its chord at most on edges beside it that s does not follow, for each pattern.
     peak: Vec<f64>,
 }
 

@@ -53,7 +53,7 @@ fn add_to(sums: &mut [usize; 3], counts: [usize; 3]) {
     counts.into_iter().zip(sums).for_each(|(count, sum)| *sum += count);
 }
 
-/// What [`compare`] has seen.
+/// States and lengths that [`compare`] has seen.
 #[derive(Default)]
 struct Seen {
     states: [usize; 3],
