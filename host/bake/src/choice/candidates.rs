@@ -132,11 +132,8 @@ fn condensed_as<R: Scalar>(
         Some(_) if !is_late(worst) || tried.is_some() => {
             baked.worst_instructions = worst.map(|count| count.ceil() as u64);
         }
-        _ => {
-            // Cut off where time is up: no end is proved.
-            baked.work = within::<R>(&costs, condensate.contact, all, tried, time);
-            baked.sweeps.most = baked.work.sweeps;
-        }
+        // Cut off where time is up: no end is proved.
+        _ => baked = baked.with_work(within::<R>(&costs, condensate.contact, all, tried, time)),
     }
     let sizes = condensed::sizes(&baked);
     let needs = Needs::with_code(baked.kind(), sizes, instructions);

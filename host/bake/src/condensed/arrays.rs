@@ -202,6 +202,11 @@ impl<R: Scalar> Baked<R> {
         Self { sweeps, cold: setting.start == From::Cold, ..self }
     }
 
+    /// The same model with other limits, the exact method staying in or out.
+    pub fn with_work(self, work: Work) -> Self {
+        Self { work, sweeps: Sweeps { most: work.sweeps, ..self.sweeps }, ..self }
+    }
+
     /// The features of the kernel that it needs.
     pub fn kernel_features(&self) -> Vec<&'static str> {
         let limited = self.is_limited().then_some("limited");
