@@ -12,8 +12,7 @@ use signorini_kernel::{Error, error::Array};
 use super::bound::{Bound, Ends, Output};
 use super::modes::{Modes, Scaled};
 use super::start::{InitialState, best_omega};
-use crate::narrow::{filled_up, matrix, pairs};
-use signorini_condense::ranges::split::Split;
+use crate::narrow::{filled_up, is_monotone, matrix, pairs, spans};
 use signorini_condense::{CondensedModel, ModalModel};
 use signorini_image::chosen::WorstCase;
 use signorini_problem::inputs::ranges;
@@ -290,25 +289,4 @@ impl<R: Scalar> Baked<R> {
         }
         finite(Array::Coefficients, &[bound.unit, bound.stability, R::ONE / bound.unit])
     }
-}
-
-/// The columns of spans that the target needs.
-///
-/// # Errors
-/// A limit that the scalar takes for none.
-fn spans<R: Scalar>(condensate: &CondensedModel) -> Result<Vec<R>, Error> {
-    let columns = if condensate.is_varying() { condensate.inputs } else { 1 };
-    let columns = || condensate.spans.iter().take(columns);
-    let is_lost = |span: &f64| span.is_finite() && !R::narrow(*span).finite();
-    match columns().flatten().position(is_lost) {
-        Some(at) => Err(Error::NotFinite { of: Array::ContactSpans, at }),
-        None => Ok(columns().flat_map(|column| filled_up(column)).collect()),
-    }
-}
-
-/// Whether Ŝ in the scalar of the target is a nonsingular M-matrix.
-fn is_monotone<R: Scalar>(condensate: &CondensedModel) -> bool {
-    let stored: Vec<f64> = condensate.matrix.iter().map(|&entry| R::narrow(entry).wide()).collect();
-    let split = Split::new(&stored, condensate.contact);
-    split.is_some_and(|split| split.has_all_signs())
 }
