@@ -1,5 +1,5 @@
-//! Arrays in the target's scalar, those of contact edges and their matrix filled up with 0 to whole blocks; whether that keeps its
-//! signs.
+//! Arrays in the target's scalar, those of contact edges and their matrix filled up with 0 to whole blocks; whether
+//! that keeps its signs.
 
 use signorini_contact::dense::blocks::{Block, SIDE, count, padded};
 use signorini_kernel::{Error, error::Array};
