@@ -185,8 +185,8 @@ const COME: [&str; 2] = ["two phases, all edges come in", "three phases, all edg
 const MATRIX: [&str; 2] = ["modes, a matrix of none", "modes, a matrix of eight"];
 const FALL: [&str; 2] = ["two phases, all edges come in", "three phases, all to their limits"];
 
-/// The coefficients of two measures of work and 1 that give the counts of a stage, whose work at the three sizes counted around
-/// `order` is `work`; of the first alone where one size was counted, the largest.
+/// The coefficients of two measures of work and 1 that give the counts of a stage, whose work at the three sizes
+/// counted around `order` is `work`; of the first alone where one size was counted, the largest.
 fn line<R: Scalar>(
     costs: &Costs,
     order: f64,

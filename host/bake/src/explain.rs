@@ -114,9 +114,9 @@ fn candidates<R: Scalar>(choice: &Choice<R>) -> String {
     table(&rows) + &excluded.collect::<String>()
 }
 
-/// The features of the general model: any mesh, any data, everything computed and kept on the target. Each with whether it is
-/// kept, bytes of RAM and flash for it on this mesh, instructions a tick (of quads a sweep) that go with them, and what the scene
-/// has of it.
+/// The features of the general model: any mesh, any data, everything computed and kept on the target. Each with whether
+/// it is kept, bytes of RAM and flash for it on this mesh, instructions a tick (of quads a sweep) that go with them,
+/// and what the scene has of it.
 fn features<R: Scalar>(problem: &Problem, condensed: bool) -> Vec<[String; 5]> {
     let costs = Costs::measured();
     let scalar = size_of::<R>();

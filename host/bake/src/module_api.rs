@@ -59,8 +59,8 @@ impl ModuleApi {
         !self.ranges::<f64>().is_empty()
     }
 
-    /// Everything but the controller and its data; `model` is `full` or `condensed`, `about` its description, one paragraph of
-    /// Markdown, and `features` are those of the kernel that it needs.
+    /// Everything but the controller and its data; `model` is `full` or `condensed`, `about` its description, one
+    /// paragraph of Markdown, and `features` are those of the kernel that it needs.
     pub fn source<R: Scalar>(&self, model: &str, about: String, features: &[&str]) -> String {
         self.header(about, features) + &self.types::<R>(model, features)
     }

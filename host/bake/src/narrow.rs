@@ -1,8 +1,11 @@
-//! Arrays in the target's scalar; those of contact edges and their matrix filled up with 0 to whole blocks.
+//! Arrays in the target's scalar, those of contact edges and their matrix filled up with 0 to whole blocks; whether
+//! that keeps its signs.
 
 use signorini_contact::dense::blocks::{Block, SIDE, count, padded};
+use signorini_kernel::{Error, error::Array};
 
 use signorini_condense::CondensedModel;
+use signorini_condense::ranges::split::Split;
 use signorini_problem::scalar::Scalar;
 
 /// Numbers in the scalar `R`.
@@ -35,4 +38,25 @@ pub(crate) fn matrix<R: Scalar>(condensate: &CondensedModel) -> Vec<Block<R>> {
     let all: Vec<_> = rows.flat_map(|row| (0..=row).map(move |c| (row, c))).collect();
     debug_assert_eq!(all.len(), count(n));
     all.into_iter().map(|(row, column)| block(row, column)).collect()
+}
+
+/// The columns of spans that the target needs.
+///
+/// # Errors
+/// A limit that the scalar takes for none.
+pub(crate) fn spans<R: Scalar>(condensate: &CondensedModel) -> Result<Vec<R>, Error> {
+    let columns = if condensate.is_varying() { condensate.inputs } else { 1 };
+    let columns = || condensate.spans.iter().take(columns);
+    let is_lost = |span: &f64| span.is_finite() && !R::narrow(*span).finite();
+    match columns().flatten().position(is_lost) {
+        Some(at) => Err(Error::NotFinite { of: Array::ContactSpans, at }),
+        None => Ok(columns().flat_map(|column| filled_up(column)).collect()),
+    }
+}
+
+/// Whether Ŝ in the scalar of the target is a nonsingular M-matrix.
+pub(crate) fn is_monotone<R: Scalar>(condensate: &CondensedModel) -> bool {
+    let stored: Vec<f64> = condensate.matrix.iter().map(|&entry| R::narrow(entry).wide()).collect();
+    let split = Split::new(&stored, condensate.contact);
+    split.is_some_and(|split| split.has_all_signs())
 }

@@ -42,8 +42,8 @@ impl Statics {
         format!("&{name}")
     }
 
-    /// The module that holds them: `names` are items of the kernel that they may use, `own` what they take from the module
-    /// around it.
+    /// The module that holds them: `names` are items of the kernel that they may use, `own` what they take from the
+    /// module around it.
     pub fn module(&self, names: &str, own: &str) -> String {
         let text = &self.text;
         let imports = imports(names, text, "    ");

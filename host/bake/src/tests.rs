@@ -19,8 +19,8 @@ pub fn standard(name: &str, change: impl FnOnce(&mut Scene)) -> Problem {
     Problem::new(&scene, mesh).expect("a sound problem")
 }
 
-/// A firmware that knows nothing of the model: all that every module offers, by the same names. It prints whether a tick
-/// after a reset is the first again, whether there is a bound, and how a tick ends for which there is no time.
+/// A firmware that knows nothing of the model: all that every module offers, by the same names. It prints whether a
+/// tick after a reset is the first again, whether there is a bound, and how a tick ends for which there is no time.
 pub const FIRMWARE: &str = "
 fn main() {
     use signorini_device::kernel::report::{Ended, Report};
@@ -40,8 +40,8 @@ fn main() {
 }
 ";
 
-/// Prints the default inputs, then of each line of a log the outputs of a tick. What is printed of a number is its bits: the shortest
-/// text that reads back the same.
+/// Prints the default inputs, then of each line of a log the outputs of a tick. What is printed of a number is its
+/// bits: the shortest text that reads back the same.
 fn main(log: &[Vec<f64>]) -> String {
     let ticks = log.len();
     format!(

@@ -1,4 +1,5 @@
-//! Rust text: numbers that read back to the same bits, arrays in lines, identifiers from names, `use` lines; tables for a terminal.
+//! Rust text: numbers that read back to the same bits, arrays in lines, identifiers from names, `use` lines; tables for
+//! a terminal.
 
 use std::collections::HashSet;
 use std::fmt::Debug;

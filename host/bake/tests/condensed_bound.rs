@@ -472,8 +472,8 @@ fn waves_beside_a_curved_value_are_bounded() -> Result<()> {
                  [exact]\nu = \"{u}\"\ngradient = [\"0\", \"1 + 0.6*y\"]\n"
             );
         let (_, problem) = on_grid(&text, grid(1, Cells::Triangles))?;
-        // Nowhere is s clear of such a gap. A solve integrates each curve by panels of its own: nearly all of both bounds is what the
-        // curves cost.
+        // Nowhere is s clear of such a gap. A solve integrates each curve by panels of its own: nearly all of both
+        // bounds is what the curves cost.
         let model = replayed(&problem, &[-1.0, 1.0], Some(ScalarKind::F64), WAVES)?;
         assert!(model.contains("condensed"), "{model}");
     }

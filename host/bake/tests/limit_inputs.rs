@@ -1,5 +1,5 @@
-//! Full models with limits of the flux, and inputs on either end of it, tick after tick: against the direct solver and an exact
-//! solution, and where inputs leave no flux.
+//! Full models with limits of the flux, and inputs on either end of it, tick after tick: against the direct solver and
+//! an exact solution, and where inputs leave no flux.
 
 use crate::direct::{Beside, HEATER, certified, directly, played, to_the_end};
 use signorini_bake::full::{Baked, Controller, source};

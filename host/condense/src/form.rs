@@ -95,7 +95,7 @@ impl FormData<'_> {
             factor: widened(packed(&triangular(&blocks, &s, &fluxes))),
             lost: self.lost(&blocks, &s, &fluxes, &assembled, stability)?,
             jump,
-            vertices: chain.contact.iter().map(|(_, vertex)| vertex.clone()).collect(),
+            vertices: chain.contact.iter().map(|(_, vertex)| *vertex).collect(),
             stability,
             corners: chain.corners,
             oscillation,

@@ -132,11 +132,8 @@ fn condensed_as<R: Scalar>(
         Some(_) if !is_late(worst) || tried.is_some() => {
             baked.worst_instructions = worst.map(|count| count.ceil() as u64);
         }
-        _ => {
-            // Cut off where time is up: no end is proved.
-            baked.work = within::<R>(&costs, condensate.contact, all, tried, time);
-            baked.sweeps.most = baked.work.sweeps;
-        }
+        // Cut off where time is up: no end is proved.
+        _ => baked = baked.with_work(within::<R>(&costs, condensate.contact, all, tried, time)),
     }
     let sizes = condensed::sizes(&baked);
     let needs = Needs::with_code(baked.kind(), sizes, instructions);
@@ -187,8 +184,8 @@ fn entries<R>(condensate: &CondensedModel, modes: Option<&Modes<R>>) -> usize {
     n * inputs + outputs.len() * (n + inputs) + of_modes
 }
 
-/// What a tick may do where nothing limits its time: the sweeps of the setting, where it has a number; exchanges as many as
-/// the proved worst case has at least, twice as many where edges have three sides.
+/// What a tick may do where nothing limits its time: the sweeps of the setting, where it has a number; exchanges as
+/// many as the proved worst case has at least, twice as many where edges have three sides.
 fn allowed(setting: &Setting, model: &CondensedModel, exact: bool) -> Work {
     let of_edge = if model.is_limited() { 4 } else { 2 };
     match exact {
@@ -197,9 +194,9 @@ fn allowed(setting: &Setting, model: &CondensedModel, exact: bool) -> Work {
     }
 }
 
-/// What a tick may do in the time declared: as much as the ticks of a trial did, where all of them had time; one step at
-/// least, for what fits no better comes to its end in later ticks. `time`: the instructions of a tick without changes, and
-/// those that there are.
+/// What a tick may do in the time declared: as much as the ticks of a trial did, where all of them had time; one step
+/// at least, for what fits no better comes to its end in later ticks. `time`: the instructions of a tick without
+/// changes, and those that there are.
 fn within<R: Scalar>(
     costs: &Costs,
     contact: usize,

@@ -13,8 +13,7 @@ use signorini_kernel::{Error, error::Array};
 use super::bound::{Bound, Ends};
 use super::modes::{Modes, Scaled};
 use super::start::{InitialState, best_omega};
-use crate::narrow::{filled_up, matrix, narrow, pairs};
-use signorini_condense::ranges::split::Split;
+use crate::narrow::{filled_up, is_monotone, matrix, narrow, pairs, spans};
 use signorini_condense::{CondensedModel, ModalModel};
 use signorini_image::chosen::WorstCase;
 use signorini_problem::inputs::ranges;
@@ -203,6 +202,11 @@ impl<R: Scalar> Baked<R> {
         Self { sweeps, cold: setting.start == From::Cold, ..self }
     }
 
+    /// The same model with other limits, the exact method staying in or out.
+    pub fn with_work(self, work: Work) -> Self {
+        Self { work, sweeps: Sweeps { most: work.sweeps, ..self.sweeps }, ..self }
+    }
+
     /// The features of the kernel that it needs.
     pub fn kernel_features(&self) -> Vec<&'static str> {
         let limited = self.is_limited().then_some("limited");
@@ -286,25 +290,4 @@ impl<R: Scalar> Baked<R> {
         }
         finite(Array::Coefficients, &[bound.unit, bound.stability, R::ONE / bound.unit])
     }
-}
-
-/// The columns of spans that the target needs.
-///
-/// # Errors
-/// A limit that the scalar takes for none.
-fn spans<R: Scalar>(condensate: &CondensedModel) -> Result<Vec<R>, Error> {
-    let columns = if condensate.is_varying() { condensate.inputs } else { 1 };
-    let columns = || condensate.spans.iter().take(columns);
-    let is_lost = |span: &f64| span.is_finite() && !R::narrow(*span).finite();
-    match columns().flatten().position(is_lost) {
-        Some(at) => Err(Error::NotFinite { of: Array::ContactSpans, at }),
-        None => Ok(columns().flat_map(|column| filled_up(column)).collect()),
-    }
-}
-
-/// Whether Ŝ in the scalar of the target is a nonsingular M-matrix.
-fn is_monotone<R: Scalar>(condensate: &CondensedModel) -> bool {
-    let stored: Vec<f64> = condensate.matrix.iter().map(|&entry| R::narrow(entry).wide()).collect();
-    let split = Split::new(&stored, condensate.contact);
-    split.is_some_and(|split| split.has_all_signs())
 }

@@ -12,7 +12,8 @@ use signorini_problem::scalar::Scalar;
 const BLOCK: usize = 64;
 
 impl<R: Scalar> Baked<R> {
-    /// The sizes by which its ticks are priced, with so many entries of loads and outputs, and the exact method or without.
+    /// The sizes by which its ticks are priced, with so many entries of loads and outputs, and the exact method or
+    /// without.
     pub fn price(&self, entries: usize, exact: bool) -> Price {
         let (bound, laws) = (self.bound.as_ref(), usize::from(self.modes.is_some()));
         Price {

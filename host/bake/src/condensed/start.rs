@@ -1,4 +1,5 @@
-//! Found at the default inputs: the answer in which the first tick begins, and the relaxation factor of sweeps, by trying.
+//! Found at the default inputs: the answer in which the first tick begins, and the relaxation factor of sweeps, by
+//! trying.
 
 use signorini_contact::dense::blocks::{Block, SIDE, count, padded};
 use signorini_contact::dense::tableau::{self, Tableau};
@@ -55,8 +56,8 @@ impl<R: Scalar> InitialState<R> {
     }
 }
 
-/// The ω with which sweeps from a cold start at the default inputs end first, `diagonal` being the largest entry on that
-/// of the matrix: less than 2 over that.
+/// The ω with which sweeps from a cold start at the default inputs end first, `diagonal` being the largest entry on
+/// that of the matrix: less than 2 over that.
 pub(super) fn best_omega(condensate: &CondensedModel, diagonal: f64) -> f64 {
     let load = condensate.load_of(&condensate.defaults);
     let trial = |omega: f64| (sweeps(condensate, &load, omega), omega);

@@ -129,6 +129,11 @@ impl<R: Scalar> Baked<R> {
         self.data.has_bound
     }
 
+    /// The limits of its ticks.
+    pub fn limits(&self) -> Limits<R> {
+        self.how.limits
+    }
+
     /// Entries of the factor that solves its ticks, if one does.
     pub fn entries(&self) -> Option<usize> {
         self.factored.as_ref().map(Factored::entries)

@@ -2,14 +2,20 @@
 
 use std::fmt::Write as _;
 
-use signorini_device::full::Full;
-use signorini_kernel::Index;
+use signorini_bound::cells::{Cells, Quad, Triangle};
+use signorini_bound::certificate::{Curved, Discretization, Metric, POINTS};
+use signorini_device::full::{Base, CurvedPart, CurvedSum, Full, Product};
+use signorini_kernel::mesh::Mesh;
+use signorini_kernel::mesh::boundary::{Neumann, Robin};
+use signorini_kernel::mesh::edges::Edges;
+use signorini_kernel::stiffness::Stiffness;
+use signorini_kernel::{Index, Tensor};
 
 use super::arrays::Baked;
-use super::foundation::{base, discretization};
 use super::linear::{outputs, patterns};
 use crate::module_api::ModuleApi;
-use crate::statics::{Statics, tall_record};
+use crate::statics::{Statics, lines, record, tall_record};
+use crate::text::array;
 use signorini_problem::scalar::Scalar;
 
 /// Items of the kernel that they may use.
@@ -64,4 +70,111 @@ fn full<R: Scalar, I: Index>(of: &Full<R, u32>, face: &ModuleApi, to: &mut Stati
     pub(super) static FULL: Full<'static, Scalar, Index> = {full};
 "
     );
+}
+
+/// Mesh, A and ways out.
+fn discretization<R: Scalar, I: Index>(of: &Discretization<R, u32>, to: &mut Statics) -> String {
+    let fields = [
+        ("mesh", mesh::<R, I>(&of.mesh, to)),
+        ("edges", edges::<I>(&of.edges, to)),
+        ("stiffness", stiffness(&of.stiffness, to)),
+        ("cells", cells::<R, I>(&of.cells, to)),
+        ("metric", metric(&of.metric, to)),
+        ("stability", format!("{:?}", of.stability)),
+    ];
+    tall_record("Discretization", 8, fields)
+}
+
+#[rustfmt::skip] // A table; so below.
+fn mesh<R: Scalar, I: Index>(of: &Mesh<R, u32>, to: &mut Statics) -> String {
+    let vertices = to.array::<[R; 2]>("VERTICES", "Vertex coordinates, moved into the box [−1, 1]²; only their number is read.", "[Scalar; 2]", of.vertices());
+    let triangles = to.array::<[I; 3]>("TRIANGLES", "Vertices of each triangle, counterclockwise.", "[Index; 3]", of.triangles());
+    let quads = to.array::<[I; 4]>("QUADS", "Vertices of each quad, counterclockwise.", "[Index; 4]", of.quads());
+    format!("Mesh::baked({vertices}, {triangles}, {quads})")
+}
+
+#[rustfmt::skip]
+fn edges<I: Index>(of: &Edges<u32>, to: &mut Statics) -> String {
+    let triangles = to.array::<[I; 3]>("EDGES_OF_TRIANGLES", "The edge of each side of each triangle.", "[Index; 3]", of.of_triangles());
+    let quads = to.array::<[I; 4]>("EDGES_OF_QUADS", "The edge of each side of each quad.", "[Index; 4]", of.of_quads());
+    let half_edges = of.half_edges();
+    // "There is none" is the largest index of either type.
+    let text = array(half_edges, 4).replace(&u32::MAX.to_string(), "Index::MAX");
+    let half_edges = to.spelt::<[I; 2]>("HALF_EDGES", "The one or two half-edges of each edge: interior, Neumann and Robin edges, then contact, then Dirichlet.", "[Index; 2]", half_edges.len(), &text);
+    format!("Edges::baked({triangles}, {quads}, {half_edges}, {:?})", of.counts())
+}
+
+#[rustfmt::skip]
+fn stiffness<R: Scalar>(of: &Stiffness<R>, to: &mut Statics) -> String {
+    record("Stiffness", [
+        ("triangles", to.array::<[R; 3]>("STIFFNESS_OF_TRIANGLES", "Element matrices: entries 01, 12, 20.", "[Scalar; 3]", of.triangles)),
+        ("quads", to.array::<[R; 6]>("STIFFNESS_OF_QUADS", "Element matrices: entries 01, 02, 03, 12, 13, 23.", "[Scalar; 6]", of.quads)),
+    ])
+}
+
+#[rustfmt::skip]
+fn cells<R: Scalar, I: Index>(of: &Cells<R, u32>, to: &mut Statics) -> String {
+    let [of_vertices, of_edges] = of.weights();
+    let triangles = to.array::<Triangle<R, I>>("PACKED_TRIANGLES", "Triangles in the order in which the error bound walks over them.", "Triangle<Scalar, Index>", of.triangles());
+    let quads = to.array::<Quad<R, I>>("PACKED_QUADS", "Quads in the order in which the error bound walks over them.", "Quad<Scalar, Index>", of.quads());
+    let of_vertices = to.numbers("VERTEX_WEIGHTS", "1/Σα of the cells at each vertex.", of_vertices);
+    let of_edges = to.numbers("EDGE_WEIGHTS", "1/Σ(1/α) of the cells of each edge, 0 on Neumann and Robin edges.", of_edges);
+    let order = to.array::<I>("ORDER", "The cells from roots to leaves of the forest.", "Index", of.order());
+    format!("Cells::baked({triangles}, {quads}, {of_vertices}, {of_edges}, {order})")
+}
+
+#[rustfmt::skip]
+fn metric<R: Scalar>(of: &Metric<R>, to: &mut Statics) -> String {
+    record("Metric", [
+        ("at_points", to.array::<[Tensor<R>; POINTS * POINTS]>("METRIC", "A in reference coordinates at 64 points of the cells in which it varies.", "[Tensor<Scalar>; 64]", of.at_points)),
+        ("place", to.array::<u32>("METRIC_PLACE", "Where each cell stands in `METRIC`; beyond its end where A is constant.", "u32", of.place)),
+        ("distortions", to.array::<[R; 2]>("QUAD_DISTORTIONS", "By how much each quad is no parallelogram.", "[Scalar; 2]", of.distortions)),
+    ])
+}
+
+/// Loads and boundary data where all inputs are 0.
+#[rustfmt::skip]
+fn base<R: Scalar, I: Index>(of: &Base<R, u32>, to: &mut Statics) -> String {
+    let loads = record("CellLoads", [
+        ("triangles", to.numbers("SOURCE_OF_TRIANGLES", "∫f of each triangle.", of.loads.triangles)),
+        ("quads", to.numbers("SOURCE_OF_QUADS", "∫f of each quad.", of.loads.quads)),
+    ]);
+    let neumann = to.array::<Neumann<R, I>>("NEUMANN", "∫g of the edges with a given flux.", "Neumann<Scalar, Index>", of.neumann);
+    let robin = to.array::<Robin<R, I>>("ROBIN", "Transfer laws: ∫h and ∫h u_ext.", "Robin<Scalar, Index>", of.robin);
+    let transfer = to.array::<[[R; 2]; 8]>("TRANSFER", "∫h and u_ext at 8 points of each transfer edge.", "[[Scalar; 2]; 8]", of.transfer);
+    let contact_flux = to.numbers("CONTACT_FLUX", "∫q of each contact edge.", of.contact_flux);
+    let spans = match of.spans.lengths() {
+        [] => "Spans::UNLIMITED".to_owned(),
+        lengths => {
+            let text = array(lengths, 8);
+            let lengths = to.spelt::<R>("SPANS", "∫(limit − flux) of each contact edge; −∞ where there is no least flux.", "Scalar", lengths.len(), &text);
+            format!("Spans::baked({lengths}, {:?})", of.spans.excess())
+        }
+    };
+    let gap = to.numbers("GAP", "Mean of ψ on each contact edge.", of.gap);
+    let gap_ends = to.array::<[R; 2]>("GAP_ENDS", "ψ at the ends of each contact edge.", "[Scalar; 2]", of.ends.gap);
+    let dirichlet = to.numbers("DIRICHLET", "Mean of u_D on each Dirichlet edge.", of.dirichlet);
+    let given = to.array::<[R; 2]>("DIRICHLET_ENDS", "u_D at the ends of each Dirichlet edge.", "[Scalar; 2]", of.ends.given);
+    tall_record("Base", 8, [
+        ("loads", loads),
+        ("neumann", neumann),
+        ("robin", robin),
+        ("contact_flux", contact_flux),
+        ("spans", spans),
+        ("gap", gap),
+        ("dirichlet", dirichlet),
+        ("ends", record("VertexData", [("gap", gap_ends), ("given", given)])),
+        ("curved", to.array::<Curved<R, I>>("CURVED", "Edges on which ψ or u_D is not affine.", "Curved<Scalar, Index>", of.curved)),
+        ("curved_sums", lines(of.curved_sums.iter().enumerate().map(|(at, of)| curved_sum(at, of, to)))),
+        ("transfer", transfer),
+    ])
+}
+
+#[rustfmt::skip]
+fn curved_sum<R: Scalar>(at: usize, of: &CurvedSum<R, u32>, to: &mut Statics) -> String {
+    record("CurvedSum", [
+        ("edge", of.edge.to_string()),
+        ("parts", to.array::<CurvedPart<R>>(&format!("CURVED_{at}_PARTS"), "What base and inputs add to a curved edge.", "CurvedPart<Scalar>", of.parts)),
+        ("energy", to.array::<Product<R>>(&format!("CURVED_{at}_ENERGY"), "Its energy, a quadratic form in the inputs.", "Product<Scalar>", of.energy)),
+    ])
 }

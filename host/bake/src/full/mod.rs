@@ -18,7 +18,6 @@ mod borrowed;
 mod controller;
 mod data;
 mod factored;
-mod foundation;
 mod linear;
 mod listing;
 mod output;

@@ -1,5 +1,5 @@
-//! What ranges do not allow: why nothing is proved of the contact edges, and inputs for which a Dirichlet value lies below the gap
-//! beside it, where the scene has no solution.
+//! What ranges do not allow: why nothing is proved of the contact edges, and inputs for which a Dirichlet value lies
+//! below the gap beside it, where the scene has no solution.
 
 use crate::choice::Origin;
 use signorini_condense::ranges::split::Split;
@@ -52,8 +52,8 @@ fn has_positive_entries(matrix: &[f64], n: usize) -> bool {
     matrix.iter().enumerate().any(|(at, &entry)| at / n != at % n && entry > 0.0)
 }
 
-/// A sentence with the largest depth of a Dirichlet value below the gap beside it, for inputs within their ranges; nothing where
-/// there is none, or an input has no range.
+/// A sentence with the largest depth of a Dirichlet value below the gap beside it, for inputs within their ranges;
+/// nothing where there is none, or an input has no range.
 pub fn conflict(origin: &Origin) -> Option<String> {
     let whole = &origin.whole;
     let form = whole.certificate.as_ref().ok()?;
