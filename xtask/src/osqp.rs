@@ -25,7 +25,10 @@ pub fn run(words: &[&str]) -> ExitCode {
         ["--wide"] => Ok(true),
         [extra, ..] => Err(format!("`osqp` takes no argument but `--wide`, not `{extra}`")),
     };
-    command(words, HELP, parse, |is_wide| Ok(println!("{}", build(is_wide)?)))
+    command(words, HELP, parse, |is_wide| {
+        println!("{}", build(is_wide)?);
+        Ok(())
+    })
 }
 
 /// Studies leave OSQP out where it cannot be built, and go on: here that is a failure.

@@ -4,13 +4,16 @@
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
+use serde::Serialize;
+
 use crate::error::Result;
 use crate::mutant::Mutant;
 use crate::shared::each;
 use crate::suite::{Ended, Test};
 
 /// The fate of a mutant.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Outcome {
     /// A test failed.
     Caught,
@@ -24,20 +27,6 @@ pub enum Outcome {
     Unviable,
     /// The mutant has no switch.
     Unswitched,
-}
-
-impl Outcome {
-    /// In one word.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Caught => "caught",
-            Self::Timeout => "timeout",
-            Self::Missed => "missed",
-            Self::Unreached => "unreached",
-            Self::Unviable => "unviable",
-            Self::Unswitched => "unswitched",
-        }
-    }
 }
 
 /// The record of a test.

@@ -6,7 +6,7 @@
 //!
 //! ```text
 //!   signorini-mutants LIST ROOT WORK FILE…
-//!   caught  kernel/src/psor.rs  93  36  38  replace >= with < in defect  random_scenes_in_f64
+//!   {"outcome":"caught","file":"kernel/src/psor.rs","what":"replace < with <= in defect","line":"if own «<» b {","by":"exact"}
 //! ```
 
 mod edits;
@@ -61,6 +61,7 @@ fn run() -> Result<()> {
     let judge = Judge::new(&tests);
     for file in files {
         let of_file: Vec<_> = mutants.iter().filter(|mutant| mutant.file == *file).collect();
+        let text = fs::read_to_string(Path::new(root).join(file))?;
         let has_switch = |mutant: &&Mutant| known.is_open(mutant.id);
         let switched: Vec<_> = of_file.iter().copied().filter(has_switch).collect();
         let mut judged = judge.all(&switched, workers)?.into_iter();
@@ -72,18 +73,44 @@ fn run() -> Result<()> {
             } else {
                 (Outcome::Unswitched, String::new())
             };
-            tell(mutant, outcome, &by);
+            println!("{}", told(mutant, outcome, &by, &text));
         }
         eprintln!("{:.0?}: {file}", start.elapsed());
     }
     Ok(())
 }
 
-fn tell(mutant: &Mutant, outcome: Outcome, by: &str) {
-    let Span { start, end } = mutant.span;
+/// What became of a mutant of this text, and the test that decided.
+fn told(mutant: &Mutant, outcome: Outcome, by: &str, text: &str) -> serde_json::Value {
     let what = mutant.name.splitn(4, ':').nth(3).unwrap_or_default();
     let what = what.split_whitespace().collect::<Vec<_>>().join(" ");
-    let to = if end.line == start.line { end.column } else { 0 };
-    let (outcome, file) = (outcome.word(), &mutant.file);
-    println!("{outcome}\t{file}\t{}\t{}\t{to}\t{what}\t{by}", start.line, start.column);
+    let line = text.lines().nth(mutant.span.start.line - 1).unwrap_or_default();
+    let (file, line) = (&mutant.file, marked(line, mutant.span));
+    serde_json::json!({ "outcome": outcome, "file": file, "what": what, "line": line, "by": by })
+}
+
+/// The line in which a span begins, its place between marks.
+fn marked(line: &str, Span { start, end }: Span) -> String {
+    let columns: Vec<char> = line.chars().collect();
+    let to = if end.line == start.line { end.column - 1 } else { columns.len() };
+    let to = to.min(columns.len());
+    let from = (start.column - 1).min(to);
+    let part = |range: std::ops::Range<usize>| columns[range].iter().collect::<String>();
+    let text = format!("{}«{}»{}", part(0..from), part(from..to), part(to..columns.len()));
+    text.trim().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mutant::SourcePosition;
+
+    #[test]
+    fn places_are_marked() {
+        let place = |line, column| SourcePosition { line, column };
+        let span = |from, to| Span { start: place(1, from), end: to };
+        assert_eq!(marked("    ψ < b", span(7, place(1, 8))), "ψ «<» b");
+        assert_eq!(marked("  first", span(3, place(2, 1))), "«first»");
+        assert_eq!(marked("", span(5, place(1, 9))), "«»");
+    }
 }

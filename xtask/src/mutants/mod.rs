@@ -10,6 +10,8 @@ use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
 
+use serde::Deserialize;
+
 use crate::command::command;
 use crate::counted::counted;
 use crate::steps::Steps;
@@ -137,9 +139,11 @@ fn judge(named: &[&str], force: bool) -> Result<(), String> {
     survivors.write()
 }
 
-/// A mutant and what became of it.
+/// A mutant and what became of it: a line of the judge.
+#[derive(Deserialize)]
 struct Found {
     outcome: String,
+    #[serde(flatten)]
     key: Key,
 }
 
@@ -154,9 +158,9 @@ fn run_all(files: &[String]) -> Result<Vec<Found>, String> {
     command.arg(path).arg(root()).arg(&work).args(files);
     let mut found = Vec::new();
     let mut problem = Ok(());
-    run_with_lines(command, |line| match Found::parse(line) {
+    run_with_lines(command, |line| match serde_json::from_str(line) {
         Ok(one) => found.push(one),
-        Err(why) => problem = Err(why),
+        Err(why) => problem = Err(format!("the judge says `{line}`: {why}")),
     })?;
     problem.map(|()| found)
 }
@@ -178,43 +182,5 @@ impl Found {
     /// Whether no test has told it from the kernel: all passed, none comes past it, or it has no switch.
     fn lives(&self) -> bool {
         !["caught", "timeout", "unviable"].contains(&self.outcome.as_str())
-    }
-
-    /// From a line of the judge: outcome, file, line, columns, what it does, the test that decided.
-    fn parse(line: &str) -> Result<Self, String> {
-        let words: Vec<&str> = line.split('\t').collect();
-        let [outcome, file, at, from, to, what, _] = words[..] else {
-            return Err(format!("the judge says `{line}`"));
-        };
-        let number =
-            |word: &str| word.parse::<usize>().map_err(|_| format!("the judge says `{line}`"));
-        let text =
-            fs::read_to_string(root().join(file)).map_err(|error| format!("{file}: {error}"))?;
-        let line = text.lines().nth(number(at)? - 1).unwrap_or_default();
-        let line = marked(line, number(from)?, number(to)?);
-        let key = Key { file: file.to_owned(), what: what.to_owned(), line };
-        Ok(Self { outcome: outcome.to_owned(), key })
-    }
-}
-
-/// The line with its columns `from..to`, counted from 1, between marks; to its end where `to` is 0.
-fn marked(line: &str, from: usize, to: usize) -> String {
-    let columns: Vec<char> = line.chars().collect();
-    let to = if to == 0 { columns.len() } else { (to - 1).min(columns.len()) };
-    let from = (from - 1).min(to);
-    let part = |range: std::ops::Range<usize>| columns[range].iter().collect::<String>();
-    let text = format!("{}«{}»{}", part(0..from), part(from..to), part(to..columns.len()));
-    text.trim().to_owned()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn places_are_marked() {
-        assert_eq!(marked("    ψ < b", 7, 8), "ψ «<» b");
-        assert_eq!(marked("  first", 3, 0), "«first»");
-        assert_eq!(marked("", 5, 9), "«»");
     }
 }

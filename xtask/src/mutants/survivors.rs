@@ -10,6 +10,8 @@
 use std::collections::BTreeMap;
 use std::fs;
 
+use serde::Deserialize;
+
 use crate::snapshot::write;
 use signorini_image::cargo::root;
 
@@ -21,7 +23,7 @@ const HEAD: &str = "\
 const REASON: &str = "reason:";
 
 /// What a mutant is known by.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 pub struct Key {
     /// Its file, from the root.
     pub file: String,
