@@ -8,33 +8,30 @@
 //! operand  = number | pi | x | y | t | ( sum ) | function ( sum {, sum} )
 //! ```
 //!
-//! text ─► `lexer` ─► `parser` ─► `program` (postfix, constants folded) ─► a value, those of many points (`several`), or by
-//! dual numbers (`dual`) a value and its gradient. What each operation is stands in `operation`, and
+//! text ─► `lexer` ─► `parser` ─► `program` (postfix, constants folded) ─► a value, those of many points, or by
+//! dual numbers a value and its gradient. What each operation is stands in `operation`, and
 //! what a device would make of it in `arithmetic`.
 //!
 //! Evaluation follows IEEE: outside its domain an expression is NaN or infinite, and whoever asked
 //! decides what that means there. Hence `min` and `max` pass a NaN on instead of dropping it.
 
 mod arithmetic;
-mod dual;
 mod elementary;
 mod lexer;
 mod operation;
 mod parser;
 mod program;
-mod several;
 #[cfg(test)]
 mod tests;
 
 use std::fmt;
 use std::ops::Range;
 
-use dual::{Dual, Duals};
 use program::{Numbers, Program};
 use thiserror::Error;
 
 pub use arithmetic::Arithmetic;
-use arithmetic::Doubles;
+use arithmetic::{Doubles, Dual, Duals};
 pub use elementary::Elementary;
 
 /// A parsed expression: evaluates without allocation, cannot fail.

@@ -10,8 +10,9 @@
 //! | contact | u ≥ gap, σ·n ≥ flux, (u − gap)(σ·n − flux) = 0; with a limit, u may fall below the gap where σ·n = limit |
 //!
 //! text ─► `table`, `entry` (TOML with places) ─► `read`, `boundary`, `material`, `control`, `setting` (sections
-//! into the model below); a fragment gives a scene another setting. Every part of the model knows where it stands, so that whoever finds it wrong
-//! later, on the mesh or at a quadrature point, can still point at the line ([`Scene::error`]).
+//! into the model below); a fragment gives a scene another setting. Every part of the model knows where it stands, so
+//! that whoever finds it wrong later, on the mesh or at a quadrature point, can still point at the line
+//! ([`Scene::error`]).
 //! The names are not compared with the mesh here.
 
 mod boundary;

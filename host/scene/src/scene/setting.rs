@@ -9,7 +9,8 @@ use crate::error::{InputError, Result};
 use crate::goal::Goal;
 use crate::setting::{CellKind, MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
 
-const KEYS: &str = "refine, error, cells, element, scalar, math, model, solver, start, omega, sweeps, share, certificate";
+const KEYS: &str = "refine, error, cells, element, scalar, math, model, solver, start, omega, \
+                    sweeps, share, certificate";
 
 const CELLS: [(&str, CellKind); 2] =
     [("triangles", CellKind::Triangles), ("quads", CellKind::Quads)];

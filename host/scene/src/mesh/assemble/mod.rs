@@ -10,11 +10,10 @@
 
 mod cells;
 pub(super) mod draft;
-mod groups;
 pub(super) mod sound;
 
 use self::cells::{NodeIndex, Resolved};
-use self::draft::{Draft, Kind, Node, Parsed};
+use self::draft::{Draft, Element, Kind, Node, Parsed};
 use self::sound::{Cells, Sound};
 use crate::error::InputError;
 use crate::mesh::{Curve, Mesh, Surface};
@@ -31,7 +30,7 @@ pub(super) fn assemble(draft: &Draft) -> Parsed<Mesh> {
         let error = InputError::new("the mesh has no triangle and no quad");
         return Err(error.hint("mesh in two dimensions; put the surfaces in a group").into());
     }
-    groups::check_room(draft, lines.iter().chain(&cells).map(|line| line.element))?;
+    check_room(draft, lines.iter().chain(&cells).map(|line| line.element))?;
     // As the mesh numbers them: triangles before quads, each kind in the order of the file.
     cells.sort_by_key(|cell| cell.element.kind == Kind::Quad);
 
@@ -103,7 +102,7 @@ fn surfaces(draft: &Draft, cells: &[Resolved], number: &[u32]) -> Parsed<Vec<Sur
         return Err(draft.error(again.at, message).hint(hint).into());
     }
     let grouped = listed.into_iter().filter(|&(tag, ..)| tag != 0);
-    let groups = groups::collect(draft, 2, grouped.map(|(tag, cell, _)| (tag, cell)).collect())?;
+    let groups = collect(draft, 2, grouped.map(|(tag, cell, _)| (tag, cell)).collect())?;
     Ok(groups.into_iter().map(|(name, cells)| Surface { name, cells }).collect())
 }
 
@@ -125,6 +124,56 @@ fn curves(draft: &Draft, lines: &[Resolved], sound: &Sound) -> Parsed<Vec<Curve>
             }
         }
     }
-    let groups = groups::collect(draft, 1, members)?;
+    let groups = collect(draft, 1, members)?;
     Ok(groups.into_iter().map(|(name, edges)| Curve { name, edges }).collect())
+}
+
+/// Refuses elements that are in more groups together than the file has bytes: a few lines may put many elements
+/// into many groups, and memory shall stay bounded by the file.
+fn check_room<'a>(draft: &Draft, elements: impl Iterator<Item = &'a Element>) -> Parsed<()> {
+    let (mut total, room) = (0, draft.length);
+    for element in elements {
+        total += draft.tags(element).len();
+        if total > room {
+            let message = format!(
+                "up to {} the elements are listed in more than {room} physical groups together",
+                element.title()
+            );
+            let hint = "give an entity one physical group, or a few";
+            return Err(draft.error(element.at, message).hint(hint).into());
+        }
+    }
+    Ok(())
+}
+
+/// The items of each group under its name, by ascending physical tag; items ascend and come once.
+fn collect<T: Ord + Copy>(
+    draft: &Draft,
+    dimension: u8,
+    mut members: Vec<(i32, T)>,
+) -> Parsed<Vec<(String, Vec<T>)>> {
+    members.sort_unstable();
+    members.dedup();
+    let of_group = |members: &[(i32, T)]| {
+        (name(draft, dimension, members[0].0), members.iter().map(|member| member.1).collect())
+    };
+    let groups: Vec<_> = members.chunk_by(|a, b| a.0 == b.0).map(of_group).collect();
+    unambiguous(&groups, dimension)?;
+    Ok(groups)
+}
+
+/// The name of a group, or its tag in decimal.
+fn name(draft: &Draft, dimension: u8, group: i32) -> String {
+    let name = draft.names.get(&(dimension, group));
+    name.filter(|name| !name.is_empty()).cloned().unwrap_or_else(|| group.to_string())
+}
+
+/// A scene speaks of groups by name: two of the same name are an error.
+fn unambiguous<T>(groups: &[(String, T)], dimension: u8) -> Parsed<()> {
+    let mut names: Vec<_> = groups.iter().map(|(name, _)| name).collect();
+    names.sort_unstable();
+    let Some(pair) = names.windows(2).find(|pair| pair[0] == pair[1]) else { return Ok(()) };
+    let kind = if dimension == 1 { "curves" } else { "surfaces" };
+    let error = InputError::new(format!("two physical {kind} are called `{}`", pair[0]));
+    Err(error.hint("give each a name of its own, or make them one").into())
 }
