@@ -13,7 +13,8 @@
 //!
 //! The factor is the kernel's, in the scalar asked for: it takes as long as the direct solver at 40 000 unknowns, half
 //! of that at 6000, its answers have a low part in f32, and parts that contact alone holds are no exception.
-//! The direct solver takes over where it has no answer, in f64: where nothing holds a part.
+//! The direct solver takes over where it has no answer, in f64: where nothing holds a part. One factor may serve many problems
+//! on the same matrix.
 
 use signorini_kernel::rows;
 use signorini_kernel::solver::Status;
@@ -23,7 +24,7 @@ use super::{
     by_kernel, direct, factored, unfit,
 };
 use signorini_problem::scalar::Scalar;
-use signorini_problem::{Approach, Parts, Problem};
+use signorini_problem::{Approach, Assembled, Parts, Problem};
 
 /// Sweeps per √N, from below: a problem that needs more is only solved sooner by the factor.
 const SWEEPS: f64 = 10.0;
@@ -93,4 +94,30 @@ pub(super) fn by_factor<R: Scalar>(
     }
     let factored = Some(factored);
     attempt.conclude(Solved { outcome, ran: Ran::Factor, factored, u, low }).map(Some)
+}
+
+/// The factor of a matrix, for many problems: all loads and laws of contact.
+#[derive(Debug)]
+pub struct SharedFactor(Ldlt<f64>);
+
+impl SharedFactor {
+    /// Factor of `problem`; `None` where it is singular, or would take too much memory.
+    ///
+    /// # Errors
+    /// Numbers that f64 cannot hold.
+    pub fn of(problem: &Problem) -> Result<Option<Self>> {
+        let unfit = unfit::<f64>(&problem.scene);
+        let assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
+        let system = assembled.system().map_err(&unfit)?;
+        Ok(Ldlt::new(&system).map_err(&unfit)?.map(Self))
+    }
+
+    /// Solves a problem with this matrix, in the units that it has; nothing where it has no solution.
+    ///
+    /// # Errors
+    /// Numbers that f64 cannot hold.
+    pub fn solve(&self, problem: &Problem) -> Result<Option<Solution>> {
+        let parts = Parts::examine(problem)?;
+        by_factor(problem, &parts, &Options::default(), &[], Some(&self.0))
+    }
 }

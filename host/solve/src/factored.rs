@@ -1,5 +1,4 @@
-//! The kernel's exact solver in memory of the right size: where projected SOR does not get there, or one factor serves many
-//! problems on the same matrix.
+//! The kernel's exact solver in memory of the right size: where projected SOR does not get there.
 
 use serde::Serialize;
 use signorini_contact::dense::blocks::padded;
@@ -10,11 +9,8 @@ use signorini_kernel::solver::{Outcome, Settings};
 use signorini_kernel::system::System;
 
 use super::ldlt::{Ldlt, exchanges};
-use super::{Options, Solution, auto, unfit};
 use signorini_problem::progress::stage;
 use signorini_problem::scalar::Scalar;
-use signorini_problem::{Assembled, Parts, Problem};
-use signorini_scene::error::Result as Answer;
 
 /// Work of the factor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -70,30 +66,4 @@ pub(super) fn solve<R: Scalar>(
     let SolveSummary { status, residual, pivots: exchanges, rounds } = progress;
     let outcome = Outcome { status, sweeps: 0, conjugate: 0, residual, omega: R::ONE };
     Ok(Some((outcome, Factored { entries, exchanges, rounds })))
-}
-
-/// The factor of a matrix, for many problems: all loads and laws of contact.
-#[derive(Debug)]
-pub struct SharedFactor(Ldlt<f64>);
-
-impl SharedFactor {
-    /// Factor of `problem`; `None` where it is singular, or would take too much memory.
-    ///
-    /// # Errors
-    /// Numbers that f64 cannot hold.
-    pub fn of(problem: &Problem) -> Answer<Option<Self>> {
-        let unfit = unfit::<f64>(&problem.scene);
-        let assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
-        let system = assembled.system().map_err(&unfit)?;
-        Ok(Ldlt::new(&system).map_err(&unfit)?.map(Self))
-    }
-
-    /// Solves a problem with this matrix, in the units that it has; nothing where it has no solution.
-    ///
-    /// # Errors
-    /// Numbers that f64 cannot hold.
-    pub fn solve(&self, problem: &Problem) -> Answer<Option<Solution>> {
-        let parts = Parts::examine(problem)?;
-        auto::by_factor(problem, &parts, &Options::default(), &[], Some(&self.0))
-    }
 }

@@ -27,9 +27,9 @@ mod tests;
 mod tuned;
 mod units;
 
-pub use auto::prefers_factor;
+pub use auto::{SharedFactor, prefers_factor};
 pub use ending::{Ending, Ran, status_name};
-pub use factored::{Factored, SharedFactor};
+pub use factored::Factored;
 pub use level::{FreeLevel, free_levels};
 pub use mixed::{Corrected, Mixed, mixed};
 pub use options::{Options, ScalarKind, SolverKind};

@@ -16,7 +16,7 @@ use std::time::Instant;
 
 use super::marking::History;
 use super::{Allowed, MeshOfScene, Promise, Promised, Refining};
-use super::{Level, MOST_UNKNOWNS, Stall, Stop, carry, indicators, marking};
+use super::{Level, MOST_UNKNOWNS, Stop, carry, indicators, marking};
 use crate::{Options, SolverKind};
 use signorini_problem::Problem;
 use signorini_problem::inputs::{InputSpace, corners, drawn};
@@ -200,7 +200,7 @@ impl<'a> Trial<'a> {
     fn marked(&self, history: &History) -> Result<Vec<bool>> {
         let above: Vec<&Level> = self.levels().filter(|level| self.is_above(level)).collect();
         if let (true, Some(worst)) = (history.is_stalled(), self.worst()) {
-            return Err(self.failed(worst, &Stop::Stalled(Stall::of(worst)?)));
+            return Err(self.failed(worst, &Stop::stalled(worst)?));
         }
         let mut largest = vec![0.0_f64; above.first().map_or(0, |level| level.problem.cells())];
         if history.is_slow() || self.promised.refining == Refining::Everywhere {

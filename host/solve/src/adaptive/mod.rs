@@ -15,7 +15,7 @@ mod stop;
 mod tests;
 
 pub use for_inputs::{mesh_for_scene, mesh_of_scene, promised_mesh};
-pub use stop::{Allowed, MeshOfScene, Promise, Promised, Refining, Stall, Stop, Term};
+pub use stop::{Allowed, MeshOfScene, Promise, Promised, Refining, Stop};
 
 use std::time::Instant;
 
@@ -150,7 +150,7 @@ impl Level {
             None => Some(Stop::NoBound),
             Some(..=1.0) => Some(Stop::Reached),
             Some(_) if !goes_on => Some(Stop::Interrupted),
-            Some(_) if history.is_stalled() => Some(Stop::Stalled(Stall::of(self)?)),
+            Some(_) if history.is_stalled() => Some(Stop::stalled(self)?),
             Some(_) => None,
         })
     }

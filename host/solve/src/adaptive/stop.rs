@@ -10,6 +10,9 @@ use signorini_scene::error::Result;
 use signorini_scene::goal::Goal;
 use signorini_scene::mesh::Mesh;
 
+/// Words for the part of f, g and q that their means leave out.
+const OSCILLATION: &str = "the oscillation of data that the mesh does not resolve";
+
 /// Why the last level is the last.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Stop {
@@ -25,7 +28,12 @@ pub enum Stop {
     /// There is no finer mesh: it would have too many cells, or ones so small that rounding hides their shape.
     Finest(String),
     /// The bound no longer falls.
-    Stalled(Stall),
+    Stalled {
+        /// Words for its largest term.
+        term: &'static str,
+        /// The middle of the cell in which that is largest.
+        at: [f64; 2],
+    },
     /// There is no bound to go by.
     NoBound,
     /// The solver stopped before its tolerance.
@@ -35,6 +43,27 @@ pub enum Stop {
 }
 
 impl Stop {
+    /// That the bound of a level no longer falls, for most of it is its largest term, in the cell that has most of that.
+    pub(super) fn stalled(level: &Level) -> Result<Self> {
+        let Level { problem, solution, .. } = level;
+        let bound = solution.bound.unwrap_or_default();
+        let gap = (bound.duality_gap.powi(2) - bound.algebraic.powi(2)).max(0.0).sqrt();
+        let terms = [
+            ("the gap between s and τ, as where data jump inside cells", gap),
+            (OSCILLATION, 2.0 * bound.oscillation),
+            ("rounding", bound.rounding),
+            ("what the solver left unfinished", bound.algebraic),
+        ];
+        let (term, _) = terms.into_iter().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or(terms[0]);
+        let of_cells = match term == OSCILLATION {
+            true => oscillations(problem)?,
+            false => squares(problem, solution)?,
+        };
+        let largest = (0..of_cells.len()).max_by(|&a, &b| of_cells[a].total_cmp(&of_cells[b]));
+        let at = Cell::of(problem, largest.unwrap_or(0)).middle();
+        Ok(Self::Stalled { term, at })
+    }
+
     /// Reason in words why the levels ended with this solution; `None` where that is the goal.
     pub fn why(&self, solution: &Solution) -> Option<String> {
         const ABOVE: &str = "the error bound is above what was asked for";
@@ -46,8 +75,7 @@ impl Stop {
                 )
             }
             Self::Finest(why) => format!("{ABOVE}: there is no finer mesh, {why}"),
-            Self::Stalled(Stall { term, at: [x, y] }) => {
-                let term = term.sentence();
+            Self::Stalled { term, at: [x, y] } => {
                 format!("{ABOVE}, and no longer falls: most of it is {term}, near ({x:.6}, {y:.6})")
             }
             Self::NoBound => {
@@ -60,61 +88,6 @@ impl Stop {
                 format!("{ABOVE}: interrupted, and these are the files of the last level")
             }
         })
-    }
-}
-
-/// Which term of the bound no longer falls, and where it is largest.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Stall {
-    /// The largest term of the bound.
-    pub term: Term,
-    /// The middle of the cell in which it is largest.
-    pub at: [f64; 2],
-}
-
-/// A term of the error bound.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Term {
-    /// Distance of s and τ.
-    Gap,
-    /// Part of f, g and q that their means leave out.
-    Oscillation,
-    /// Part that rounding can have hidden.
-    Rounding,
-    /// Part that the solver left.
-    Algebraic,
-}
-
-impl Term {
-    /// Describes this part in words.
-    pub fn sentence(self) -> &'static str {
-        match self {
-            Self::Gap => "the gap between s and τ, as where data jump inside cells",
-            Self::Oscillation => "the oscillation of data that the mesh does not resolve",
-            Self::Rounding => "rounding",
-            Self::Algebraic => "what the solver left unfinished",
-        }
-    }
-}
-
-impl Stall {
-    /// The largest term of a level's bound, and the cell that has most of it.
-    pub(super) fn of(level: &Level) -> Result<Self> {
-        let Level { problem, solution, .. } = level;
-        let bound = solution.bound.unwrap_or_default();
-        let terms = [
-            (Term::Gap, (bound.duality_gap.powi(2) - bound.algebraic.powi(2)).max(0.0).sqrt()),
-            (Term::Oscillation, 2.0 * bound.oscillation),
-            (Term::Rounding, bound.rounding),
-            (Term::Algebraic, bound.algebraic),
-        ];
-        let (term, _) = terms.into_iter().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or(terms[0]);
-        let of_cells = match term {
-            Term::Oscillation => oscillations(problem)?,
-            Term::Gap | Term::Rounding | Term::Algebraic => squares(problem, solution)?,
-        };
-        let largest = (0..of_cells.len()).max_by(|&a, &b| of_cells[a].total_cmp(&of_cells[b]));
-        Ok(Self { term, at: Cell::of(problem, largest.unwrap_or(0)).middle() })
     }
 }
 
