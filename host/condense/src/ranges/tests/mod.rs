@@ -12,6 +12,7 @@ use super::enclosure::{Enclosure, EndBox, LoadBox};
 use super::interval::Interval;
 use super::sides::{EdgeSide, Sides};
 use super::split::Split;
+use crate::{CondensedModel, Measure};
 use signorini_reference::minimise_between;
 
 mod outputs;
@@ -111,7 +112,7 @@ fn model(
 fn inputs(ranges: &[[f64; 2]], count: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut random = scatter(seed);
     let corner = |bits: usize| {
-        let end = |(at, range): (usize, &[f64; 2])| range[(2 * bits >> at) & 1];
+        let end = |(at, range): (usize, &[f64; 2])| range[((2 * bits) >> at) & 1];
         ranges.iter().enumerate().map(end).collect()
     };
     let corners = (0..1_usize << (ranges.len() - 1)).map(corner);
