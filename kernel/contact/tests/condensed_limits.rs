@@ -82,7 +82,7 @@ impl Drawn {
     /// Every second one is without a limit, as scenes without any have it.
     fn in_turn(draw: &mut Draw, case: usize) -> Self {
         let drawn = Self::new(draw);
-        match case % 2 == 0 {
+        match case.is_multiple_of(2) {
             true => drawn,
             false => Self { spans: [UP; EDGES], span_excess: 0.0, is_limited: false, ..drawn },
         }
