@@ -5,16 +5,15 @@
 
 use crate::element::copy_row;
 use crate::error::{Array, Error, same_length, same_length_or_empty};
-use crate::features;
 use crate::index::{Index, read};
 use crate::mesh::boundary::Boundary;
 use crate::mesh::diagonal::DiagonalTerms;
 use crate::mesh::edges::{Edges, Side};
-use crate::real::Real;
 use crate::stiffness::Stiffness;
+use crate::{Real, features};
 
 /// The integrals ∫_T f of all cells (borrowed); empty slices stand for f = 0.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct CellLoads<'a, R> {
     /// One integral a triangle.
     pub triangles: &'a [R],

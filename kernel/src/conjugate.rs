@@ -12,24 +12,14 @@
 //! Every step lowers the energy. Two vectors of scratch; K p is computed twice instead of stored.
 
 use crate::error::{Array, Error, same_length};
-use crate::features;
 use crate::index::{Index, read};
-use crate::psor;
-use crate::real::Real;
 use crate::rows::Rows;
 use crate::system::System;
-
-/// Scratch: the direction (one entry an edge) and the residual on the face (one an unknown).
-#[derive(Debug)]
-pub struct ConjugateBuffers<'a, R> {
-    /// p
-    pub direction: &'a mut [R],
-    /// r = b − Ku, 0 on held edges.
-    pub residual: &'a mut [R],
-}
+use crate::{Real, features, psor};
 
 /// Iterates at most `iterations` times, until every |r_i|/K_ii on the face is below `goal`; returns
-/// the number of iterations. `u` must be feasible, and stays so; `rows` are set for the sweeps.
+/// the number of iterations. `u` must be feasible, and stays so; `rows` are set for the sweeps. The scratch is the direction p, one
+/// entry an edge, and the residual r = b − Ku on the face, one an unknown.
 ///
 /// # Errors
 /// Arrays that do not belong to the same mesh.
@@ -39,11 +29,12 @@ pub fn run<R: Real, I: Index, const WIDTH: usize>(
     goal: R,
     iterations: u32,
     u: &mut [R],
-    buffers: &mut ConjugateBuffers<R>,
+    [direction, residual]: [&mut [R]; 2],
 ) -> Result<u32, Error> {
     same_length(Array::Unknowns, u.len(), system.counts().edges())?;
-    same_length(Array::Scratch, buffers.direction.len(), u.len())?;
-    same_length(Array::Scratch, buffers.residual.len(), system.load().len())?;
+    same_length(Array::Scratch, direction.len(), u.len())?;
+    same_length(Array::Scratch, residual.len(), system.load().len())?;
+    let buffers = &mut Buffers { direction, residual };
     let mut used = 0;
     rows.set(system, R::ONE)?;
     while used < iterations {
@@ -65,11 +56,17 @@ pub fn run<R: Real, I: Index, const WIDTH: usize>(
     Ok(used)
 }
 
+struct Buffers<'a, R> {
+    direction: &'a mut [R],
+    /// 0 on held edges.
+    residual: &'a mut [R],
+}
+
 /// r on the face and p = D⁻¹r; tells whether the residual is small already.
 fn start<R: Real, I: Index>(
     system: &System<R, I>,
     u: &[R],
-    buffers: &mut ConjugateBuffers<R>,
+    buffers: &mut Buffers<R>,
     goal: R,
 ) -> bool {
     buffers.direction.fill(R::ZERO);
@@ -96,7 +93,7 @@ fn is_held<R: Real, I: Index>(system: &System<R, I>, u: &[R], i: usize) -> bool 
 }
 
 /// rᵀD⁻¹r, the numerator of the step.
-fn along<R: Real, I: Index>(system: &System<R, I>, buffers: &ConjugateBuffers<R>) -> R {
+fn along<R: Real, I: Index>(system: &System<R, I>, buffers: &Buffers<R>) -> R {
     let rows = system.matrix().iter().zip(buffers.residual.iter());
     rows.fold(R::ZERO, |sum, (row, &r)| sum + r * (r / row.diagonal()))
 }
@@ -105,7 +102,7 @@ fn along<R: Real, I: Index>(system: &System<R, I>, buffers: &ConjugateBuffers<R>
 fn step<R: Real, I: Index>(
     system: &System<R, I>,
     u: &mut [R],
-    buffers: &mut ConjugateBuffers<R>,
+    buffers: &mut Buffers<R>,
     product: R,
     goal: R,
 ) -> Option<R> {
@@ -149,7 +146,7 @@ fn snap_to_gap<R: Real, I: Index>(system: &System<R, I>, u: &mut [R], direction:
 fn turn<R: Real, I: Index>(
     system: &System<R, I>,
     u: &[R],
-    buffers: &mut ConjugateBuffers<R>,
+    buffers: &mut Buffers<R>,
     length: R,
     product: R,
     goal: R,

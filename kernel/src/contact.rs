@@ -10,11 +10,9 @@
 
 use crate::index::{Index, read};
 use crate::law::Law;
-use crate::math::Math;
-use crate::mesh::Mesh;
 use crate::mesh::boundary::Boundary;
 use crate::mesh::edges::{EdgeCounts, Edges};
-use crate::real::Real;
+use crate::{Math, Mesh, Real};
 
 /// ∫_C (τ·n − q) ≥ 0, the sum of the multiplier λ over the contact boundary. `u` holds the means of u
 /// and `flux` the fluxes, one an edge each: those of [`crate::flux::recover`], or τ

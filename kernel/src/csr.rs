@@ -6,9 +6,9 @@
 //!           u behind the unknowns, so that a new u_D changes neither matrix nor load.
 //! ```
 
+use crate::Real;
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::index::{Index, read};
-use crate::real::Real;
 
 /// A matrix with one row an unknown and one column an edge (borrowed, validated).
 #[derive(Debug, Clone, Copy)]

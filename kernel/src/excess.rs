@@ -1,6 +1,6 @@
 //! By how much s lies above ψ along a contact edge, and below: what either side of the law is charged for.
 
-use crate::real::Real;
+use crate::Real;
 
 /// s − ψ along a contact edge: e_a (1 − t) + e_b t + 4t(1 − t) d, with d = 0 where the ends have different signs.
 #[derive(Debug, Clone, Copy)]

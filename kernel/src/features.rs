@@ -23,5 +23,3 @@ pub const TRANSFER: bool = cfg!(feature = "transfer");
 pub const CURVED: bool = cfg!(feature = "curved");
 /// Each cell's share in the error bound.
 pub const INDICATORS: bool = cfg!(feature = "indicators");
-/// Whether there is the fast square root.
-pub const MICROMATH: bool = cfg!(feature = "micromath");

@@ -9,11 +9,10 @@
 use crate::assembly::CellLoads;
 use crate::element::{crouzeix_raviart, rannacher_turek};
 use crate::error::{Array, Error, same_length, same_length_or_empty};
-use crate::features;
 use crate::index::{Index, read};
 use crate::mesh::edges::Edges;
-use crate::real::Real;
 use crate::stiffness::Stiffness;
+use crate::{Real, features};
 
 /// Outward fluxes through the sides of a triangle: `k` its stiffness, `u` the means over its sides,
 /// `load` = ∫_T f.

@@ -9,8 +9,7 @@
 //! whatever is stored.
 
 use crate::error::{Array, Error, known, same_length};
-use crate::features;
-use crate::real::Real;
+use crate::{Real, features};
 
 /// From the base of a range to its other end.
 #[derive(Debug, Clone, Copy)]
@@ -53,8 +52,8 @@ impl<R: Real> Span<R> {
     }
 }
 
-/// The spans of all contact edges in their order (borrowed).
-#[derive(Debug, Clone, Copy)]
+/// The spans of all contact edges in their order (borrowed); by default every one is ∞.
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Spans<'a, R> {
     lengths: &'a [R],
     excess: R,

@@ -11,11 +11,10 @@
 //! contact is another body of these. Numbers that are not finite never satisfy it.
 
 use crate::error::{Array, Error, all_finite, same_length};
-use crate::features;
 use crate::flux_range::{FluxRange, Span, Spans};
 use crate::index::{read, write};
 use crate::mesh::edges::EdgeCounts;
-use crate::real::Real;
+use crate::{Real, features};
 
 /// The law on all contact edges, in their order (borrowed).
 #[derive(Debug, Clone, Copy)]
@@ -83,18 +82,6 @@ impl<'a, R: Real> Law<'a, R> {
         edges.map(move |(at, &lower)| EdgeLaw { lower, span: spans.on(at) })
     }
 
-    /// Puts u onto the gap wherever it may not be where it is (or is not a number); `u` holds the means on the contact edges.
-    pub fn lift<'u>(&self, u: impl Iterator<Item = &'u mut R>)
-    where
-        R: 'u,
-    {
-        for (u, law) in u.zip(self.edges()) {
-            if !law.admits(*u) {
-                *u = law.gap();
-            }
-        }
-    }
-
     /// Puts u + low onto the gap wherever u may not be where it is (or is not a number), and returns by how much at most. `u`
     /// and `low` hold the means on the contact edges; `low` is empty where nobody asks for it.
     pub fn snap_to_gap(&self, u: &mut [R], low: &mut [R]) -> R {
@@ -109,16 +96,11 @@ impl<'a, R: Real> Law<'a, R> {
         most
     }
 
-    /// Puts u onto the gap of `whole` where a correction `low` by this law touches: u + (ψ − u) may round to either side. The pairs
-    /// are (u, low) on the contact edges.
-    pub(crate) fn close<'u>(
-        &self,
-        pairs: impl Iterator<Item = (&'u mut R, &'u mut R)>,
-        whole: Law<R>,
-    ) where
-        R: 'u,
-    {
-        for (((u, low), correction), law) in pairs.zip(self.edges()).zip(whole.edges()) {
+    /// Puts u onto the gap of `whole` where a correction `low` by this law touches: u + (ψ − u) may round to either side. Both hold
+    /// the means on the contact edges.
+    pub(crate) fn close(&self, u: &mut [R], low: &mut [R], whole: Law<R>) {
+        let pairs = u.iter_mut().zip(low).zip(self.edges()).zip(whole.edges());
+        for (((u, low), correction), law) in pairs {
             if correction.touches(*low) {
                 (*u, *low) = (law.gap(), R::ZERO);
             }

@@ -31,8 +31,6 @@ mod math;
 #[cfg(feature = "mesh")]
 pub mod mesh;
 #[cfg(feature = "mesh")]
-pub mod prolongation;
-#[cfg(feature = "mesh")]
 pub mod psor;
 pub mod quadrature;
 mod real;

@@ -1,6 +1,6 @@
 //! How long a tick may go on.
 
-use crate::real::Real;
+use crate::Real;
 use crate::verdict::Certificate;
 
 /// When enough is enough; whichever comes first.

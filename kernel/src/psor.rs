@@ -16,11 +16,10 @@
 //! of the best that was found (`tests/firmware/cost.txt`, `docs/decisions/packed-rows.md`).
 
 use crate::error::{Array, Error, same_length};
-use crate::features;
 use crate::index::{Index, read};
 use crate::law::{EdgeLaw, Law, Move};
-use crate::real::Real;
 use crate::rows::{Row, Rows};
+use crate::{Real, features};
 
 /// One sweep over all unknowns in order; `u` has one entry an edge, Dirichlet values included.
 ///

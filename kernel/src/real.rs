@@ -2,11 +2,8 @@
 //!
 //! Constants are associated, never converted at run time, so that an `f32` image holds no `f64`
 //! arithmetic. Comparisons are written out (`if a > b`), since `min` and `max` of the standard
-//! library leave the result for `-0.0` and NaN to the platform.
-
-mod field;
-
-pub use field::Field;
+//! library leave the result for `-0.0` and NaN to the platform. Arithmetic is that of nalgebra's traits where there are meshes, of
+//! the language's elsewhere.
 
 /// A scalar of the kernel: `f32` or `f64`, and nothing else.
 pub trait Real: Field + Copy + Default + 'static {
@@ -92,3 +89,48 @@ macro_rules! real {
 
 real!(f32, GAUSS_F32, sqrtf);
 real!(f64, GAUSS_F64, sqrt);
+
+/// A field with an order: `f32` or `f64`, and nothing else.
+#[cfg(feature = "mesh")]
+pub trait Field: nalgebra::RealField + sealed::Sealed {}
+
+/// A field with an order: `f32` or `f64`, and nothing else.
+#[cfg(not(feature = "mesh"))]
+pub trait Field: language::Arithmetic + sealed::Sealed {}
+
+impl Field for f32 {}
+impl Field for f64 {}
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for f32 {}
+    impl Sealed for f64 {}
+}
+
+#[cfg(not(feature = "mesh"))]
+mod language {
+    use core::fmt::{Debug, Display};
+    use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+    pub trait Arithmetic:
+        Copy
+        + PartialOrd
+        + Debug
+        + Display
+        + Send
+        + Sync
+        + 'static
+        + Neg<Output = Self>
+        + Add<Output = Self>
+        + Sub<Output = Self>
+        + Mul<Output = Self>
+        + Div<Output = Self>
+        + AddAssign
+        + SubAssign
+        + MulAssign
+        + DivAssign
+    {
+    }
+    impl Arithmetic for f32 {}
+    impl Arithmetic for f64 {}
+}

@@ -11,30 +11,20 @@
 //! and bounds ψ − u, small numbers with the full relative precision of the scalar. u + v is kept as
 //! two numbers (high and low part), so that the next defect profits from it.
 
-use crate::conjugate::{self, ConjugateBuffers};
+use crate::conjugate;
 use crate::error::{Array, Error, same_length};
 use crate::index::{Index, read};
-use crate::math::Math;
 use crate::mesh::diagonal::DiagonalTerms;
-use crate::real::Real;
+use crate::mesh::edges::EdgeCounts;
 use crate::relaxation::Relaxation;
 use crate::rows::Rows;
 use crate::solver::{Outcome, Settings, Solver, Status};
 use crate::system::{Residual, System};
+use crate::{Math, Real};
 
-/// Memory for [`run`]: the rows, two arrays over edges, two over unknowns, one over contact edges.
-#[derive(Debug)]
-pub struct RefinementBuffers<'a, R, I, const WIDTH: usize> {
-    /// Rows to sweep over, of the system's numbering.
-    pub rows: Rows<'a, R, I, WIDTH>,
-    /// The low part of u after the solve: u + low is the answer. One entry an edge.
-    pub low: &'a mut [R],
-    /// The defect. One entry an unknown.
-    pub defect: &'a mut [R],
-    /// The bounds of the correction. One entry a contact edge.
-    pub lower: &'a mut [R],
-    /// Scratch for the problems on which sweeps crawl.
-    pub conjugate: ConjugateBuffers<'a, R>,
+/// How much scratch [`run`] takes: an array over edges, two over unknowns and one over contact edges.
+pub const fn scratch(counts: EdgeCounts) -> usize {
+    counts.edges() + 2 * counts.unknowns() + counts.contact
 }
 
 /// Sweeps after which a solve that has not ended gets help: more than any well-shaped mesh of 10⁵
@@ -50,7 +40,7 @@ fn solve<R: Real, I: Index, M: Math<R>, const WIDTH: usize>(
     settings: Settings<R>,
     u: &mut [R],
     rows: &mut Rows<R, I, WIDTH>,
-    buffers: &mut ConjugateBuffers<R>,
+    [direction, residual]: [&mut [R]; 2],
 ) -> Result<Outcome<R>, Error> {
     let most = settings.max_sweeps;
     let plain = Settings { max_sweeps: most.min(PLAIN), ..settings };
@@ -64,7 +54,8 @@ fn solve<R: Real, I: Index, M: Math<R>, const WIDTH: usize>(
         let unknowns = u32::try_from(system.load().len()).unwrap_or(u32::MAX);
         let iterations = left.min(unknowns.saturating_mul(4).max(PLAIN));
         let goal = outcome.residual.rounding;
-        let used = conjugate::run(system, rows, goal, iterations, u, buffers)?;
+        let help = [&mut *direction, &mut *residual];
+        let used = conjugate::run(system, rows, goal, iterations, u, help)?;
         // At least one sweep judges, also where the help has used up all that was left.
         let check = left.saturating_sub(used).min(PLAIN / 4);
         let again = Settings { max_sweeps: check.saturating_add(1), ..settings };
@@ -78,8 +69,9 @@ fn solve<R: Real, I: Index, M: Math<R>, const WIDTH: usize>(
 
 /// Solves, and where rounding ended the solve corrects until corrections vanish or `rounds` are up.
 ///
-/// `u` is start and answer, as for [`Solver::run`]; `diagonal` is what K has on its diagonal beyond the
-/// element matrices. The outcome counts all sweeps; its residual is that of the corrected iterate,
+/// `u` is start and answer, as for [`Solver::run`], and `low` becomes its low part: u + low is the answer. Both have an entry an
+/// edge. `rows` are swept over, of the system's numbering; the scratch is as long as [`scratch`] says. `diagonal` is what K has
+/// on its diagonal beyond the element matrices. The outcome counts all sweeps; its residual is that of the corrected iterate,
 /// relative to the size of u.
 ///
 /// # Errors
@@ -89,24 +81,26 @@ pub fn run<R: Real, I: Index, M: Math<R>, const WIDTH: usize>(
     diagonal: DiagonalTerms<R, I>,
     settings: Settings<R>,
     rounds: u32,
-    u: &mut [R],
-    buffers: RefinementBuffers<R, I, WIDTH>,
+    [u, low]: [&mut [R]; 2],
+    mut rows: Rows<R, I, WIDTH>,
+    all: &mut [R],
 ) -> Result<Outcome<R>, Error> {
-    let RefinementBuffers { mut rows, low, defect, lower, mut conjugate } = buffers;
+    let counts = system.counts();
     same_length(Array::Scratch, low.len(), u.len())?;
-    same_length(Array::Scratch, defect.len(), system.load().len())?;
-    same_length(Array::Scratch, lower.len(), system.counts().contact)?;
-    same_length(Array::Scratch, conjugate.direction.len(), u.len())?;
-    same_length(Array::Scratch, conjugate.residual.len(), system.load().len())?;
+    same_length(Array::Scratch, all.len(), scratch(counts))?;
+    let (direction, rest) = all.split_at_mut_checked(counts.edges()).unwrap_or_default();
+    let (residual, rest) = rest.split_at_mut_checked(counts.unknowns()).unwrap_or_default();
+    let (defect, lower) = rest.split_at_mut_checked(counts.unknowns()).unwrap_or_default();
     low.fill(R::ZERO);
-    let mut outcome = solve::<R, I, M, WIDTH>(system, settings, u, &mut rows, &mut conjugate)?;
+    let mut outcome =
+        solve::<R, I, M, WIDTH>(system, settings, u, &mut rows, [direction, residual])?;
     let size = outcome.residual;
     for _ in 0..rounds {
         if outcome.status != Status::RoundingLimit {
             break;
         }
         measure_defect(system, diagonal, u, defect);
-        let on_contact = u.get(system.counts().free..).unwrap_or(&[]);
+        let on_contact = u.get(counts.free..).unwrap_or(&[]);
         let law = system.law().of_correction(on_contact, lower);
         if law.check_finite().is_err() || defect.iter().any(|x| !x.finite()) {
             outcome.status = Status::NotFinite;
@@ -115,7 +109,8 @@ pub fn run<R: Real, I: Index, M: Math<R>, const WIDTH: usize>(
         }
         let correction = system.with_data(defect, law)?;
         let goal = goal(settings, &outcome, size.scale());
-        let mut next = solve::<R, I, M, WIDTH>(&correction, goal, low, &mut rows, &mut conjugate)?;
+        let mut next =
+            solve::<R, I, M, WIDTH>(&correction, goal, low, &mut rows, [direction, residual])?;
         next.residual = Residual { range: size.range, load: size.load, ..next.residual };
         next.sweeps = next.sweeps.saturating_add(outcome.sweeps);
         next.conjugate = next.conjugate.saturating_add(outcome.conjugate);
@@ -124,13 +119,13 @@ pub fn run<R: Real, I: Index, M: Math<R>, const WIDTH: usize>(
             low.fill(R::ZERO);
             break;
         }
-        let on_contact = u.iter_mut().skip(system.counts().free);
-        law.close(on_contact.zip(low.iter_mut().skip(system.counts().free)), system.law());
+        if let (Some(u), Some(low)) = (u.get_mut(counts.free..), low.get_mut(counts.free..)) {
+            law.close(u, low, system.law());
+        }
         let change = low.iter().fold(R::ZERO, |most, v| most.or_larger(v.magnitude()));
         renormalise(u, low);
         // u + (ψ − u) may round to less than ψ.
-        let free = system.counts().free;
-        if let (Some(u), Some(low)) = (u.get_mut(free..), low.get_mut(free..)) {
+        if let (Some(u), Some(low)) = (u.get_mut(counts.free..), low.get_mut(counts.free..)) {
             system.law().snap_to_gap(u, low);
         }
         if u.iter().any(|u| !u.finite()) {

@@ -17,9 +17,7 @@
 //! may have. Any ω in (0, 2) converges, and ω moves a bounded number of times, so convergence is
 //! never at stake. The memory is a handful of scalars.
 
-use crate::error::Error;
-use crate::math::Math;
-use crate::real::Real;
+use crate::{Error, Math, Real};
 
 /// How ω is chosen.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,15 +40,16 @@ impl<R: Real> Relaxation<R> {
 }
 
 /// Phase of the search.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 enum Phase {
+    #[default]
     Rising,
     Falling,
     Settled,
 }
 
 /// The state of the search.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Search<R> {
     /// ω of the next sweep.
     pub omega: R,
@@ -208,7 +207,7 @@ fn higher<R: Real, M: Math<R>>(omega: R, factor: R) -> Option<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Libm;
+    use crate::Libm;
 
     #[test]
     fn young_s_relation_tells_the_best_omega() {

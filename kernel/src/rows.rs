@@ -12,23 +12,23 @@
 //! matrices ([`Rows::gather`]), with the same bits. A new ω, matrix or load asks for them anew.
 
 use crate::csr::Csr;
-use crate::element::{adjacent, copy_row};
 use crate::error::{Array, Error, same_length};
-use crate::features;
 use crate::index::{Index, read, write};
 use crate::mesh::diagonal::DiagonalTerms;
-use crate::mesh::edges::{EdgeCounts, Edges, Side};
-use crate::real::Real;
+use crate::mesh::edges::{EdgeCounts, Edges};
 use crate::stiffness::Stiffness;
 use crate::system::System;
+use crate::{Real, features};
 
 /// Room in a row where all cells are triangles.
 pub const TRIANGLES: usize = 4;
 /// Room in a row where some cells are quads.
 pub const QUADS: usize = 6;
 
+mod gather;
 mod owned;
 
+use gather::{gather_cells, gather_triangles};
 pub use owned::{LayOut, OwnedRows};
 
 /// One row, as memory that the caller owns; its contents are the business of [`Rows`].
@@ -260,54 +260,5 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Rows<'a, R, I, WIDTH> {
     /// The rows of contact edges.
     pub(crate) fn contact(&self) -> &[Row<R, I, WIDTH>] {
         self.rows.get(self.counts.free..).unwrap_or(&[])
-    }
-}
-
-/// Rows of edges of triangles: two entries from each half-edge. The second half-edge of a boundary
-/// edge points to no entry. `term` is what K_ii has beyond the element matrices.
-#[inline(never)]
-fn gather_triangles<R: Real, I: Index, const WIDTH: usize>(
-    rows: &mut [Row<R, I, WIDTH>],
-    half_edges: &[[I; 2]],
-    k: &[[R; 3]],
-    load: &[R],
-    term: R,
-    omega: R,
-) {
-    let (k, opposite) = (k.as_flattened(), -omega);
-    for ((row, &[first, second]), &load) in rows.iter_mut().zip(half_edges).zip(load) {
-        let Some([a, b]) = adjacent(k, first.at()) else { break };
-        let (mut c, mut d, mut sum) = (R::ZERO, R::ZERO, a + b);
-        if let Some(others) = adjacent(k, second.at()) {
-            [c, d] = others;
-            sum += c + d;
-        }
-        row.put([a, b, c, d], load, opposite / (sum - term));
-    }
-}
-
-/// Rows of edges of any cells. Not inlined, so that symbols tell whether it is there.
-#[inline(never)]
-fn gather_cells<R: Real, I: Index, const WIDTH: usize>(
-    rows: &mut [Row<R, I, WIDTH>],
-    half_edges: &[[I; 2]],
-    edges: &Edges<I>,
-    stiffness: Stiffness<R>,
-    load: &[R],
-    term: R,
-    omega: R,
-) {
-    for ((row, pair), &load) in rows.iter_mut().zip(half_edges).zip(load) {
-        let (mut entries, mut own) = ([R::ZERO; WIDTH], R::ZERO);
-        let mut places = entries.iter_mut();
-        for half in pair.iter().filter(|&&half| half != I::NONE) {
-            own += match edges.side(half.at()) {
-                Side::Triangle(at, side) => {
-                    copy_row(&read(stiffness.triangles, at), 3, side, &mut places)
-                }
-                Side::Quad(at, side) => copy_row(&read(stiffness.quads, at), 4, side, &mut places),
-            };
-        }
-        row.put(entries, load, omega / (own + term));
     }
 }

@@ -11,10 +11,9 @@
 //! t > 0 where the first one below its gap does; there b contains what its flux has beyond the base. Each
 //! shift lowers the energy, as every sweep does.
 
-use crate::features;
 use crate::index::{Index, read};
-use crate::real::Real;
 use crate::system::{Shifts, System};
+use crate::{Real, features};
 
 /// Parts beyond these are left to the sweeps: a shift reads the whole matrix for every part.
 const MOST_PARTS: usize = 16;

@@ -6,14 +6,10 @@
 use core::marker::PhantomData;
 
 use crate::error::{Array, Error, same_length};
-use crate::index::Index;
-use crate::math::{Libm, Math};
-use crate::psor;
-use crate::real::Real;
 use crate::relaxation::{Relaxation, Search};
 use crate::rows::Rows;
-use crate::shift;
 use crate::system::{Residual, System};
+use crate::{Index, Libm, Math, Real, psor, shift};
 
 /// How a solve ended. The iterate is the answer in every case but the last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

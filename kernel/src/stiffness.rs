@@ -1,12 +1,10 @@
 //! The element matrices of all cells, stored once: assembly, flux and certificate read them.
 
-use crate::Tensor;
 use crate::element::{QuadElement, copy_row, crouzeix_raviart};
 use crate::error::{Array, CellId, Error, same_length};
 use crate::index::{Index, read};
-use crate::mesh::Mesh;
 use crate::mesh::edges::{Edges, Side};
-use crate::real::Real;
+use crate::{Mesh, Real, Tensor};
 
 /// A as the kernel needs it: means over triangles, values at the quadrature points of quads.
 #[derive(Debug, Clone, Copy)]

@@ -11,12 +11,11 @@
 
 use crate::csr::Csr;
 use crate::error::{Array, Error, all_finite, same_length};
-use crate::features;
 use crate::index::{Index, read};
 use crate::law::{EdgeLaw, Law, Move};
 use crate::mesh::diagonal::DiagonalTerms;
 use crate::mesh::edges::EdgeCounts;
-use crate::real::Real;
+use crate::{Real, features};
 
 /// Which part each unknown belongs to, and what holds the parts (borrowed).
 #[derive(Debug, Clone, Copy)]
@@ -114,7 +113,8 @@ impl<'a, R: Real, I: Index> System<'a, R, I> {
 
     /// Puts u onto the gap wherever it may not be where it is (or is not a number): any iterate becomes feasible.
     pub fn make_feasible(&self, u: &mut [R]) {
-        self.law.lift(u.iter_mut().skip(self.counts.free));
+        let on_contact = u.get_mut(self.counts.free..).unwrap_or_default();
+        self.law.snap_to_gap(on_contact, &mut []);
     }
 
     /// Measures the iterate `u` (one entry an edge, Dirichlet values included).

@@ -1,6 +1,6 @@
 //! Small facts worked out by hand: limits that are just met, and figures that larger problems hide.
 
-use signorini_kernel::conjugate::{self, ConjugateBuffers};
+use signorini_kernel::conjugate;
 use signorini_kernel::csr::Csr;
 use signorini_kernel::error::Array;
 use signorini_kernel::law::Law;
@@ -9,7 +9,7 @@ use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{Block, EdgeCounts, Edges};
 use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
-use signorini_kernel::refinement::{self, RefinementBuffers};
+use signorini_kernel::refinement;
 use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::rows::{Row, Rows};
 use signorini_kernel::solver::{Settings, Solver, Status};
@@ -140,9 +140,8 @@ fn conjugate_gradients_stop_where_numbers_overflow() -> Result<(), Error> {
         let mut u = [0.0, 0.0];
         let (direction, residual) = (&mut [0.0; 2], &mut [0.0; 2]);
         spring([load, -load], 0, |system, rows| {
-            let mut buffers = ConjugateBuffers { direction, residual };
-            conjugate::run(system, rows, 0.0, 1, &mut u, &mut buffers)?;
-            conjugate::run(system, rows, 0.0, 5, &mut u, &mut buffers)
+            conjugate::run(system, rows, 0.0, 1, &mut u, [direction, residual])?;
+            conjugate::run(system, rows, 0.0, 5, &mut u, [direction, residual])
         })??;
         assert!(u.iter().all(|u| u.is_finite()), "{u:?}");
     }
@@ -159,17 +158,12 @@ fn a_defect_that_overflows_is_no_correction() -> Result<(), Error> {
     let load = [2.0_f64.powi(1020)];
     let system = System::new(matrix, &load, Law::above(&[]), counts)?;
     let nothing = Boundary::new(&Edges::baked(&[], &[], &[], counts), &[], &[], &[])?;
-    let buffers = RefinementBuffers {
-        rows: Rows::of_matrix(&matrix, counts, &mut memory)?,
-        low: &mut [7.0; 3],
-        defect: &mut [0.0],
-        lower: &mut [],
-        conjugate: ConjugateBuffers { direction: &mut [0.0; 3], residual: &mut [0.0] },
-    };
+    let rows = Rows::of_matrix(&matrix, counts, &mut memory)?;
     let settings = Settings { tolerance: 0.0, ..Settings::default() };
     let (diagonal, mut u) = (DiagonalTerms::new(&nothing), [0.0; 3]);
+    let (both, scratch) = ([&mut u[..], &mut [7.0; 3]], &mut [0.0; 5]);
     let outcome =
-        refinement::run::<_, _, Libm, 2>(&system, diagonal, settings, 1, &mut u, buffers)?;
+        refinement::run::<_, _, Libm, 2>(&system, diagonal, settings, 1, both, rows, scratch)?;
     assert_eq!(outcome.status, Status::NotFinite, "{outcome:?}");
     assert!(outcome.residual.largest.is_finite() && u[0] == load[0] / 49.0, "{u:?}");
     Ok(())

@@ -1,17 +1,20 @@
 //! The tests that need twins or host and kernel together, as one program:
 //! `cargo test -p signorini-tests --test main NAME`.
 //!
-//! `mesh` makes the meshes that `bound` and `condensed` solve on; `factored` is the kernel tests' own.
+//! `mesh` makes the meshes that `bound` and `condensed` solve on; `ldlt` is the device's own.
 
+mod another_factor;
 mod bound;
 mod catalogue;
 mod condensed;
-#[path = "../../kernel/device/tests/factored.rs"]
 mod factored;
 mod forces;
 mod hostile;
 mod identities;
+#[path = "../../kernel/device/tests/ldlt.rs"]
+mod ldlt;
 mod mesh;
+mod replay;
 mod scene_data;
 mod standard;
 mod twins;

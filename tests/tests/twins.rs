@@ -6,14 +6,13 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use signorini_kernel::assembly::{self, CellLoads};
-use signorini_kernel::conjugate::ConjugateBuffers;
 use signorini_kernel::csr::Csr;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{Block, Edges};
 use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
-use signorini_kernel::refinement::{self, RefinementBuffers};
+use signorini_kernel::refinement;
 use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::solver::{Settings, Status};
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
@@ -109,24 +108,17 @@ fn by_kernel<R: Number, I: Index>(problem: &Problem, method: Method) -> Answer {
     rows_agree::<R, I, QUADS>(&edges, k, diagonal, &system, &u);
     let mut low = vec![R::ZERO; u.len()];
     let mut rows = vec![Row::<R, I, QUADS>::EMPTY; counts.unknowns()];
-    let buffers = RefinementBuffers {
-        rows: Rows::new(&edges, &mut rows).expect("small enough"),
-        low: &mut low,
-        defect: &mut vec![R::ZERO; counts.unknowns()],
-        lower: &mut vec![R::ZERO; counts.contact],
-        conjugate: ConjugateBuffers {
-            direction: &mut vec![R::ZERO; counts.edges()],
-            residual: &mut vec![R::ZERO; counts.unknowns()],
-        },
-    };
+    let rows = Rows::new(&edges, &mut rows).expect("small enough");
+    let scratch = &mut vec![R::ZERO; refinement::scratch(counts)];
     let (tolerance, accuracy) =
         if R::EPSILON.wide() < 1e-10 { (1e-13, 1e-10) } else { (0.0, 1e-7) };
     let [tolerance, accuracy] = [tolerance, accuracy].map(R::narrow);
     let settings = Settings { tolerance, accuracy, ..Settings::default() };
     let converged = match method {
         Method::Sweeps => {
+            let both = [&mut u[..], &mut low];
             let swept = refinement::run::<R, I, Libm, QUADS>(
-                &system, diagonal, settings, 6, &mut u, buffers,
+                &system, diagonal, settings, 6, both, rows, scratch,
             );
             let status = swept.expect("valid settings").status;
             matches!(status, Status::Converged | Status::RoundingLimit)

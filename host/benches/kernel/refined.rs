@@ -2,8 +2,7 @@
 
 use criterion::{BatchSize, Bencher};
 use signorini_kernel::Libm;
-use signorini_kernel::conjugate::ConjugateBuffers;
-use signorini_kernel::refinement::{self, RefinementBuffers};
+use signorini_kernel::refinement;
 use signorini_kernel::rows::{Row, Rows};
 use signorini_kernel::solver::{Settings, Solver};
 use signorini_problem::scalar::Scalar;
@@ -19,19 +18,20 @@ pub fn refined<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Str
     let (edges, counts) = (assembled.edges(), system.counts());
     let zeros = |length| vec![R::ZERO; length];
     let mut memory = vec![Row::<R, u32, WIDTH>::EMPTY; counts.unknowns()];
-    let [mut low, mut direction] = [zeros(counts.edges()), zeros(counts.edges())];
-    let [mut defect, mut residual] = [zeros(counts.unknowns()), zeros(counts.unknowns())];
-    let mut lower = zeros(counts.contact);
+    let (mut low, mut scratch) = (zeros(counts.edges()), zeros(refinement::scratch(counts)));
     let run = |u: &mut Vec<R>| {
-        let buffers = RefinementBuffers {
-            rows: Rows::new(edges, &mut memory)?,
-            low: &mut low,
-            defect: &mut defect,
-            lower: &mut lower,
-            conjugate: ConjugateBuffers { direction: &mut direction, residual: &mut residual },
-        };
+        let rows = Rows::new(edges, &mut memory)?;
         let settings = Settings { accuracy: R::EPSILON, ..Settings::default() };
-        refinement::run::<R, u32, Libm, WIDTH>(&system, diagonal, settings, 6, u, buffers)
+        let u = [&mut u[..], &mut low];
+        refinement::run::<R, u32, Libm, WIDTH>(
+            &system,
+            diagonal,
+            settings,
+            6,
+            u,
+            rows,
+            &mut scratch,
+        )
     };
     bencher.iter_batched_ref(|| assembled.start(), run, BatchSize::LargeInput);
 }

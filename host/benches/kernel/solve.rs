@@ -2,13 +2,13 @@
 
 use criterion::{BatchSize, Bencher};
 use signorini_kernel::Error;
-use signorini_kernel::prolongation::prolong;
 use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::rows::{Row, Rows};
 use signorini_kernel::solver::{Outcome, Settings, Solver, Status};
 use signorini_problem::Assembled;
 use signorini_problem::scalar::Scalar;
 use signorini_session::coarse;
+use signorini_solve::prolongation::prolong;
 
 use crate::strip::Strip;
 

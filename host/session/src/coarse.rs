@@ -1,7 +1,7 @@
 //! A start from a coarser mesh: solved there first, and brought to the fine one.
 
 use signorini_kernel::element::crouzeix_raviart;
-use signorini_kernel::prolongation::{Origin, prolong};
+use signorini_solve::prolongation::{Origin, prolong};
 
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;

@@ -1,14 +1,14 @@
 //! The kernel's exact solver in memory of the right size: where projected SOR does not get there.
 
 use serde::Serialize;
-use signorini_contact::dense::blocks::padded;
-use signorini_device::sparse::{Direct, DirectMemory, Factor, SolveSummary};
+use signorini_device::sparse::Factor;
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::solver::{Outcome, Settings};
 use signorini_kernel::system::System;
 
-use super::ldlt::{Ldlt, exchanges};
+use super::by_factor::{Scaled, SolveSummary};
+use super::ldlt::Ldlt;
 use signorini_problem::progress::stage;
 use signorini_problem::scalar::Scalar;
 
@@ -45,20 +45,14 @@ pub(super) fn solve<R: Scalar>(
     };
     let Some(ldlt) = known.or(new.as_ref()) else { return Ok(None) };
     let (counts, entries) = (ldlt.counts, ldlt.values.len());
-    let mut schur = ldlt.schur.clone();
-    let mut exchanges = exchanges(counts.contact);
-    let memory = DirectMemory {
-        schur: &mut schur,
-        scale: &mut vec![R::ZERO; padded(counts.contact)],
-        none: &mut vec![false; padded(counts.contact)],
-        contact: exchanges.memory(counts.contact)?,
-        places: &mut vec![R::ZERO; counts.unknowns()],
+    let Some(mut scaled) = Scaled::new(ldlt.schur.clone(), counts.contact) else {
+        return Ok(None);
     };
     let factor: Factor<R, u32> = ldlt.factor();
-    let Some(mut direct) = Direct::new(factor, memory)? else { return Ok(None) };
+    let mut by_factor = scaled.by(factor)?;
     stage(&format!("exchanges on {} contact edges, {entries} entries of a factor", counts.contact));
     let before = u.to_vec();
-    let Some(progress) = direct.solve(system, diagonal, settings, u, low)? else {
+    let Some(progress) = by_factor.solve(system, diagonal, settings, u, low)? else {
         u.copy_from_slice(&before);
         low.fill(R::ZERO);
         return Ok(None);

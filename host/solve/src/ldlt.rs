@@ -4,9 +4,9 @@ use signorini_contact::dense::blocks::{Block, SIDE, count};
 use signorini_device::sparse::elimination::PatternBuffers;
 use signorini_device::sparse::factor::FactorBuffers;
 use signorini_device::sparse::{Factor, Pattern, Storage, storage};
-use signorini_kernel::Error as KernelError;
 use signorini_kernel::mesh::edges::EdgeCounts;
 use signorini_kernel::system::System;
+use signorini_kernel::{Error as KernelError, Real};
 
 use signorini_problem::scalar::Scalar;
 use signorini_reference::minimum_degree;
@@ -96,7 +96,7 @@ fn order<R: Scalar>(system: &System<R, u32>) -> Option<Vec<u32>> {
 pub type Exchanges<R> = Storage<Vec<Block<R>>, Vec<R>, Vec<bool>>;
 
 /// Exchanges for this number of contact edges.
-pub fn exchanges<R: Scalar>(contact: usize) -> Exchanges<R> {
+pub fn exchanges<R: Real>(contact: usize) -> Exchanges<R> {
     let [blocks, numbers, flags] = storage::lengths(contact);
     let zero = [[R::ZERO; SIDE]; SIDE];
     Storage::of(vec![zero; blocks], vec![R::ZERO; numbers], vec![false; flags])

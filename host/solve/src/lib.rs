@@ -9,6 +9,7 @@
 
 pub mod adaptive;
 mod auto;
+pub mod by_factor;
 mod conclude;
 mod direct;
 mod ending;
@@ -21,6 +22,7 @@ mod mixed;
 pub mod norms;
 mod options;
 pub mod outputs;
+pub mod prolongation;
 mod solution;
 #[cfg(test)]
 mod tests;
@@ -37,10 +39,9 @@ pub use solution::{Seconds, Solution};
 pub use tuned::{Trials, tuned_omega};
 pub use units::{Scaled, choose as choose_units, choose_for_inputs, times};
 
-use signorini_kernel::conjugate::ConjugateBuffers;
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::Edges;
-use signorini_kernel::refinement::{self, RefinementBuffers};
+use signorini_kernel::refinement;
 use signorini_kernel::rows::{self, Row, Rows};
 use signorini_kernel::solver::{Outcome, Settings, Status};
 use signorini_kernel::system::System;
@@ -160,17 +161,18 @@ fn iterate<R: Scalar, const WIDTH: usize>(
     let (counts, rounds, settings) = (edges.counts(), options.rounds(), options.settings::<R>());
     let sweep = |settings, u: &mut [R], low: &mut [R]| {
         let mut rows = vec![Row::<R, u32, WIDTH>::EMPTY; counts.unknowns()];
-        let buffers = RefinementBuffers {
-            rows: Rows::new(edges, &mut rows)?,
-            low,
-            defect: &mut vec![R::ZERO; counts.unknowns()],
-            lower: &mut vec![R::ZERO; counts.contact],
-            conjugate: ConjugateBuffers {
-                direction: &mut vec![R::ZERO; counts.edges()],
-                residual: &mut vec![R::ZERO; counts.unknowns()],
-            },
-        };
-        refinement::run::<R, u32, Libm, WIDTH>(system, diagonal, settings, rounds, u, buffers)
+        let rows = Rows::new(edges, &mut rows)?;
+        let mut scratch = vec![R::ZERO; refinement::scratch(counts)];
+        let u = [u, low];
+        refinement::run::<R, u32, Libm, WIDTH>(
+            system,
+            diagonal,
+            settings,
+            rounds,
+            u,
+            rows,
+            &mut scratch,
+        )
     };
     let patience = Settings { max_sweeps: options.max_sweeps.min(refinement::PLAIN), ..settings };
     stage(&format!("at most {} sweeps", patience.max_sweeps));

@@ -7,13 +7,12 @@
 //! One pass over the packed cells reads u once for both.
 
 use crate::cells::{Cells, pick};
-use signorini_kernel::Real;
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::element::{crouzeix_raviart, nonparametric, rannacher_turek};
 use signorini_kernel::error::{Array, Error, same_length, same_length_or_empty};
-use signorini_kernel::features;
 use signorini_kernel::flux::{on_quad, on_triangle};
 use signorini_kernel::index::{Index, read};
+use signorini_kernel::{Real, features};
 
 /// Fills `vertices` with s and `tau` with one value an edge, along its direction, from the means `u` over
 /// the edges. `distortions` is that of [`crate::certificate::Metric`].

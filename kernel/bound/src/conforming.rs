@@ -21,18 +21,16 @@
 //!       but not below −(√e_a + √e_b)²/4, so that s ≥ ψ stays true inside the edge.
 //! ```
 
-use signorini_kernel::Real;
 use signorini_kernel::contact::is_active;
 use signorini_kernel::error::{Array, Error, same_length, same_length_or_empty};
-use signorini_kernel::features;
 use signorini_kernel::index::{Index, read, write};
 use signorini_kernel::law::Law;
-use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::edges::{Block, Edges};
 use signorini_kernel::stiffness::Stiffness;
+use signorini_kernel::{Mesh, Real, features};
 
 /// Boundary data at the two ends of each edge, in the direction of the edge (borrowed).
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct VertexData<'a, R> {
     /// ψ, one pair a contact edge.
     pub gap: &'a [[R; 2]],

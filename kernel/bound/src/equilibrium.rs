@@ -10,13 +10,12 @@
 //! last side ([`crate::cells::Cell::settle`], or [`walk`] for all of them).
 
 use crate::cells::{Cells, Either};
-use signorini_kernel::Real;
 use signorini_kernel::assembly::CellLoads;
-use signorini_kernel::features;
 use signorini_kernel::index::{Index, read, write};
 use signorini_kernel::law::Law;
 use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::edges::{Block, Edges};
+use signorini_kernel::{Real, features};
 
 /// The iterate whose flux is equilibrated.
 #[derive(Debug, Clone, Copy)]

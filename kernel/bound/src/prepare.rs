@@ -3,13 +3,11 @@
 use crate::cells::{CellBuffers, pack};
 use crate::certificate::{Metric, Stability, stability};
 use crate::forest::{Forest, ForestBuffers, grow};
-use signorini_kernel::error::Error;
 use signorini_kernel::index::{Index, read};
-use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::stiffness::Stiffness;
-use signorini_kernel::{Real, Tensor};
+use signorini_kernel::{Error, Mesh, Real, Tensor};
 
 /// Whether opposite sides of a quad agree to 4·10⁻¹² of the cell's height, below which B hardly varies, or to the last
 /// digits of a short scalar.

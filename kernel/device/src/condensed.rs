@@ -13,10 +13,9 @@ use signorini_contact::method::{Linear, Method, Pivots, Sweeps, TwoPhases};
 use signorini_contact::modes::{Modal, ModalStorage};
 use signorini_contact::storage::{Storage, TableauStorage};
 use signorini_contact::{Condensed, Memory};
-use signorini_kernel::Real;
-use signorini_kernel::error::Error;
 use signorini_kernel::limits::{Deadline, Limits};
 use signorini_kernel::report::Report;
+use signorini_kernel::{Error, Real};
 
 /// How far a method may go.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,10 +4,9 @@
 //! belongs to a boundary edge that is known by its end points, and its numbers are means over that
 //! edge, so that nobody needs to know a number of an edge or its length.
 
-use signorini_kernel::Real;
 use signorini_kernel::index::{Index, read};
-use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::edges::Block;
+use signorini_kernel::{Mesh, Real};
 
 /// The condition on one boundary edge; n points outward, flux is A∇u·n.
 #[derive(Debug, Clone, Copy, PartialEq)]

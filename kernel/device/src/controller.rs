@@ -8,10 +8,9 @@
 //! [`crate::condensed`] and in `device::full`'s `controller`.
 
 use crate::ranges::check;
-use signorini_kernel::Real;
-use signorini_kernel::error::Error;
 use signorini_kernel::limits::{Deadline, Limits};
 use signorini_kernel::report::Report;
+use signorini_kernel::{Error, Real};
 
 /// A scene whose inputs are to be answered.
 pub trait Scene {

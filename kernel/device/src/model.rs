@@ -4,15 +4,11 @@
 //! numbers of the desk. The arrays are checked where they are used: by [`Mesh::new`], [`Edges::new`]
 //! and [`Boundary::new`].
 
-use signorini_kernel::Real;
-use signorini_kernel::Tensor;
 use signorini_kernel::assembly::CellLoads;
-use signorini_kernel::error::Error;
-use signorini_kernel::index::Index;
-use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
 use signorini_kernel::stiffness::Stiffness;
+use signorini_kernel::{Error, Index, Mesh, Real, Tensor};
 
 /// Mesh, numbering, element matrices and data of one problem. Its parts, where it has several that do not
 /// touch, are not told apart: [`signorini_kernel::shift`] then shifts them as one.

@@ -3,8 +3,7 @@
 //! What was worked out beforehand, such as edges that never change sides, holds for these and no others: a tick refuses
 //! the rest by number and keeps its last answer. Who would rather have the nearest answer asks for [`clamp`] first.
 
-use signorini_kernel::Real;
-use signorini_kernel::error::Error;
+use signorini_kernel::{Error, Real};
 
 /// `Ok` where every value lies within its range \[lo, hi\]; NaN lies in none.
 ///

@@ -1,5 +1,6 @@
 //! Conditions on edges that are not of length 1, and what is said of too many or none.
 
+use crate::workspace::UNIT;
 use signorini_device::condition::{BoundaryEdge, Condition};
 use signorini_device::{Workspace, workspace};
 use signorini_kernel::error::{Array, CellId};
@@ -11,14 +12,12 @@ use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
 use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::solver::{Settings, Solver, Status};
-use signorini_kernel::stiffness::Coefficient;
-use signorini_kernel::{Error, Libm, Math, Mesh, Micromath, Real, Tensor};
+use signorini_kernel::{Error, Libm, Math, Mesh, Micromath, Real};
 use signorini_tolerances::kernel::{FAST_ROOT, SOLVED};
 
 /// 2 wide, 3 high; the right side in two edges.
 const CORNERS: [[f64; 2]; 5] = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [2.0, 3.0], [0.0, 3.0]];
 const CELLS: [[u16; 3]; 3] = [[0, 1, 2], [0, 2, 4], [2, 3, 4]];
-const UNIT: Coefficient<'static, f64> = Coefficient::Uniform(Tensor { xx: 1.0, xy: 0.0, yy: 1.0 });
 
 /// Room for all of it.
 type Bar = workspace!(f64, u16: vertices 5, triangles 3, quads 0, boundary 5);

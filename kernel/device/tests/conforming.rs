@@ -1,10 +1,9 @@
 //! The continuous function of the error bound: exact where u is linear, and admissible everywhere.
 
-use crate::plate::{NONE, Plate, Side};
+use crate::owned::Packed;
+use crate::plate::{Plate, Side};
 use signorini_bound::averages;
-use signorini_bound::cells::{CellBuffers, Quad, Triangle, pack};
 use signorini_bound::conforming::{VertexData, impose};
-use signorini_bound::forest::{ForestBuffers, grow};
 use signorini_kernel::Error;
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::law::Law;
@@ -43,24 +42,14 @@ fn conforming(
 /// The weighted means at the vertices.
 fn averages(plate: &Plate, alpha: &[f64], means: &[f64]) -> Result<Vec<f64>, Error> {
     let (mesh, edges) = (plate.mesh()?, plate.edges()?);
-    let mut ways = [(); 3].map(|()| vec![NONE; edges.cells()]);
-    let [order, parent, place] = &mut ways;
-    let mut distance = vec![0.0; edges.cells()];
-    let buffers = ForestBuffers { order, parent, place, distance: &mut distance };
     let root = |edge| edge >= edges.counts().unknowns();
-    let forest = grow(&edges, |_| 1.0, root, buffers)?;
     let (t, q) = (plate.triangles.len(), plate.quads.len());
     let stiffness = Stiffness { triangles: &vec![[0.0; 3]; t], quads: &vec![[0.0; 6]; q] };
+    let a = [alpha, &vec![1.0; t]];
+    let packed = Packed::new((&mesh, &edges), stiffness, a, |_| 1.0, root)?;
     let (mut values, mut tau) = (vec![f64::NAN; plate.vertices.len()], vec![0.0; means.len()]);
-    let buffers = CellBuffers {
-        triangles: &mut vec![Triangle::EMPTY; t],
-        quads: &mut vec![Quad::EMPTY; q],
-        of_vertices: &mut vec![0.0; values.len()],
-        of_edges: &mut vec![0.0; tau.len()],
-    };
-    let cells = pack(&mesh, &edges, stiffness, alpha, &vec![1.0; t], &forest, buffers)?;
     let loads = CellLoads { triangles: &[], quads: &[] };
-    averages::fill(&cells, loads, &[], means, &mut values, &mut tau)?;
+    averages::fill(&packed.cells(&edges)?, loads, &[], means, &mut values, &mut tau)?;
     Ok(values)
 }
 

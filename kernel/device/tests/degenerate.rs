@@ -1,6 +1,7 @@
 //! The smallest and strangest problems first: what they answer, and how they are refused.
 
-use signorini_device::condition::{BoundaryEdge, Condition};
+use crate::workspace::{Edge, OPEN, SQUARE, TWO, UNIT};
+use signorini_device::condition::Condition;
 use signorini_device::workspace;
 use signorini_kernel::csr::Csr;
 use signorini_kernel::error::{Array, CellId};
@@ -20,13 +21,9 @@ use signorini_tolerances::kernel::{BASIS, FAST_ROOT, SOLVED};
 
 type Small = workspace!(f64, u16: vertices 16, triangles 16, quads 16, boundary 16);
 
-const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-const UNIT: Coefficient<'static, f64> = Coefficient::Uniform(Tensor { xx: 1.0, xy: 0.0, yy: 1.0 });
-const OPEN: Condition<f64> = Condition::Neumann { flux: 0.0 };
-
 fn build(
     mesh: &Mesh<f64, u16>,
-    condition: impl FnMut(&BoundaryEdge<f64, u16>) -> Option<Condition<f64>>,
+    condition: impl FnMut(&Edge) -> Option<Condition<f64>>,
 ) -> Result<Small, Error> {
     let mut small = Small::new();
     small.build(mesh, UNIT, condition)?;
@@ -38,8 +35,7 @@ fn a_single_triangle_and_a_single_quad() {
     for (triangles, quads) in [(&[[0u16, 1, 2]][..], &[][..]), (&[], &[[0u16, 1, 2, 3]])] {
         let mesh = Mesh::new(&SQUARE, triangles, quads).expect("a valid cell");
         // All sides given: nothing to solve, and the flux of u = x through the sides is exact.
-        let value =
-            |edge: &BoundaryEdge<f64, u16>| Some(Condition::Dirichlet { value: edge.middle()[0] });
+        let value = |edge: &Edge| Some(Condition::Dirichlet { value: edge.middle()[0] });
         let mut cell = build(&mesh, value).expect("fits");
         let outcome = cell.solve(Settings::default()).expect("finite");
         assert_eq!(outcome.status, Status::Converged);
@@ -53,7 +49,7 @@ fn a_single_triangle_and_a_single_quad() {
 /// −Δu = −4 pushes the whole plate onto its gap: λ takes the load, and nothing moves.
 #[test]
 fn all_contact() {
-    let mesh = Mesh::new(&SQUARE, &[[0u16, 1, 2], [0, 2, 3]], &[]).expect("valid");
+    let mesh = Mesh::new(&SQUARE, &TWO, &[]).expect("valid");
     let gap = |_: &_| Some(Condition::Contact { gap: 1.0, flux: 0.0 });
     let mut plate = build(&mesh, gap).expect("fits");
     plate.set_source(&[-2.0, -2.0], &[]).expect("lengths");
@@ -67,7 +63,7 @@ fn all_contact() {
 #[test]
 fn no_contact_is_a_linear_problem() {
     let mesh = Mesh::new(&SQUARE, &[], &[[0u16, 1, 2, 3]]).expect("valid");
-    let sides = |edge: &BoundaryEdge<f64, u16>| match edge.middle() {
+    let sides = |edge: &Edge| match edge.middle() {
         [0.0, _] => Some(Condition::Dirichlet { value: 0.0 }),
         [1.0, _] => Some(Condition::Neumann { flux: 3.0 }),
         _ => Some(OPEN),
@@ -85,7 +81,7 @@ fn parts_are_told_apart() {
     let vertices = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [5.0, 0.0], [6.0, 0.0], [5.0, 1.0]];
     let mesh = Mesh::<f64, u16>::new(&vertices, &[[0, 1, 2], [3, 4, 5]], &[]).expect("valid");
     let check = |second: Condition<f64>, load: f64| {
-        let conditions = |edge: &BoundaryEdge<f64, u16>| {
+        let conditions = |edge: &Edge| {
             Some(if edge.middle()[0] < 2.0 { Condition::Dirichlet { value: 0.0 } } else { second })
         };
         let parts = build(&mesh, conditions)?;
@@ -132,7 +128,7 @@ fn bad_meshes_are_named() {
 
 #[test]
 fn bad_topology_is_named() {
-    let all = |_: &BoundaryEdge<f64, u16>| Some(OPEN);
+    let all = |_: &Edge| Some(OPEN);
     let error = |triangles: &[[u16; 3]]| {
         let vertices = [[0.0, 0.0], [1.0, 0.0], [0.5, 1.0], [0.5, -1.0], [0.5, 2.0]];
         build(&Mesh::new(&vertices, triangles, &[])?, all).map(|_| ())
@@ -145,7 +141,7 @@ fn bad_topology_is_named() {
 
 #[test]
 fn a_workspace_that_is_too_small_says_by_how_much() {
-    let mesh = Mesh::new(&SQUARE, &[[0u16, 1, 2], [0, 2, 3]], &[]).expect("valid");
+    let mesh = Mesh::new(&SQUARE, &TWO, &[]).expect("valid");
     let mut tight = <workspace!(f64, u16: vertices 4, triangles 1, quads 0, boundary 7)>::new();
     let error = tight.build(&mesh, UNIT, |_| Some(OPEN));
     assert_eq!(error, Err(Error::Capacity { of: Array::Triangles, needed: 2, limit: 1 }));
@@ -326,7 +322,7 @@ fn fast_math_costs_what_it_says() {
     let mesh = Mesh::<f32, u16>::new(&vertices, &[[0, 1, 2], [0, 2, 3]], &[]).expect("valid");
     let mut plate = <workspace!(f32, u16: vertices 4, triangles 2, quads 0, boundary 4)>::new();
     let unit = Coefficient::Uniform(Tensor::scalar(1.0));
-    let sides = |edge: &BoundaryEdge<f32, u16>| match edge.middle() {
+    let sides = |edge: &signorini_device::condition::BoundaryEdge<f32, u16>| match edge.middle() {
         [0.0, _] => Some(Condition::Dirichlet { value: 0.0 }),
         _ => Some(Condition::Contact { gap: 1.0, flux: 0.0 }),
     };

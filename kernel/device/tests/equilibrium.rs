@@ -1,10 +1,11 @@
 //! An admissible flux from any iterate, converged or not, and who is told that there is none.
 
+use crate::owned::Packed;
 use crate::plate::{NONE, Plate, Side};
 use signorini_bound::averages;
-use signorini_bound::cells::{CellBuffers, Either, Quad, Triangle, pack};
+use signorini_bound::cells::Either;
 use signorini_bound::equilibrium::{Iterate, impose, pulled, walk};
-use signorini_bound::forest::{Forest, ForestBuffers, grow};
+use signorini_bound::forest::Forest;
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::error::Array;
 use signorini_kernel::law::Law;
@@ -71,23 +72,12 @@ fn run(sides: [Side; 4], load: f64, sweeps: usize) -> Result<Run, Error> {
             sides.iter().all(|&side| side == Side::Contact || side == Side::Insulated)
         }
     };
-    let mut scratch =
-        [vec![NONE; edges.cells()], vec![NONE; edges.cells()], vec![NONE; edges.cells()]];
-    let [order, parent, place] = &mut scratch;
-    let mut distance = vec![0.0; edges.cells()];
-    let buffers = ForestBuffers { order, parent, place, distance: &mut distance };
-    let forest = grow(&edges, |cell| 1.0 / alpha(cell), roots, buffers)?;
-
-    let (mut tau, mut s) = (vec![f64::NAN; counts.edges()], vec![f64::NAN; mesh.vertices().len()]);
     let alphas: Vec<_> = (0..edges.cells()).map(alpha).collect();
     let compliance = vec![0.25; k.0.len()];
-    let buffers = CellBuffers {
-        triangles: &mut vec![Triangle::EMPTY; k.0.len()],
-        quads: &mut vec![Quad::EMPTY; k.1.len()],
-        of_vertices: &mut vec![0.0; s.len()],
-        of_edges: &mut vec![0.0; tau.len()],
-    };
-    let cells = pack(&mesh, &edges, stiffness, &alphas, &compliance, &forest, buffers)?;
+    let a = [&alphas[..], &compliance];
+    let packed = Packed::new((&mesh, &edges), stiffness, a, |cell| 1.0 / alpha(cell), roots)?;
+    let (mut tau, mut s) = (vec![f64::NAN; counts.edges()], vec![f64::NAN; mesh.vertices().len()]);
+    let cells = packed.cells(&edges)?;
     assert!(!cells.is_empty());
     averages::fill(&cells, loads, &[], &u, &mut s, &mut tau)?;
     impose(&edges, &boundary, Iterate { u: &u, law: Law::above(&gap) }, &mut tau);

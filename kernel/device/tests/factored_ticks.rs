@@ -4,35 +4,40 @@ use crate::plate::Side;
 use crate::plate::factor::{Baked, Store};
 use crate::plate::foundation::{Foundation, GAP};
 use signorini_bound::certificate::LoadCase;
-use signorini_bound::conforming::VertexData;
-use signorini_device::full::{self, Base, DataMemory, Full, Functional};
+use signorini_device::full::{self, DataMemory, Functional};
 use signorini_device::sparse::Exact;
 use signorini_device::tick::{
     CertifiedSweeps, Data, Deadline, Ended, Limits, Progress, Report, Running, Substitutions, Tick,
     UncertifiedSweeps,
 };
-use signorini_kernel::flux_range::Spans;
 use signorini_kernel::law::Law;
 use signorini_kernel::mesh::boundary::{Boundary, Robin};
-use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::rows::QUADS;
 use signorini_kernel::{Error, Libm};
 use signorini_tolerances::kernel::{FACTORED, RESIDUAL, SWEPT};
 
 const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];
 
-type ByFactor<'e, 'a, S> = Substitutions<'e, 'a, f64, u16, S>;
+/// Goes on by the factor, with a bound or without.
+fn advance(
+    running: &mut Running<'_, '_, f64, u16, QUADS>,
+    exact: &mut Exact<f64, u16>,
+    has_bound: bool,
+    limits: Limits<f64>,
+) -> Result<Report<f64>, Error> {
+    let never = &mut Deadline::never();
+    match has_bound {
+        true => running.advance(certified(exact), limits, never),
+        false => {
+            running.advance(Substitutions { exact, sweeps: UncertifiedSweeps(Libm) }, limits, never)
+        }
+    }
+}
 
 fn certified<'e, 'a>(
     exact: &'e mut Exact<'a, f64, u16>,
-) -> ByFactor<'e, 'a, CertifiedSweeps<Libm>> {
+) -> Substitutions<'e, 'a, f64, u16, CertifiedSweeps<Libm>> {
     Substitutions { exact, sweeps: CertifiedSweeps(Libm) }
-}
-
-fn uncertified<'e, 'a>(
-    exact: &'e mut Exact<'a, f64, u16>,
-) -> ByFactor<'e, 'a, UncertifiedSweeps<Libm>> {
-    Substitutions { exact, sweeps: UncertifiedSweeps(Libm) }
 }
 
 /// Data whose source is multiplied, and whose gap bends along the contact.
@@ -66,12 +71,9 @@ const NO_SWEEPS: Limits<f64> = Limits { error: 0.0, share: 0.01, sweeps: 0 };
 /// Source and bend: much contact, none at all, some, much again.
 const INPUTS: [(f64, f64); 5] = [(1.0, 0.0), (-4.0, -0.3), (1.0, 0.08), (1.0, 0.08), (3.0, -0.02)];
 
-/// Ticks by `advance` and by sweeps to the end, with the same data.
+/// Ticks by the factor and by sweeps to the end, with the same data.
 fn beside_sweeps(
-    advance: impl Fn(
-        &mut Running<'_, '_, f64, u16, QUADS>,
-        &mut Exact<f64, u16>,
-    ) -> Result<Report<f64>, Error>,
+    has_bound: bool,
     mut compare: impl FnMut(&Report<f64>, &Exact<f64, u16>, [&[f64]; 2], [&[f64]; 2]),
 ) -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
@@ -88,7 +90,7 @@ fn beside_sweeps(
             TO_THE_END,
             &mut Deadline::never(),
         )?;
-        let report = advance(&mut tick.begin(data)?, &mut exact)?;
+        let report = advance(&mut tick.begin(data)?, &mut exact, has_bound, NO_SWEEPS)?;
         assert_eq!((report.active, report.sweeps), (expected.active, 0), "{source} {bend}");
         assert_eq!(report.figures.changes, expected.figures.changes, "{source} {bend}");
         RESIDUAL.check(format_args!("{source} {bend}"), report.figures.residual);
@@ -109,21 +111,18 @@ fn off(found: &[f64], expected: &[f64]) -> f64 {
 #[test]
 fn a_factored_tick_is_where_sweeps_end() -> Result<(), Error> {
     let mut pivots = Vec::new();
-    beside_sweeps(
-        |running, exact| running.advance(certified(exact), NO_SWEEPS, &mut Deadline::never()),
-        |report, exact, [u, tau], [swept, swept_tau]| {
-            assert_eq!(report.ended, Ended::Exact);
-            FACTORED.check("u and τ", off(u, swept));
-            FACTORED.check("u and τ", off(tau, swept_tau));
-            let certificate = report.verdict.certificate().expect("a bound");
-            assert!(certificate.total > 1e-3, "{certificate:?}");
-            RESIDUAL.check("the bound", certificate.algebraic);
-            let solved = exact.solved().expect("a solution");
-            assert!((2..5).contains(&solved.rounds), "{solved:?}");
-            RESIDUAL.check("the last correction", solved.change);
-            pivots.push(solved.pivots);
-        },
-    )?;
+    beside_sweeps(true, |report, exact, [u, tau], [swept, swept_tau]| {
+        assert_eq!(report.ended, Ended::Exact);
+        FACTORED.check("u and τ", off(u, swept));
+        FACTORED.check("u and τ", off(tau, swept_tau));
+        let certificate = report.verdict.certificate().expect("a bound");
+        assert!(certificate.total > 1e-3, "{certificate:?}");
+        RESIDUAL.check("the bound", certificate.algebraic);
+        let solved = exact.solved().expect("a solution");
+        assert!((2..5).contains(&solved.rounds), "{solved:?}");
+        RESIDUAL.check("the last correction", solved.change);
+        pivots.push(solved.pivots);
+    })?;
     // Edges that stay on their side are not exchanged.
     assert!(pivots[3] == 0 && pivots[1] > 0 && pivots[2] > 0, "{pivots:?}");
     Ok(())
@@ -131,19 +130,13 @@ fn a_factored_tick_is_where_sweeps_end() -> Result<(), Error> {
 
 #[test]
 fn without_a_bound_it_leaves_the_fluxes_of_the_solution() -> Result<(), Error> {
-    beside_sweeps(
-        |running, exact| {
-            let never = &mut Deadline::never();
-            running.advance(uncertified(exact), NO_SWEEPS, never)
-        },
-        |report, _, [u, tau], [swept, swept_tau]| {
-            assert_eq!(report.ended, Ended::Exact);
-            assert!(report.verdict.certificate().is_none());
-            // Both are balanced on the solution; the certificate's is so where it is not.
-            FACTORED.check("u and τ", off(u, swept));
-            FACTORED.check("u and τ", off(tau, swept_tau));
-        },
-    )
+    beside_sweeps(false, |report, _, [u, tau], [swept, swept_tau]| {
+        assert_eq!(report.ended, Ended::Exact);
+        assert!(report.verdict.certificate().is_none());
+        // Both are balanced on the solution; the certificate's is so where it is not.
+        FACTORED.check("u and τ", off(u, swept));
+        FACTORED.check("u and τ", off(tau, swept_tau));
+    })
 }
 
 #[test]
@@ -158,24 +151,20 @@ fn a_factor_of_another_matrix_leaves_it_to_sweeps() -> Result<(), Error> {
     tick.begin(data)?.advance(certified(&mut exact), TO_THE_END, never)?;
     let expected = tick.u().to_vec();
     for (what, spoil) in [
-        ("pivots", (|baked: &mut Baked| baked.inverse.fill(1e3)) as fn(&mut Baked)),
-        ("entries", |baked| baked.values.fill(f64::NAN)),
-        ("no entries", |baked| baked.values.clear()),
-        ("S", |baked| baked.schur.as_flattened_mut().as_flattened_mut().fill(-1.0)),
-        ("places", |baked| baked.places.fill(9999)),
-        ("columns", |baked| baked.pointers.reverse()),
+        ("pivots", (|baked: &mut Baked| baked.ldlt.inverse.fill(1e3)) as fn(&mut Baked)),
+        ("entries", |baked| baked.ldlt.values.fill(f64::NAN)),
+        ("no entries", |baked| baked.ldlt.values.clear()),
+        ("S", |baked| baked.ldlt.schur.as_flattened_mut().as_flattened_mut().fill(-1.0)),
+        ("places", |baked| baked.ldlt.places.fill(9999)),
+        ("columns", |baked| baked.ldlt.pointers.reverse()),
     ] {
         let mut baked = Baked::new(&foundation)?;
         spoil(&mut baked);
         for has_bound in [true, false] {
             let mut store = Store::new(&foundation)?;
             let (mut tick, mut exact) = store.of(&foundation, &baked)?;
-            let never = &mut Deadline::never();
             let mut running = tick.begin(input.data(&foundation)?)?;
-            let report = match has_bound {
-                true => running.advance(certified(&mut exact), TO_THE_END, never)?,
-                false => running.advance(uncertified(&mut exact), TO_THE_END, never)?,
-            };
+            let report = advance(&mut running, &mut exact, has_bound, TO_THE_END)?;
             assert!(report.sweeps > 0 && report.ended == Ended::Settled, "{what}: {report:?}");
             SWEPT.check(what, off(tick.u(), &expected));
         }
@@ -197,13 +186,8 @@ fn a_matrix_that_changes_between_warm_ticks_is_noticed() -> Result<(), Error> {
             let [first, second] = [1.0, source].map(|part| Input::new(&foundation, part, 0.02));
             let mut store = Store::new(&foundation)?;
             let (mut tick, mut exact) = store.of(&foundation, &baked)?;
-            let never = &mut Deadline::never();
             let mut solve = |tick: &mut Tick<f64, u16, QUADS>, data: Data<f64, u16>| {
-                let mut running = tick.begin(data)?;
-                match has_bound {
-                    true => running.advance(certified(&mut exact), TO_THE_END, never),
-                    false => running.advance(uncertified(&mut exact), TO_THE_END, never),
-                }
+                advance(&mut tick.begin(data)?, &mut exact, has_bound, TO_THE_END)
             };
             // As close to the answer as it gets before the matrix changes.
             for _ in 0..2 {
@@ -249,7 +233,7 @@ fn a_factor_that_is_another_on_a_warm_tick_is_noticed() -> Result<(), Error> {
     )?;
     for (times, has_bound) in [(1e4, true), (1e4, false), (1e9, true), (1e9, false)] {
         let mut other = Baked::new(&foundation)?;
-        other.inverse.iter_mut().for_each(|inverse| *inverse /= times);
+        other.ldlt.inverse.iter_mut().for_each(|inverse| *inverse /= times);
         other.scale.iter_mut().for_each(|scale| *scale /= f64::sqrt(times));
         let mut store = Store::new(&foundation)?;
         let (mut tick, mut exact) = store.of(&foundation, &sound)?;
@@ -260,10 +244,7 @@ fn a_factor_that_is_another_on_a_warm_tick_is_noticed() -> Result<(), Error> {
         let (memory, mut exact) = store.memory(&foundation, &other)?;
         let mut tick = Tick::resume(foundation.discretization()?, memory, progress)?;
         let mut running = tick.begin(second.data(&foundation)?)?;
-        let report = match has_bound {
-            true => running.advance(certified(&mut exact), TO_THE_END, never)?,
-            false => running.advance(uncertified(&mut exact), TO_THE_END, never)?,
-        };
+        let report = advance(&mut running, &mut exact, has_bound, TO_THE_END)?;
         assert!(report.sweeps > 0 && report.ended == Ended::Settled, "{times:e}: {report:?}");
         let off = off(tick.u(), reference.u());
         SWEPT.check(format_args!("{times:e} {has_bound}"), off);
@@ -299,39 +280,10 @@ fn limits_and_deadlines_hold() -> Result<(), Error> {
 #[test]
 fn a_full_model_begins_with_memory_of_any_contents() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
-    let (baked, given) = (Baked::new(&foundation)?, foundation.given()?);
-    let boundary = &given.boundary;
-    let flux: Vec<f64> = foundation
-        .lower
-        .iter()
-        .enumerate()
-        .map(|(at, _)| boundary.contact_flux(at).base())
-        .collect();
-    let VertexData { gap, given: on_dirichlet } = given.ends;
+    let baked = Baked::new(&foundation)?;
     let touching: Vec<u16> = (0..foundation.lower.len() as u16).collect();
-    let full = Full {
-        discretization: foundation.discretization()?,
-        base: Base {
-            loads: given.loads,
-            neumann: boundary.neumann(),
-            robin: boundary.robin(),
-            spans: Spans::UNLIMITED,
-            contact_flux: &flux,
-            gap: &foundation.lower,
-            dirichlet: &foundation.dirichlet,
-            ends: VertexData { gap, given: on_dirichlet },
-            curved: &[],
-            curved_sums: &[],
-            transfer: &[],
-        },
-        patterns: &[],
-        oscillation: &[],
-        outputs: &[Functional::Force(&touching), Functional::Bound],
-        has_bound: true,
-        corners: &[],
-        start: 0.0,
-        relaxation: Relaxation::Adaptive(1.0),
-    };
+    let outputs = [Functional::Force(&touching), Functional::Bound];
+    let full = foundation.full(&outputs, true)?;
     let mut forces = Vec::new();
     for has_bound in [true, false] {
         let (mut store, mut progress) = (Store::new(&foundation)?, Progress::NONE);
@@ -339,14 +291,18 @@ fn a_full_model_begins_with_memory_of_any_contents() -> Result<(), Error> {
             let (tick, mut exact) = store.memory(&foundation, &baked)?;
             let data = DataMemory::default();
             let memory = full::Memory { tick, data, progress: &mut progress };
-            let (never, mut outputs) = (&mut Deadline::never(), [0.0; 2]);
+            let (never, mut outputs, exact) = (&mut Deadline::never(), [0.0; 2], &mut exact);
+            let by_factor = Substitutions { exact, sweeps: UncertifiedSweeps(Libm) };
             let report = match has_bound {
-                true => {
-                    full.tick(&[], certified(&mut exact), NO_SWEEPS, never, memory, &mut outputs)?
-                }
-                false => {
-                    full.tick(&[], uncertified(&mut exact), NO_SWEEPS, never, memory, &mut outputs)?
-                }
+                true => full.tick(
+                    &[],
+                    certified(by_factor.exact),
+                    NO_SWEEPS,
+                    never,
+                    memory,
+                    &mut outputs,
+                )?,
+                false => full.tick(&[], by_factor, NO_SWEEPS, never, memory, &mut outputs)?,
             };
             assert_eq!((report.ended, report.sweeps), (Ended::Exact, 0));
             // The exchanges of the first tick are still there in the second.

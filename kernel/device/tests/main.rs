@@ -1,6 +1,6 @@
 //! The tests of the device as one program: `cargo test -p signorini-device --test main NAME`.
 //!
-//! `plate`, `strip`, `memory` and `factored` are what the other files test on.
+//! `plate`, `strip`, `memory`, `owned` and `ldlt` are what the other files test on.
 
 #[path = "../../contact/tests/memory.rs"]
 #[allow(dead_code, reason = "the tests of condensed contact need the rest")]
@@ -9,24 +9,21 @@ mod memory;
 #[allow(dead_code, reason = "the tests of condensed contact need the rest")]
 mod strip;
 
-mod another_factor;
 mod certificate;
 mod condensed_reports;
 mod conditions;
 mod conforming;
 mod degenerate;
 mod equilibrium;
-mod factored;
 mod factored_ticks;
 mod forces;
+mod ldlt;
 mod lengths;
 mod outputs;
+mod owned;
 mod plate;
 mod replay;
 mod sparse;
 mod stability;
 mod tick;
 mod workspace;
-mod workspace_data;
-mod workspace_exact;
-mod workspace_hostile;

@@ -1,15 +1,11 @@
 //! Outputs of a full model at the end of the range: finite, or said not to be.
 
+use crate::owned::TickArrays;
 use crate::plate::Side;
 use crate::plate::foundation::Foundation;
 use signorini_bound::certificate::Verdict;
-use signorini_device::full::{
-    Base, Contribution, DataMemory, Full, Functional, Memory as FullMemory,
-};
-use signorini_device::tick::{CertifiedSweeps, Deadline, Ended, Limits, Memory, Progress, Report};
-use signorini_kernel::flux_range::Spans;
-use signorini_kernel::relaxation::Relaxation;
-use signorini_kernel::rows::{QUADS, Row, Rows};
+use signorini_device::full::{Contribution, DataMemory, Functional, Memory};
+use signorini_device::tick::{CertifiedSweeps, Deadline, Ended, Limits, Progress, Report};
 use signorini_kernel::{Error, Libm};
 
 const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];
@@ -20,44 +16,12 @@ fn tick<const N: usize>(
     has_bound: bool,
 ) -> Result<(Report<f64>, [f64; N]), Error> {
     let foundation = Foundation::new(SIDES, false)?;
-    let (discretization, given) = (foundation.discretization()?, foundation.given()?);
-    let boundary = &given.boundary;
-    let contact_flux: Vec<f64> =
-        (0..foundation.lower.len()).map(|at| boundary.contact_flux(at).base()).collect();
-    let counts = discretization.edges.counts();
-    let full = Full {
-        discretization,
-        base: Base {
-            loads: given.loads,
-            neumann: boundary.neumann(),
-            robin: boundary.robin(),
-            spans: Spans::UNLIMITED,
-            contact_flux: &contact_flux,
-            gap: &foundation.lower,
-            dirichlet: &foundation.dirichlet,
-            ends: given.ends,
-            curved: &[],
-            curved_sums: &[],
-            transfer: &[],
-        },
-        patterns: &[],
-        oscillation: &[],
-        outputs,
-        has_bound,
-        corners: &[],
-        start: 0.0,
-        relaxation: Relaxation::Adaptive(1.0),
-    };
-    let (unknowns, edges) = (counts.unknowns(), counts.edges());
-    let mut rows = vec![Row::<f64, u16, QUADS>::EMPTY; unknowns];
-    let mut active = vec![false; counts.contact];
-    let mut numbers = [unknowns, foundation.plate.vertices.len(), edges, edges, edges]
-        .map(|length| vec![0.0; length]);
-    let [load, vertices, bubbles, tau, u] = &mut numbers;
-    let rows = Rows::new(&discretization.edges, &mut rows)?;
-    let tick = Memory { rows, load, active: &mut active, vertices, bubbles, tau, u };
+    let full = foundation.full(outputs, has_bound)?;
+    let edges = &full.discretization.edges;
+    let mut arrays = TickArrays::new(edges, foundation.plate.vertices.len());
     let (mut progress, mut found) = (Progress::NONE, [0.0; N]);
-    let memory = FullMemory { tick, data: DataMemory::default(), progress: &mut progress };
+    let (tick, data) = (arrays.memory(edges)?, DataMemory::default());
+    let memory = Memory { tick, data, progress: &mut progress };
     let never = &mut Deadline::never();
     let limits = Limits::default();
     let report = full.tick(&[], CertifiedSweeps(Libm), limits, never, memory, &mut found)?;

@@ -7,7 +7,6 @@
 mod arrays;
 mod bound;
 mod condensed;
-mod factor;
 mod full;
 mod journal;
 mod matrix;
@@ -15,26 +14,7 @@ mod scene;
 mod solve;
 mod ticks;
 
-use arrays::Arrays;
-use journal::Journal;
-use scene::SCENES;
-use signorini_kernel::Error;
-
-/// A stage on every scene, in both scalars.
-fn replay(name: &str, narrow: Stage<f32>, wide: Stage<f64>) {
-    let mut journal = Journal::beside(name);
-    for scene in &SCENES {
-        journal.title(scene.name, "f32");
-        Arrays::new(scene).and_then(|arrays| narrow(&arrays, &mut journal)).expect("f32");
-        journal.compare();
-        journal.title(scene.name, "f64");
-        Arrays::new(scene).and_then(|arrays| wide(&arrays, &mut journal)).expect("f64");
-        journal.compare();
-    }
-    journal.finish();
-}
-
-type Stage<R> = fn(&Arrays<R>, &mut Journal) -> Result<(), Error>;
+use journal::{Journal, replay};
 
 #[test]
 fn mesh_and_matrix() {
@@ -54,11 +34,6 @@ fn solves() {
 #[test]
 fn help_where_sweeps_crawl() {
     replay("help", solve::help::<f32>, solve::help::<f64>);
-}
-
-#[test]
-fn exact_solves() {
-    replay("factor", factor::run::<f32>, factor::run::<f64>);
 }
 
 #[test]

@@ -1,9 +1,7 @@
 //! Elimination on chains of springs, whose Schur complements are known: springs in a row add their compliances.
 
-use signorini_contact::dense::blocks::{Block, SIDE, count};
-use signorini_device::sparse::elimination::PatternBuffers;
-use signorini_device::sparse::factor::FactorBuffers;
-use signorini_device::sparse::{Factor, Pattern};
+use crate::ldlt::Ldlt;
+use signorini_contact::dense::blocks::Block;
 use signorini_kernel::Error;
 use signorini_kernel::csr::Csr;
 use signorini_kernel::mesh::edges::EdgeCounts;
@@ -31,32 +29,11 @@ fn eliminate(
     free: usize,
     all: &[(u16, u16, f64)],
     order: &[u16],
-) -> Result<(usize, Option<Block<f64>>), Error> {
+) -> Result<Option<(usize, Block<f64>)>, Error> {
     let (row_ptr, col_idx, values) = springs(n, all);
     let counts = EdgeCounts { free, contact: n - free, dirichlet: 0 };
     let matrix = Csr::new(&row_ptr, &col_idx, &values, n)?;
-    let [mut place, mut parent, mut visited] = [(); 3].map(|()| vec![0; free]);
-    let mut pointers = vec![0; free + 1];
-    let buffers = PatternBuffers {
-        place: &mut place,
-        parent: &mut parent,
-        visited: &mut visited,
-        pointers: &mut pointers,
-    };
-    let pattern = Pattern::new(&matrix, counts, order, buffers)?;
-    let entries = pattern.entries();
-    let buffers = FactorBuffers {
-        rows: &mut vec![0; entries],
-        values: &mut vec![0.0; entries],
-        inverse: &mut vec![0.0; free],
-        ends: &mut vec![0; free],
-        path: &mut vec![0; free],
-        visited: &mut vec![0; free],
-        row: &mut vec![0.0; n],
-    };
-    let mut schur = vec![[[0.0; SIDE]; SIDE]; count(n - free)];
-    let factor = Factor::new(&matrix, pattern, buffers, &mut schur)?;
-    Ok((entries, factor.map(|_| schur[0])))
+    Ok(Ldlt::new(&matrix, counts, order)?.map(|ldlt| (ldlt.values.len(), ldlt.schur[0])))
 }
 
 /// Knots 0, 1, 2 between the contact knots 3 and 4.
@@ -66,8 +43,7 @@ const CHAIN: [(u16, u16, f64); 4] = [(3, 0, 1.0), (0, 1, 2.0), (1, 2, 4.0), (2, 
 fn springs_in_a_row_add_their_compliances() {
     let whole = 1.0 / (1.0 + 0.5 + 0.25 + 2.0);
     for order in [[0, 1, 2], [1, 0, 2], [2, 1, 0], [0, 2, 1], [1, 2, 0], [2, 0, 1]] {
-        let (entries, schur) = eliminate(5, 3, &CHAIN, &order).unwrap();
-        let schur = schur.expect("a factor");
+        let (entries, schur) = eliminate(5, 3, &CHAIN, &order).unwrap().expect("a factor");
         let expected = [[whole, -whole], [-whole, whole]];
         for (row, expected) in schur.iter().zip(expected) {
             for (found, expected) in row.iter().zip(expected) {
@@ -93,8 +69,8 @@ fn orders_that_are_none_are_refused() {
 fn knots_that_nothing_holds_have_no_factor() {
     let loose = [(3, 0, 1.0), (1, 2, 4.0), (0, 4, 0.5)];
     for order in [[0, 1, 2], [2, 1, 0]] {
-        let (_, schur) = eliminate(5, 3, &loose, &order).unwrap();
-        assert!(schur.is_none(), "{order:?}: {schur:?}");
+        let found = eliminate(5, 3, &loose, &order).unwrap();
+        assert!(found.is_none(), "{order:?}: {found:?}");
     }
 }
 
@@ -103,8 +79,7 @@ fn a_spring_a_trillion_times_softer_keeps_its_digits() {
     let chain = [(3, 0, 1e12), (0, 1, 1e12), (1, 2, 1e12), (2, 4, 1.0)];
     let expected = 1.0 / (1.0 + 3e-12);
     for order in [[0, 1, 2], [2, 1, 0], [1, 0, 2]] {
-        let (_, schur) = eliminate(5, 3, &chain, &order).unwrap();
-        let schur = schur.expect("a factor");
+        let (_, schur) = eliminate(5, 3, &chain, &order).unwrap().expect("a factor");
         // Knot 4 sees its own spring; knot 3 sees a difference of large ones.
         SCHUR.check(format_args!("{order:?}"), schur[1][1] - expected);
         CANCELLED.check(format_args!("{order:?}"), schur[0][1] + expected);

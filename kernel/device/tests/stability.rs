@@ -1,9 +1,8 @@
 //! The cost of surplus, by element matrices of which the scalar has lost something: a loss is never told as a small number.
 
-use signorini_bound::cells::{CellBuffers, Quad, Triangle, pack};
-use signorini_bound::certificate::{Metric, Stability, stability};
+use crate::owned::Packed;
+use signorini_bound::certificate::{Metric, Stability};
 use signorini_bound::equilibrium::is_root;
-use signorini_bound::forest::{ForestBuffers, grow};
 use signorini_device::condition::Condition;
 use signorini_device::workspace;
 use signorini_kernel::mesh::boundary::{Boundary, Robin};
@@ -32,26 +31,10 @@ fn of_triangle(
     let law = |coefficient| Robin { edge: 0, coefficient, ambient: 0.0 };
     let robin: Vec<_> = transfer.into_iter().map(law).collect();
     let boundary = Boundary::new(&edges, &[], &robin, &[])?;
-    let [mut order, mut parent, mut place] = [[0_u16]; 3];
-    let [mut distance, mut way] = [[0.0]; 2];
-    let buffers = ForestBuffers {
-        order: &mut order,
-        parent: &mut parent,
-        place: &mut place,
-        distance: &mut distance,
-    };
-    let forest = grow(&edges, |_| 1.0, |edge| is_root(&edges, &boundary, edge), buffers)?;
-    let (mut triangles, mut quads) = ([Triangle::EMPTY], [Quad::EMPTY; 0]);
-    let (mut of_vertices, mut of_edges) = ([0.0; 3], [0.0; 3]);
-    let buffers = CellBuffers {
-        triangles: &mut triangles,
-        quads: &mut quads,
-        of_vertices: &mut of_vertices,
-        of_edges: &mut of_edges,
-    };
-    let stiffness = Stiffness { triangles: &[k], quads: &[] };
-    let cells = pack(&mesh, &edges, stiffness, &[], &[compliance], &forest, buffers)?;
-    stability(&edges, &cells, Metric::default(), &boundary, &forest, &mut way)
+    let (stiffness, a) = (Stiffness { triangles: &[k], quads: &[] }, [&[][..], &[compliance]]);
+    let is_root = |edge| is_root(&edges, &boundary, edge);
+    let packed = Packed::new((&mesh, &edges), stiffness, a, |_| 1.0, is_root)?;
+    packed.stability(&edges, Metric::default(), &boundary)
 }
 
 /// The equilateral one, K₀₁ = K₁₂ = K₂₀ = −1 and 4 det A = 3: 1 out of a side costs −(K₁₂ + K₂₀ + 3K₀₁)/6 of 1/(4 det A),

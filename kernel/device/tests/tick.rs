@@ -3,6 +3,7 @@
 use signorini_kernel::law::Law;
 use std::cell::Cell;
 
+use crate::owned::TickArrays;
 use crate::plate::Side;
 use crate::plate::foundation::{Foundation, GAP};
 use signorini_bound::certificate::{Certificate, Discretization, LoadCase, Verdict};
@@ -14,70 +15,90 @@ use signorini_device::tick::{
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::error::Array;
 use signorini_kernel::relaxation::Relaxation;
-use signorini_kernel::rows::{OwnedRows, QUADS, Row, Rows};
+use signorini_kernel::rows::{OwnedRows, QUADS};
 use signorini_kernel::stiffness::Stiffness;
 use signorini_kernel::{Error, Libm, flux};
 use signorini_tolerances::kernel::{ALGEBRAIC, FORCE_OF_FLUX, RESIDUAL};
 
 const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];
 
-/// Arrays of a tick, owned.
-struct Store {
-    rows: Vec<Row<f64, u16, QUADS>>,
-    active: Vec<bool>,
-    /// load, s, bubbles, τ, u
-    numbers: [Vec<f64>; 5],
+type PlateTick<'a> = Tick<'a, f64, u16, QUADS>;
+
+/// Rows that know their mesh.
+type Own<const UNKNOWNS: usize> = OwnedRows<f64, u16, QUADS, UNKNOWNS>;
+
+fn arrays(foundation: &Foundation) -> Result<TickArrays<f64>, Error> {
+    let mut arrays = TickArrays::new(&foundation.plate.edges()?, foundation.plate.vertices.len());
+    // What was there before does not matter.
+    arrays.active.fill(true);
+    Ok(arrays)
 }
 
-impl Store {
-    fn new(foundation: &Foundation) -> Result<Self, Error> {
-        let counts = foundation.plate.edges()?.counts();
-        let vertices = foundation.plate.vertices.len();
-        let (unknowns, edges) = (counts.unknowns(), counts.edges());
-        let lengths = [unknowns, vertices, edges, edges, edges];
-        Ok(Self {
-            rows: vec![Row::EMPTY; unknowns],
-            active: vec![true; counts.contact],
-            numbers: lengths.map(|length| vec![0.0; length]),
-        })
-    }
-
-    /// Goes on from the last tick, with rows that lie elsewhere.
-    fn resumed<'a, const UNKNOWNS: usize>(
-        &'a mut self,
-        foundation: &'a Foundation,
-        rows: &'a mut OwnedRows<f64, u16, QUADS, UNKNOWNS>,
-        progress: Progress<f64>,
-    ) -> Result<Tick<'a, f64, u16, QUADS>, Error> {
-        let discretization = foundation.discretization()?;
-        let [load, vertices, bubbles, tau, u] = &mut self.numbers;
-        let (rows, active) = (rows.of(&discretization.edges)?, &mut self.active);
-        let memory = Memory { rows, load, active, vertices, bubbles, tau, u };
-        Tick::resume(discretization, memory, progress)
-    }
-
-    fn tick<'a>(
-        &'a mut self,
-        foundation: &'a Foundation,
-    ) -> Result<Tick<'a, f64, u16, QUADS>, Error> {
-        self.on(foundation.discretization()?)
-    }
-
-    fn on<'a>(
-        &'a mut self,
-        discretization: Discretization<'a, f64, u16>,
-    ) -> Result<Tick<'a, f64, u16, QUADS>, Error> {
-        let [load, vertices, bubbles, tau, u] = &mut self.numbers;
-        let rows = Rows::new(&discretization.edges, &mut self.rows)?;
-        let active = &mut self.active;
-        let memory = Memory { rows, load, active, vertices, bubbles, tau, u };
-        Tick::new(discretization, memory, Relaxation::Adaptive(1.0))
-    }
+/// Goes on from the last tick, with rows that lie elsewhere.
+fn resumed<'a, const UNKNOWNS: usize>(
+    arrays: &'a mut TickArrays<f64>,
+    foundation: &'a Foundation,
+    rows: &'a mut Own<UNKNOWNS>,
+    progress: Progress<f64>,
+) -> Result<PlateTick<'a>, Error> {
+    let discretization = foundation.discretization()?;
+    let rows = rows.of(&discretization.edges)?;
+    let memory = Memory { rows, ..arrays.memory(&discretization.edges)? };
+    Tick::resume(discretization, memory, progress)
 }
 
-fn data(foundation: &Foundation) -> Result<Data<'_, f64, u16>, Error> {
-    let given = foundation.given()?;
-    Ok(Data { given, law: Law::above(&foundation.lower), dirichlet: &foundation.dirichlet })
+fn on<'a>(
+    arrays: &'a mut TickArrays<f64>,
+    discretization: Discretization<'a, f64, u16>,
+) -> Result<PlateTick<'a>, Error> {
+    let memory = arrays.memory(&discretization.edges)?;
+    Tick::new(discretization, memory, Relaxation::Adaptive(1.0))
+}
+
+fn cold<'a>(
+    arrays: &'a mut TickArrays<f64>,
+    foundation: &'a Foundation,
+) -> Result<PlateTick<'a>, Error> {
+    on(arrays, foundation.discretization()?)
+}
+
+/// A tick with these data, by sweeps with certificates.
+fn certified(
+    tick: &mut PlateTick,
+    data: Data<f64, u16>,
+    limits: Limits<f64>,
+) -> Result<Report<f64>, Error> {
+    tick.begin(data)?.advance(CertifiedSweeps(Libm), limits, &mut Deadline::never())
+}
+
+/// The same without a bound.
+fn uncertified(
+    tick: &mut PlateTick,
+    data: Data<f64, u16>,
+    limits: Limits<f64>,
+) -> Result<Report<f64>, Error> {
+    tick.begin(data)?.advance(UncertifiedSweeps(Libm), limits, &mut Deadline::never())
+}
+
+/// So many sweeps, whatever they come to.
+fn exactly(sweeps: u32) -> Limits<f64> {
+    Limits { share: 0.0, error: 0.0, sweeps }
+}
+
+/// The plate with another gap.
+struct Gap(Vec<[f64; 2]>, Vec<f64>);
+
+impl Gap {
+    fn at(gap: f64, foundation: &Foundation) -> Self {
+        let contact = foundation.lower.len();
+        Self(vec![[gap; 2]; contact], vec![gap; contact])
+    }
+
+    fn data<'a>(&'a self, foundation: &'a Foundation) -> Result<Data<'a, f64, u16>, Error> {
+        let good = foundation.data()?;
+        let ends = VertexData { gap: &self.0, ..good.given.ends };
+        Ok(Data { given: LoadCase { ends, ..good.given }, law: Law::above(&self.1), ..good })
+    }
 }
 
 fn certificate(report: &Report<f64>) -> Certificate<f64> {
@@ -87,21 +108,13 @@ fn certificate(report: &Report<f64>) -> Certificate<f64> {
 #[test]
 fn a_tick_goes_on_until_sweeps_buy_nothing_and_the_next_starts_there() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
-    let mut store = Store::new(&foundation)?;
-    let mut tick = store.tick(&foundation)?;
-    let cold = tick.begin(data(&foundation)?)?.advance(
-        CertifiedSweeps(Libm),
-        Limits::default(),
-        &mut Deadline::never(),
-    )?;
+    let mut store = arrays(&foundation)?;
+    let mut tick = cold(&mut store, &foundation)?;
+    let cold = certified(&mut tick, foundation.data()?, Limits::default())?;
     assert_eq!(cold.ended, Ended::Settled);
     assert!(certificate(&cold).algebraic <= 0.1 * certificate(&cold).total);
     assert!(cold.active > 0 && cold.figures.changes == cold.active && cold.sweeps > 8, "{cold:?}");
-    let warm = tick.begin(data(&foundation)?)?.advance(
-        CertifiedSweeps(Libm),
-        Limits::default(),
-        &mut Deadline::never(),
-    )?;
+    let warm = certified(&mut tick, foundation.data()?, Limits::default())?;
     assert!(warm.sweeps <= 4 && warm.figures.changes == 0, "{warm:?}");
     assert_eq!(tick.report(), Some(&warm));
     let counts = foundation.plate.edges()?.counts();
@@ -113,32 +126,24 @@ fn a_tick_goes_on_until_sweeps_buy_nothing_and_the_next_starts_there() -> Result
 fn a_tick_resumed_from_its_memory_has_the_bits_of_one_that_went_on() -> Result<(), Error> {
     const UNKNOWNS: usize = 55;
     let foundation = Foundation::new(SIDES, false)?;
-    let (mut kept, mut put_down) = (Store::new(&foundation)?, Store::new(&foundation)?);
+    let (mut kept, mut put_down) = (arrays(&foundation)?, arrays(&foundation)?);
     put_down.active.fill(false);
-    let mut kept = kept.tick(&foundation)?;
-    let mut rows = OwnedRows::<f64, u16, QUADS, UNKNOWNS>::new();
+    let mut kept = cold(&mut kept, &foundation)?;
+    let mut rows = Own::<UNKNOWNS>::new();
     let mut progress = Progress::new(Relaxation::Adaptive(1.0))?;
     for sweeps in [7, 40, 100, 3] {
-        let limits = Limits { share: 0.0, error: 0.0, sweeps };
-        let expected = kept.begin(data(&foundation)?)?.advance(
-            CertifiedSweeps(Libm),
-            limits,
-            &mut Deadline::never(),
-        )?;
-        let mut tick = put_down.resumed(&foundation, &mut rows, progress)?;
-        let found = tick.begin(data(&foundation)?)?.advance(
-            CertifiedSweeps(Libm),
-            limits,
-            &mut Deadline::never(),
-        )?;
+        let limits = exactly(sweeps);
+        let expected = certified(&mut kept, foundation.data()?, limits)?;
+        let mut tick = resumed(&mut put_down, &foundation, &mut rows, progress)?;
+        let found = certified(&mut tick, foundation.data()?, limits)?;
         assert_eq!((found, tick.u(), tick.tau()), (expected, kept.u(), kept.tau()));
         progress = tick.progress();
     }
-    let none = put_down.resumed(&foundation, &mut rows, Progress::NONE).map(|_| ());
+    let none = resumed(&mut put_down, &foundation, &mut rows, Progress::NONE).map(|_| ());
     assert_eq!(none, Err(Error::Relaxation));
-    let mut few = OwnedRows::<f64, u16, QUADS, 3>::new();
+    let mut few = Own::<3>::new();
     assert_eq!(
-        put_down.resumed(&foundation, &mut few, progress).err(),
+        resumed(&mut put_down, &foundation, &mut few, progress).err(),
         Some(Error::Length { of: Array::Rows, found: 3, expected: 55 })
     );
     Ok(())
@@ -148,15 +153,15 @@ fn a_tick_resumed_from_its_memory_has_the_bits_of_one_that_went_on() -> Result<(
 fn memory_of_another_size_is_refused() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
     for array in [0, 1, 3, 4] {
-        let mut store = Store::new(&foundation)?;
+        let mut store = arrays(&foundation)?;
         store.numbers[array].pop();
-        let refused = store.tick(&foundation).err();
+        let refused = cold(&mut store, &foundation).err();
         assert!(matches!(refused, Some(Error::Length { .. })), "array {array}: {refused:?}");
     }
-    let mut store = Store::new(&foundation)?;
+    let mut store = arrays(&foundation)?;
     store.active.pop();
     assert_eq!(
-        store.tick(&foundation).err(),
+        cold(&mut store, &foundation).err(),
         Some(Error::Length { of: Array::Contact, found: 4, expected: 5 })
     );
     Ok(())
@@ -165,10 +170,10 @@ fn memory_of_another_size_is_refused() -> Result<(), Error> {
 #[test]
 fn limits_and_deadlines_end_it_and_it_can_be_carried_on() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
-    let mut store = Store::new(&foundation)?;
-    let mut tick = store.tick(&foundation)?;
-    let mut running = tick.begin(data(&foundation)?)?;
-    let limits = Limits { share: 0.0, error: 0.0, sweeps: 3 };
+    let mut store = arrays(&foundation)?;
+    let mut tick = cold(&mut store, &foundation)?;
+    let mut running = tick.begin(foundation.data()?)?;
+    let limits = exactly(3);
     let first = running.advance(CertifiedSweeps(Libm), limits, &mut Deadline::never())?;
     assert_eq!((first.ended, first.sweeps), (Ended::OutOfSweeps, 3));
     let second = running.advance(CertifiedSweeps(Libm), limits, &mut Deadline::never())?;
@@ -198,13 +203,13 @@ fn limits_and_deadlines_end_it_and_it_can_be_carried_on() -> Result<(), Error> {
 #[test]
 fn a_certificate_waits_until_the_sweeps_have_had_as_long() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
-    let mut store = Store::new(&foundation)?;
-    let mut tick = store.tick(&foundation)?;
+    let mut store = arrays(&foundation)?;
+    let mut tick = cold(&mut store, &foundation)?;
     // The first one is good enough, whatever it says.
     let limits = Limits { share: f64::MAX, ..Limits::default() };
     for (sweep, certificate, sweeps) in [(0, 0, 4), (10, 25, 4), (10, 125, 12)] {
         let mut deadline = Deadline { remaining: || u32::MAX, sweep, certificate };
-        let report = tick.begin(data(&foundation)?)?.advance(
+        let report = tick.begin(foundation.data()?)?.advance(
             CertifiedSweeps(Libm),
             limits,
             &mut deadline,
@@ -217,23 +222,20 @@ fn a_certificate_waits_until_the_sweeps_have_had_as_long() -> Result<(), Error> 
 #[test]
 fn without_a_certificate_the_iterate_is_the_same_and_tau_is_the_flux_of_it() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
-    let (mut with, mut without) = (Store::new(&foundation)?, Store::new(&foundation)?);
-    let (mut with, mut without) = (with.tick(&foundation)?, without.tick(&foundation)?);
+    let (mut with, mut without) = (arrays(&foundation)?, arrays(&foundation)?);
+    let (mut with, mut without) = (cold(&mut with, &foundation)?, cold(&mut without, &foundation)?);
     let discretization = foundation.discretization()?;
     for sweeps in [13, 4] {
-        let limits = Limits { share: 0.0, error: 0.0, sweeps };
-        let never = &mut Deadline::never();
-        let certified =
-            with.begin(data(&foundation)?)?.advance(CertifiedSweeps(Libm), limits, never)?;
-        let mut running = without.begin(data(&foundation)?)?;
-        let found = running.advance(UncertifiedSweeps(Libm), limits, never)?;
+        let limits = exactly(sweeps);
+        let certified = certified(&mut with, foundation.data()?, limits)?;
+        let found = uncertified(&mut without, foundation.data()?, limits)?;
         assert_eq!((found.ended, found.sweeps), (Ended::OutOfSweeps, sweeps));
         assert_eq!(
             (found.verdict, found.figures.residual),
             (Verdict::NotAsked, certified.figures.residual)
         );
         assert_eq!(without.u(), with.u());
-        let (loads, mut flux) = (data(&foundation)?.given.loads, vec![0.0; with.u().len()]);
+        let (loads, mut flux) = (foundation.data()?.given.loads, vec![0.0; with.u().len()]);
         flux::recover(
             &discretization.edges,
             discretization.stiffness,
@@ -251,9 +253,9 @@ fn without_a_certificate_the_iterate_is_the_same_and_tau_is_the_flux_of_it() -> 
 #[test]
 fn without_a_certificate_a_tick_ends_at_rounding_or_out_of_time() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
-    let mut store = Store::new(&foundation)?;
-    let mut tick = store.tick(&foundation)?;
-    let mut running = tick.begin(data(&foundation)?)?;
+    let mut store = arrays(&foundation)?;
+    let mut tick = cold(&mut store, &foundation)?;
+    let mut running = tick.begin(foundation.data()?)?;
     let left = Cell::new(100_u32);
     let remaining = || left.replace(left.get() - 10);
     let mut deadline = Deadline { remaining, sweep: 10, certificate: 25 };
@@ -290,17 +292,14 @@ fn forces_keep_their_sign_wherever_a_tick_is_stopped() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
     let edges = foundation.plate.edges()?;
     let counts = edges.counts();
-    let never = &mut Deadline::never();
     let mut pulled = 0;
     for sweeps in 0..40 {
-        let limits = Limits { sweeps, share: 0.0, error: 0.0 };
-        let (mut bounded, mut unbounded) = (Store::new(&foundation)?, Store::new(&foundation)?);
-        let mut tick = bounded.tick(&foundation)?;
-        let certified =
-            tick.begin(data(&foundation)?)?.advance(CertifiedSweeps(Libm), limits, never)?;
-        let mut tick = unbounded.tick(&foundation)?;
-        let plain =
-            tick.begin(data(&foundation)?)?.advance(UncertifiedSweeps(Libm), limits, never)?;
+        let limits = exactly(sweeps);
+        let (mut bounded, mut unbounded) = (arrays(&foundation)?, arrays(&foundation)?);
+        let mut tick = cold(&mut bounded, &foundation)?;
+        let certified = certified(&mut tick, foundation.data()?, limits)?;
+        let mut tick = cold(&mut unbounded, &foundation)?;
+        let plain = uncertified(&mut tick, foundation.data()?, limits)?;
         let loads = foundation.given()?.loads;
         let mut flux = vec![0.0; counts.edges()];
         flux::recover(&edges, foundation.stiffness(), loads, tick.u(), &[], &mut flux)?;
@@ -323,21 +322,12 @@ fn forces_keep_their_sign_wherever_a_tick_is_stopped() -> Result<(), Error> {
 #[test]
 fn edges_in_contact_follow_the_gap() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
-    let mut store = Store::new(&foundation)?;
-    let mut tick = store.tick(&foundation)?;
-    let before = tick.begin(data(&foundation)?)?.advance(
-        CertifiedSweeps(Libm),
-        Limits::default(),
-        &mut Deadline::never(),
-    )?;
+    let mut store = arrays(&foundation)?;
+    let mut tick = cold(&mut store, &foundation)?;
+    let before = certified(&mut tick, foundation.data()?, Limits::default())?;
     // The gap falls: what was in contact stays, though nothing but the bound pushes it down.
-    let counts = foundation.plate.edges()?.counts();
-    let (gap, lower) = (vec![[GAP - 0.01; 2]; counts.contact], vec![GAP - 0.01; counts.contact]);
-    let data = data(&foundation)?;
-    let ends = VertexData { gap: &gap, ..data.given.ends };
-    let data = Data { given: LoadCase { ends, ..data.given }, law: Law::above(&lower), ..data };
-    let none = Limits { sweeps: 0, share: 0.0, error: 0.0 };
-    let after = tick.begin(data)?.advance(CertifiedSweeps(Libm), none, &mut Deadline::never())?;
+    let gap = Gap::at(GAP - 0.01, &foundation);
+    let after = certified(&mut tick, gap.data(&foundation)?, exactly(0))?;
     assert_eq!((after.active, after.figures.changes, after.sweeps), (before.active, 0, 0));
     Ok(())
 }
@@ -348,19 +338,14 @@ fn after_an_overflow_a_tick_starts_on_the_gap() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
     let counts = foundation.plate.edges()?.counts();
     let contact = counts.free..counts.unknowns();
-    let mut store = Store::new(&foundation)?;
+    let mut store = arrays(&foundation)?;
     store.numbers[4][..counts.unknowns()].fill(f64::INFINITY);
     store.active.fill(false);
-    let mut rows = OwnedRows::<f64, u16, QUADS, UNKNOWNS>::new();
+    let mut rows = Own::<UNKNOWNS>::new();
     let progress = Progress::new(Relaxation::Adaptive(1.0))?;
-    let mut tick = store.resumed(&foundation, &mut rows, progress)?;
+    let mut tick = resumed(&mut store, &foundation, &mut rows, progress)?;
     // A gap above 0, where everything else starts.
-    let (gap, lower) = (vec![[2.0; 2]; counts.contact], vec![2.0; counts.contact]);
-    let good = data(&foundation)?;
-    let ends = VertexData { gap: &gap, ..good.given.ends };
-    let raised = Data { given: LoadCase { ends, ..good.given }, law: Law::above(&lower), ..good };
-    let none = Limits { sweeps: 0, share: 0.0, error: 0.0 };
-    tick.begin(raised)?.advance(CertifiedSweeps(Libm), none, &mut Deadline::never())?;
+    certified(&mut tick, Gap::at(2.0, &foundation).data(&foundation)?, exactly(0))?;
     assert!(tick.u()[contact].iter().all(|&u| u == 2.0), "{:?}", tick.u());
     Ok(())
 }
@@ -369,22 +354,15 @@ fn after_an_overflow_a_tick_starts_on_the_gap() -> Result<(), Error> {
 #[test]
 fn fluxes_that_overflow_are_said_to() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
-    let counts = foundation.plate.edges()?.counts();
     let given = foundation.stiffness();
     let heavy = |entry: &f64| entry * 1e60;
     let triangles: Vec<_> = given.triangles.iter().map(|k| k.map(|k| heavy(&k))).collect();
     let quads: Vec<_> = given.quads.iter().map(|k| k.map(|k| heavy(&k))).collect();
     let stiffness = Stiffness { triangles: &triangles, quads: &quads };
-    let mut store = Store::new(&foundation)?;
-    let mut tick = store.on(Discretization { stiffness, ..foundation.discretization()? })?;
-    let high = f64::MAX / 1e33;
-    let (gap, lower) = (vec![[high; 2]; counts.contact], vec![high; counts.contact]);
-    let good = data(&foundation)?;
-    let ends = VertexData { gap: &gap, ..good.given.ends };
-    let data = Data { given: LoadCase { ends, ..good.given }, law: Law::above(&lower), ..good };
-    let none = Limits { sweeps: 0, share: 0.0, error: 0.0 };
-    let report =
-        tick.begin(data)?.advance(UncertifiedSweeps(Libm), none, &mut Deadline::never())?;
+    let mut store = arrays(&foundation)?;
+    let mut tick = on(&mut store, Discretization { stiffness, ..foundation.discretization()? })?;
+    let gap = Gap::at(f64::MAX / 1e33, &foundation);
+    let report = uncertified(&mut tick, gap.data(&foundation)?, exactly(0))?;
     assert!(
         tick.u().iter().all(|u| u.is_finite()) && report.figures.residual.is_finite(),
         "{report:?}"
@@ -395,7 +373,7 @@ fn fluxes_that_overflow_are_said_to() -> Result<(), Error> {
 
 /// Whether `begin` takes data with ψ, u_D or f multiplied.
 fn takes(
-    tick: &mut Tick<f64, u16, QUADS>,
+    tick: &mut PlateTick,
     foundation: &Foundation,
     [gap, given, source]: [f64; 3],
 ) -> Result<bool, Error> {
@@ -403,7 +381,7 @@ fn takes(
     let (lower, dirichlet) = (times(&foundation.lower, gap), times(&foundation.dirichlet, given));
     let (triangles, quads) =
         (times(&foundation.loads.0, source), times(&foundation.loads.1, source));
-    let good = data(foundation)?;
+    let good = foundation.data()?;
     let loads = CellLoads { triangles: &triangles, quads: &quads };
     let given = LoadCase { loads, ..good.given };
     match tick.begin(Data { given, law: Law::above(&lower), dirichlet: &dirichlet }) {
@@ -420,10 +398,10 @@ fn takes(
 #[test]
 fn data_too_large_for_an_answer_are_refused_and_change_no_bit() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
-    let mut stores = [Store::new(&foundation)?, Store::new(&foundation)?];
+    let mut stores = [arrays(&foundation)?, arrays(&foundation)?];
     let [one, other] = &mut stores;
-    let (mut plain, mut tried) = (one.tick(&foundation)?, other.tick(&foundation)?);
-    let bits = |tick: &Tick<f64, u16, QUADS>| {
+    let (mut plain, mut tried) = (cold(one, &foundation)?, cold(other, &foundation)?);
+    let bits = |tick: &PlateTick| {
         let arrays = [tick.u(), tick.tau(), tick.vertices(), tick.bubbles()];
         let bits = arrays.map(|array| array.iter().map(|x| x.to_bits()).collect::<Vec<_>>());
         (bits, tick.report().copied())
@@ -447,12 +425,12 @@ fn data_too_large_for_an_answer_are_refused_and_change_no_bit() -> Result<(), Er
 #[test]
 fn after_extreme_ticks_an_ordinary_one_is_right() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
-    let (mut cold, mut warm) = (Store::new(&foundation)?, Store::new(&foundation)?);
-    let mut cold = cold.tick(&foundation)?;
-    assert!(takes(&mut cold, &foundation, [1.0; 3])?);
-    let expected = cold.report().and_then(|report| report.verdict.certificate()).copied();
+    let (mut first, mut second) = (arrays(&foundation)?, arrays(&foundation)?);
+    let mut only = cold(&mut first, &foundation)?;
+    assert!(takes(&mut only, &foundation, [1.0; 3])?);
+    let expected = only.report().and_then(|report| report.verdict.certificate()).copied();
     let expected = expected.expect("a bound").total;
-    let mut warm = warm.tick(&foundation)?;
+    let mut warm = cold(&mut second, &foundation)?;
     let mut refused = 0;
     for decade in (0..=308).step_by(4) {
         let size = 10f64.powi(decade);
@@ -473,15 +451,11 @@ fn after_extreme_ticks_an_ordinary_one_is_right() -> Result<(), Error> {
 #[test]
 fn data_that_are_not_finite_change_nothing() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
-    let mut store = Store::new(&foundation)?;
-    let mut tick = store.tick(&foundation)?;
-    let good = tick.begin(data(&foundation)?)?.advance(
-        CertifiedSweeps(Libm),
-        Limits::default(),
-        &mut Deadline::never(),
-    )?;
+    let mut store = arrays(&foundation)?;
+    let mut tick = cold(&mut store, &foundation)?;
+    let good = certified(&mut tick, foundation.data()?, Limits::default())?;
     let u = tick.u().to_vec();
-    let good_data = data(&foundation)?;
+    let good_data = foundation.data()?;
     for poison in [f64::NAN, f64::INFINITY] {
         let lower = vec![poison; foundation.lower.len()];
         let dirichlet = vec![poison; foundation.dirichlet.len()];

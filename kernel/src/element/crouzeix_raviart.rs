@@ -8,9 +8,8 @@
 
 use nalgebra::Vector2;
 
-use crate::Tensor;
 use crate::mesh::geometry::{doubled_area, scaled_normal};
-use crate::real::Real;
+use crate::{Real, Tensor};
 
 /// K_T without its diagonal, \[01, 12, 20\]; `a` is the mean of A over the triangle.
 pub fn stiffness<R: Real>([a, b, c]: [[R; 2]; 3], mean: Tensor<R>) -> [R; 3] {

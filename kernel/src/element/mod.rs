@@ -15,9 +15,8 @@ pub mod rannacher_turek;
 
 use nalgebra::Vector2;
 
-use crate::Tensor;
 use crate::index::read;
-use crate::real::Real;
+use crate::{Real, Tensor};
 use rannacher_turek::MappedPoint;
 
 /// Which functions u_h is made of on quads. On parallelograms they are the same.

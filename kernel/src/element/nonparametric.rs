@@ -32,9 +32,8 @@ use nalgebra::Vector2;
 
 use super::above_diagonal;
 use super::rannacher_turek::{MappedPoint, place};
-use crate::Tensor;
 use crate::mesh::geometry::scaled_normal;
-use crate::real::Real;
+use crate::{Real, Tensor};
 
 /// The affine coordinates of one quad.
 #[derive(Debug, Clone, Copy)]

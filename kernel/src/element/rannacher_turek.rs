@@ -16,9 +16,8 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::above_diagonal;
-use crate::Tensor;
 use crate::mesh::geometry::scaled_normal;
-use crate::real::Real;
+use crate::{Real, Tensor};
 
 /// The bilinear map at one reference point.
 #[derive(Debug, Clone, Copy)]

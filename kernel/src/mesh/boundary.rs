@@ -12,11 +12,10 @@
 //! [`crate::mesh::diagonal`] has what it adds to the matrix.
 
 use crate::error::{Array, Error, all_finite, known, same_length};
-use crate::features;
 use crate::flux_range::{FluxRange, Spans};
 use crate::index::{Index, read};
 use crate::mesh::edges::Edges;
-use crate::real::Real;
+use crate::{Real, features};
 
 /// A given flux on a free boundary edge. An edge without a record has flux 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -38,8 +37,8 @@ pub struct Robin<R, I> {
     pub ambient: R,
 }
 
-/// The conditions on all boundary edges (borrowed, validated).
-#[derive(Debug, Clone, Copy)]
+/// The conditions on all boundary edges (borrowed, validated); by default there are no records, and q = 0.
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Boundary<'a, R, I> {
     neumann: &'a [Neumann<R, I>],
     robin: &'a [Robin<R, I>],

@@ -8,12 +8,12 @@
 //! Where the fluxes of a part's contact edges have two ends, those of all of them together must be able to balance the loads:
 //! the sum of b at one end < 0 < that at the other.
 
+use crate::Real;
 use crate::error::{Array, Error, same_length};
 use crate::flux_range::Spans;
 use crate::index::{Index, read};
 use crate::mesh::diagonal::DiagonalTerms;
 use crate::mesh::edges::{Block, Edges};
-use crate::real::Real;
 
 /// Support of a connected part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]

@@ -8,10 +8,9 @@
 //! Assembly, defects, shifts and the check for solutions ask here and know no condition by its name: another term on the
 //! diagonal, that of a reaction say, is a field here and an argument where [`DiagonalTerms::new`] is called.
 
-use crate::features;
 use crate::index::{Index, read};
 use crate::mesh::boundary::{Boundary, Robin};
-use crate::real::Real;
+use crate::{Real, features};
 
 /// All c_i that are not 0 (borrowed), in the unit of K: none is negative.
 #[derive(Debug, Clone, Copy)]

@@ -13,12 +13,9 @@
 //! and u_D simply stands in u behind the unknowns.
 
 use crate::error::{Array, Error, known, same_length};
-use crate::features;
 use crate::index::{Index, read};
-use crate::math::Math;
-use crate::mesh::Mesh;
 use crate::mesh::geometry::scaled_normal;
-use crate::real::Real;
+use crate::{Math, Mesh, Real, features};
 
 /// Where an edge stands in the order of the unknowns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

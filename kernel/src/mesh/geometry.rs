@@ -2,9 +2,9 @@
 
 use nalgebra::Vector2;
 
+use crate::Real;
 use crate::error::{CellId, Error};
 use crate::index::read;
-use crate::real::Real;
 
 /// |E| n: the side from `a` to `b` turned clockwise, outward where the cell runs counterclockwise.
 pub fn scaled_normal<R: Real>(a: [R; 2], b: [R; 2]) -> Vector2<R> {

@@ -6,9 +6,8 @@
 
 use crate::error::{Array, Error};
 use crate::index::{Index, read};
-use crate::mesh::Mesh;
 use crate::mesh::edges::{Block, EdgeCounts, Edges, endpoints};
-use crate::real::Real;
+use crate::{Mesh, Real};
 
 /// Memory for numbering the edges of a mesh.
 #[derive(Debug)]

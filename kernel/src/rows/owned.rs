@@ -1,10 +1,8 @@
 //! Rows that own their memory and know whether it is laid out: symbolic once, numeric every tick.
 
 use super::{Row, Rows};
-use crate::error::Error;
-use crate::index::Index;
 use crate::mesh::edges::{EdgeCounts, Edges};
-use crate::real::Real;
+use crate::{Error, Index, Real};
 
 /// Memory that becomes the rows of a mesh.
 pub trait LayOut<R, I, const WIDTH: usize> {

@@ -8,7 +8,6 @@
 //! ```
 
 use signorini_kernel::assembly::{self, CellLoads};
-use signorini_kernel::conjugate::ConjugateBuffers;
 use signorini_kernel::csr::Csr;
 use signorini_kernel::flux_range::Spans;
 use signorini_kernel::law::Law;
@@ -18,7 +17,7 @@ use signorini_kernel::mesh::components::{self, Part};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{Block, Edges};
 use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
-use signorini_kernel::refinement::{self, RefinementBuffers};
+use signorini_kernel::refinement;
 use signorini_kernel::rows::{QUADS, Row, Rows};
 use signorini_kernel::solver::Settings;
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
@@ -94,23 +93,15 @@ fn solve<R: Real, I: Index>(
     let system = System::new(matrix, &load, Law::above(&gap), edges.counts())?;
     let (mut u, mut low) = ([R::ZERO; EDGES], [R::ZERO; EDGES]);
     let mut rows = [Row::<R, I, QUADS>::EMPTY; UNKNOWNS];
-    let buffers = RefinementBuffers {
-        rows: Rows::new(edges, &mut rows)?,
-        low: &mut low,
-        defect: &mut [R::ZERO; UNKNOWNS],
-        lower: &mut [R::ZERO; CONTACT],
-        conjugate: ConjugateBuffers {
-            direction: &mut [R::ZERO; EDGES],
-            residual: &mut [R::ZERO; UNKNOWNS],
-        },
-    };
+    let scratch = &mut [R::ZERO; EDGES + 2 * UNKNOWNS + CONTACT];
     refinement::run::<R, I, Libm, QUADS>(
         &system,
         diagonal,
         Settings::default(),
         1,
-        &mut u,
-        buffers,
+        [&mut u, &mut low],
+        Rows::new(edges, &mut rows)?,
+        scratch,
     )?;
     Ok([u, low])
 }

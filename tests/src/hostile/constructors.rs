@@ -10,13 +10,13 @@ use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
-use signorini_kernel::prolongation::{Origin, prolong};
 use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::rows::{Row, Rows};
 use signorini_kernel::solver::{Settings, Status};
 use signorini_kernel::stiffness::Coefficient;
 use signorini_kernel::system::System;
 use signorini_kernel::{Error, Libm, Tensor};
+use signorini_solve::prolongation::{Origin, prolong};
 
 use super::bytes::{Bits, Bytes};
 use super::plate::{NONE, Plate};

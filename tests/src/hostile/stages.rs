@@ -1,7 +1,6 @@
 //! The kernel's stages one after the other, on any numbering: matrix, solver, rows, flux, certificate.
 
 use signorini_kernel::assembly::{self, CellLoads};
-use signorini_kernel::conjugate::ConjugateBuffers;
 use signorini_kernel::csr::Csr;
 use signorini_kernel::flux_range::Spans;
 use signorini_kernel::law::Law;
@@ -9,7 +8,7 @@ use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::components::{Part, examine};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
-use signorini_kernel::refinement::{self, RefinementBuffers};
+use signorini_kernel::refinement;
 use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::rows::{QUADS, Row, Rows};
 use signorini_kernel::solver::{Outcome, Settings, Status};
@@ -121,21 +120,13 @@ pub fn iterated<R: Bits, const WIDTH: usize>(
     let counts = system.counts();
     let shifts = Shifts { part: &[], parts: bytes.below(3), diagonal };
     let system = if bytes.flag() { system.with_shifts(shifts)? } else { *system };
-    let zeros = |length| vec![R::ZERO; length];
-    let buffers = RefinementBuffers {
-        rows,
-        low: &mut zeros(counts.edges()),
-        defect: &mut zeros(counts.unknowns()),
-        lower: &mut zeros(counts.contact),
-        conjugate: ConjugateBuffers {
-            direction: &mut zeros(counts.edges()),
-            residual: &mut zeros(counts.unknowns()),
-        },
-    };
+    let low = &mut vec![R::ZERO; counts.edges()];
+    let scratch = &mut vec![R::ZERO; refinement::scratch(counts)];
     let mut u = bytes.reals(counts.edges());
     let (settings, rounds) = (settings(bytes), bytes.below(4) as u32);
+    let both = [&mut u[..], low];
     let outcome = refinement::run::<R, u16, Libm, WIDTH>(
-        &system, diagonal, settings, rounds, &mut u, buffers,
+        &system, diagonal, settings, rounds, both, rows, scratch,
     )?;
     sound(&outcome, counts, system.law(), &u);
     Ok(u)

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use signorini_contact::dense::blocks::{Block, padded};
 use signorini_contact::dense::tableau::InitialTableau;
-use signorini_device::sparse::direct::normalise;
+use signorini_device::sparse::factor::normalise;
 use signorini_device::sparse::{self, Factor};
 use signorini_kernel::Index;
 

@@ -5,11 +5,11 @@
 //! that distance from 2 to begin its search with. All grids are solved to the same residual; all of them
 //! and the prolongations are counted, the search for the coarse cells is not: it belongs to the meshes.
 
-use signorini_kernel::prolongation::{Origin, prolong};
 use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::rows::{Row, Rows, TRIANGLES};
 use signorini_kernel::system::System;
 use signorini_kernel::{Error as KernelError, Real};
+use signorini_solve::prolongation::{Origin, prolong};
 
 use super::failed;
 use super::full::Full;

@@ -63,9 +63,7 @@ fn judged(
 ) -> Result<std::result::Result<Firmware, String>> {
     match found {
         Ok(firmware) => firmware.verdict().map(|()| Ok(firmware)).map_err(Error::Check),
-        Err(why @ (NoResult::NoRoom { .. } | NoResult::BeyondCounter)) => {
-            Ok(Err(why.to_string()))
-        }
+        Err(why @ (NoResult::NoRoom { .. } | NoResult::BeyondCounter)) => Ok(Err(why.to_string())),
         Err(why) => Err(Error::Check(why.to_string())),
     }
 }

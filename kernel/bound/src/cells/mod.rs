@@ -19,9 +19,8 @@ mod pack;
 pub use pack::{CellBuffers, pack};
 
 use crate::forest::Forest;
-use signorini_kernel::Real;
 use signorini_kernel::error::{Array, Error, same_length};
-use signorini_kernel::index::Index;
+use signorini_kernel::{Index, Real};
 
 /// One packed cell, as [`pack`] fills it in and `signorini bake` writes it down.
 #[derive(Debug, Clone, Copy)]

@@ -2,13 +2,12 @@
 
 use super::{Cell, Cells, Quad, Triangle};
 use crate::forest::Forest;
-use signorini_kernel::Real;
 use signorini_kernel::element::entry;
 use signorini_kernel::error::{Array, Error, same_length, same_length_or_empty};
 use signorini_kernel::index::{Index, read, write};
-use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::stiffness::Stiffness;
+use signorini_kernel::{Mesh, Real};
 
 /// Memory for [`pack`].
 #[derive(Debug)]

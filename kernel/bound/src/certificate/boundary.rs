@@ -4,13 +4,12 @@ use super::extension::{Curved, extension, is_clear, jump, of_means, of_s};
 use super::parts::Parts;
 use super::{Continuous, Discretization, LoadCase};
 use crate::equilibrium::Iterate;
-use signorini_kernel::Real;
 use signorini_kernel::excess::Excess;
-use signorini_kernel::features;
 use signorini_kernel::flux_range::FluxRange;
 use signorini_kernel::index::{Index, read};
 use signorini_kernel::law::Law;
 use signorini_kernel::mesh::edges::Side;
+use signorini_kernel::{Real, features};
 
 /// Adds it all to the sums and to the indicators of the cells.
 #[inline(always)]

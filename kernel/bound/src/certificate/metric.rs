@@ -8,11 +8,9 @@
 //! Where A is constant and F affine, so is B, and the element matrix tells it. Elsewhere B is stored at
 //! the points of an 8×8 Gauss rule, which triangles take through the collapsed square.
 
-use signorini_kernel::Real;
-use signorini_kernel::Tensor;
 use signorini_kernel::element::rannacher_turek::MappedPoint;
-use signorini_kernel::features;
 use signorini_kernel::mesh::geometry::doubled_area;
+use signorini_kernel::{Real, Tensor, features};
 
 /// Gauss points a direction where B varies.
 pub const POINTS: usize = 8;

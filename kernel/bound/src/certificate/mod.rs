@@ -45,7 +45,6 @@ mod metric;
 mod parts;
 mod quad;
 mod stability;
-mod sum;
 mod triangle;
 mod walk;
 
@@ -58,14 +57,13 @@ use crate::averages;
 use crate::cells::Cells;
 use crate::conforming::{self, VertexData};
 use crate::equilibrium::{self, Iterate};
-use signorini_kernel::Real;
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::error::{Array, Error, same_length, same_length_or_empty};
 use signorini_kernel::index::{Index, read};
-use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::stiffness::Stiffness;
+use signorini_kernel::{Mesh, Real};
 
 /// Cost of surplus in the cells. With w_T = ‖A^{−½}·‖ of the flux that brings 1 from cell T along the forest to its
 /// root, surplus ρ_T in every cell takes Σ w_T |ρ_T| at most: no more than either of
@@ -105,7 +103,7 @@ pub struct Discretization<'a, R, I> {
 }
 
 /// Loads and boundary data of one tick (borrowed).
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct LoadCase<'a, R, I> {
     /// ∫_T f of every cell.
     pub loads: CellLoads<'a, R>,

@@ -1,6 +1,5 @@
 //! The sums over the mesh that a certificate is drawn from.
 
-use super::sum::Sum;
 use super::{Certificate, Stability, Verdict};
 use signorini_kernel::Real;
 
@@ -19,6 +18,27 @@ pub(super) struct CellTerms<R> {
     pub uncertainty_of_u: R,
     /// (∫f)² + Στ², the terms of the balance.
     pub terms: R,
+}
+
+/// A sum whose rounding error does not grow with its length (Kahan): the sum so far, and what its last digit could not hold.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Sum<R> {
+    sum: R,
+    lost: R,
+}
+
+impl<R: Real> Sum<R> {
+    #[inline(always)]
+    pub fn add(&mut self, term: R) {
+        let next = term - self.lost;
+        let sum = self.sum + next;
+        self.lost = (sum - self.sum) - next;
+        self.sum = sum;
+    }
+
+    pub fn value(&self) -> R {
+        self.sum
+    }
 }
 
 /// Sums over the mesh.

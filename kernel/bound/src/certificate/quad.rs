@@ -11,11 +11,9 @@
 use super::metric::{POINTS, inverse_form, of_parallelogram};
 use super::parts::CellTerms;
 use crate::cells::Quad;
-use signorini_kernel::Real;
-use signorini_kernel::Tensor;
 use signorini_kernel::element::nonparametric;
 use signorini_kernel::element::rannacher_turek::product;
-use signorini_kernel::index::Index;
+use signorini_kernel::{Index, Real, Tensor};
 
 /// s on a quad: values at the vertices, bubbles of the sides.
 #[derive(Debug, Clone, Copy)]

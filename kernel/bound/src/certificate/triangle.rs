@@ -11,10 +11,8 @@
 use super::metric::{POINTS, inverse_form};
 use super::parts::CellTerms;
 use crate::cells::Triangle;
-use signorini_kernel::Real;
-use signorini_kernel::Tensor;
 use signorini_kernel::element::crouzeix_raviart::product;
-use signorini_kernel::index::Index;
+use signorini_kernel::{Index, Real, Tensor};
 
 /// `s`: values at the vertices; `tau`: outward fluxes through the sides; `u`: means over the sides.
 #[inline(always)]

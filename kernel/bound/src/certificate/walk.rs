@@ -4,9 +4,8 @@ use super::parts::{CellTerms, Parts};
 use super::quad::{self, Means, Values};
 use super::{Continuous, Discretization, LoadCase, Metric, triangle};
 use crate::cells::{Either, Quad, Triangle, pick};
-use signorini_kernel::Real;
-use signorini_kernel::features;
 use signorini_kernel::index::{Index, read, write};
+use signorini_kernel::{Real, features};
 
 /// The walk over the cells from the leaves: balances each and takes its share.
 #[inline(always)]

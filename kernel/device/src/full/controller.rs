@@ -10,16 +10,14 @@ use core::marker::PhantomData;
 use super::{Full, Lengths, Memory, Storage, Units};
 use crate::controller::{self, Answer, Outputs, Reading};
 use crate::sparse::{self, Exact, Factored};
-use crate::tick::{CertifiedSweeps, Report, Substitutions, Sweeping, UncertifiedSweeps};
+use crate::tick::{Report, Substitutions, Sweeping};
 use signorini_bound::certificate::Curved;
 use signorini_contact::dense::blocks::Block;
-use signorini_kernel::Index;
-use signorini_kernel::Math;
-use signorini_kernel::Real;
 use signorini_kernel::error::{Array, Error};
 use signorini_kernel::limits::{Deadline, Limits};
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::rows::LayOut;
+use signorini_kernel::{Index, Real};
 
 /// What a controller needs beside its scene (borrowed).
 #[derive(Debug, Clone, Copy)]
@@ -59,21 +57,7 @@ pub trait Solver<R: Real, I: Index> {
     ) -> Result<Report<R>, Error>;
 }
 
-impl<R: Real, I: Index, M: Math<R> + Copy> Solver<R, I> for CertifiedSweeps<M> {
-    #[inline(always)]
-    fn tick<F: FnMut() -> u32, const WIDTH: usize>(
-        &mut self,
-        full: &Full<R, I>,
-        Task { inputs, limits, .. }: Task<R, I>,
-        deadline: &mut Deadline<F>,
-        memory: Memory<R, I, WIDTH>,
-        outputs: &mut [R],
-    ) -> Result<Report<R>, Error> {
-        full.tick(inputs, *self, limits, deadline, memory, outputs)
-    }
-}
-
-impl<R: Real, I: Index, M: Math<R> + Copy> Solver<R, I> for UncertifiedSweeps<M> {
+impl<R: Real, I: Index, S: Sweeping<R, I> + Copy> Solver<R, I> for S {
     #[inline(always)]
     fn tick<F: FnMut() -> u32, const WIDTH: usize>(
         &mut self,

@@ -5,18 +5,16 @@ use super::pattern::{DataMemory, Pattern};
 use crate::tick::Data;
 use signorini_bound::certificate::{Curved, LoadCase};
 use signorini_bound::conforming::VertexData;
-use signorini_kernel::Real;
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::error::{Array, Error, same_length_or_empty};
-use signorini_kernel::features;
 use signorini_kernel::flux_range::Spans;
-use signorini_kernel::index::Index;
 use signorini_kernel::law::Law;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::mesh::edges::Edges;
+use signorini_kernel::{Index, Real, features};
 
 /// The data where all inputs are 0 (borrowed), as [`Data`] takes them.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Base<'a, R, I> {
     /// ∫f of the cells.
     pub loads: CellLoads<'a, R>,

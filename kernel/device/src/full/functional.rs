@@ -2,10 +2,9 @@
 
 use super::pattern::Contribution;
 use crate::tick::{Data, Report, Tick};
-use signorini_kernel::Real;
-use signorini_kernel::features;
 use signorini_kernel::index::{Index, read};
 use signorini_kernel::mesh::edges::EdgeCounts;
+use signorini_kernel::{Real, features};
 
 /// What an output measures (borrowed).
 #[derive(Debug, Clone, Copy, PartialEq)]

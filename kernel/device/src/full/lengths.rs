@@ -3,10 +3,9 @@
 use super::{Full, Pattern};
 use crate::tick::Progress;
 use signorini_bound::certificate::Curved;
-use signorini_kernel::Real;
-use signorini_kernel::index::Index;
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::rows::Row;
+use signorini_kernel::{Index, Real};
 
 /// Every array of numbers, in their order in memory: `T` is its length, or the array.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -83,25 +82,10 @@ impl<T> Numbers<T> {
 impl Numbers<usize> {
     /// Total number of entries.
     pub const fn sum(&self) -> usize {
-        let Self {
-            load,
-            u,
-            tau,
-            vertices,
-            bubbles,
-            triangles,
-            quads,
-            contact_flux,
-            gap,
-            gap_ends,
-            dirichlet,
-            dirichlet_ends,
-            transfer,
-            spans,
-        } = *self;
-        let of_tick = load + u + tau + vertices + bubbles;
-        let of_data = triangles + quads + contact_flux + gap + gap_ends;
-        of_tick + of_data + dirichlet + dirichlet_ends + transfer + spans
+        let of_tick = self.load + self.u + self.tau + self.vertices + self.bubbles;
+        let of_cells = self.triangles + self.quads;
+        let of_contact = self.contact_flux + self.gap + self.gap_ends + self.spans;
+        of_tick + of_cells + of_contact + self.dirichlet + self.dirichlet_ends + self.transfer
     }
 }
 

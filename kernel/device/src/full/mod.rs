@@ -34,12 +34,11 @@ use crate::tick::{self, Deadline, Ended, Limits, Method, Progress, Report, Tick}
 use functional::TickState;
 use signorini_bound::certificate::{Discretization, Verdict};
 use signorini_bound::conforming::VertexData;
-use signorini_kernel::Real;
 use signorini_kernel::error::{Array, Error, all_finite, same_length};
-use signorini_kernel::features;
 use signorini_kernel::index::{Index, read};
 use signorini_kernel::law::Law;
 use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::{Real, features};
 
 /// A baked scene (borrowed).
 #[derive(Debug, Clone, Copy)]

@@ -1,10 +1,8 @@
 //! What one input adds to the data for each unit of its value, and the memory that it is added in.
 
 use signorini_bound::certificate::Curved;
-use signorini_kernel::Real;
-use signorini_kernel::features;
-use signorini_kernel::index::Index;
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
+use signorini_kernel::{Index, Real, features};
 
 /// An integral or mean at one place of an array.
 #[derive(Debug, Clone, Copy, PartialEq)]

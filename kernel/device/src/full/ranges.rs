@@ -4,10 +4,9 @@
 //! the inputs. Below 0 it leaves no flux. What rounding may leave there is 0: two ends that are equal for these inputs.
 
 use super::pattern::Pattern;
-use signorini_kernel::Real;
 use signorini_kernel::error::{Array, Error};
 use signorini_kernel::flux_range::settled;
-use signorini_kernel::index::Index;
+use signorini_kernel::{Index, Real};
 
 /// Refuses inputs that leave a contact edge no flux, and takes 0 for what rounding brings below it ([`settled`]). `first`
 /// holds the spans without inputs.
@@ -51,8 +50,6 @@ mod tests {
     use super::*;
     use crate::full::data::Base;
     use crate::full::pattern::{Contribution, DataMemory};
-    use signorini_bound::conforming::VertexData;
-    use signorini_kernel::assembly::CellLoads;
     use signorini_kernel::flux_range::Spans;
 
     const SUPPLY: [Contribution<f64, u16>; 2] =
@@ -70,19 +67,8 @@ mod tests {
     /// Bases and spans for these inputs: lo = 0 and hi = 1 at first on the first edge, lo = hi = 0.1 on the second.
     fn at(inputs: [f64; 2]) -> Result<([f64; 4], [f64; 4]), Error> {
         let bases = [0.0, 0.1, 2.0, 2.0];
-        let base = Base {
-            loads: CellLoads { triangles: &[], quads: &[] },
-            neumann: &[],
-            robin: &[],
-            spans: Spans::baked(&FIRST, 0.0),
-            contact_flux: &bases,
-            gap: &[],
-            dirichlet: &[],
-            ends: VertexData { gap: &[], given: &[] },
-            curved: &[],
-            curved_sums: &[],
-            transfer: &[],
-        };
+        let spans = Spans::baked(&FIRST, 0.0);
+        let base = Base { spans, contact_flux: &bases, ..Base::default() };
         let (mut contact_flux, mut spans) = ([7.0; 4], [7.0; 4]);
         let mut data = DataMemory {
             contact_flux: &mut contact_flux,

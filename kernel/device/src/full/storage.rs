@@ -3,11 +3,10 @@
 use super::{DataMemory, Full, Lengths, Memory, Numbers};
 use crate::tick::{self, Progress};
 use signorini_bound::certificate::Curved;
-use signorini_kernel::Real;
 use signorini_kernel::error::{Array, Error, same_length};
-use signorini_kernel::index::Index;
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::rows::{LayOut, OwnedRows};
+use signorini_kernel::{Index, Real};
 
 /// All that changes from tick to tick, in buffers as long as [`Lengths`] says.
 #[derive(Debug)]

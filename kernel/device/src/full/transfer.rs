@@ -61,9 +61,6 @@ impl<R: Real, I: Index> TransferPattern<'_, R, I> {
 mod tests {
     use super::*;
     use crate::full::{AmbientShare, Base, Contribution};
-    use signorini_bound::conforming::VertexData;
-    use signorini_kernel::assembly::CellLoads;
-    use signorini_kernel::flux_range::Spans;
     use signorini_kernel::mesh::boundary::Robin;
 
     /// Two laws: h = 2 and 3 on them, u_ext = 10 and 20. Lengths are 1.
@@ -98,19 +95,7 @@ mod tests {
 
     /// h and ∫h u_ext of both laws, and h and u_ext at a point of each.
     fn at(inputs: [f64; 2]) -> [[[f64; 2]; 2]; 2] {
-        let base = Base {
-            loads: CellLoads { triangles: &[], quads: &[] },
-            neumann: &[],
-            robin: &LAWS,
-            spans: Spans::UNLIMITED,
-            contact_flux: &[],
-            gap: &[],
-            dirichlet: &[],
-            ends: VertexData { gap: &[], given: &[] },
-            curved: &[],
-            curved_sums: &[],
-            transfer: &POINTS,
-        };
+        let base = Base { robin: &LAWS, transfer: &POINTS, ..Base::default() };
         let (mut robin, mut transfer) = (LAWS, POINTS);
         let mut data =
             DataMemory { robin: &mut robin, transfer: &mut transfer, ..DataMemory::default() };

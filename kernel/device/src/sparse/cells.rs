@@ -8,13 +8,12 @@
 
 use super::contact::Defect;
 use super::factor::Factor;
-use signorini_kernel::Real;
 use signorini_kernel::element::{crouzeix_raviart, rannacher_turek};
-use signorini_kernel::features;
 use signorini_kernel::index::{Index, read, write};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::stiffness::Stiffness;
+use signorini_kernel::{Real, features};
 
 /// What a defect is made of (borrowed).
 #[derive(Debug, Clone, Copy)]

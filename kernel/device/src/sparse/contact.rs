@@ -9,37 +9,30 @@
 //! ```
 //! S is scaled to a diagonal of 1, x_i = v_i √S_ii, as in a condensed model, and solved by the same
 //! [`signorini_contact::dense::pivoting`]: as many exchanges as edges change sides since the last solve. Where d comes
-//! from is left to who asks: a matrix in CSR ([`super::direct`]) or element matrices ([`super::cells`]).
+//! from is left to who asks: a matrix in CSR, on the desk, or element matrices ([`super::cells`]).
 
 use super::factor::Factor;
-use signorini_contact::dense::Iterate;
+use super::solved::{FAR, ROUNDS, Solved};
+use super::storage::Memory;
 use signorini_contact::dense::blocks::{Block, Blocks, multiply_add, padded};
 use signorini_contact::dense::pivoting::{self, Found};
 use signorini_contact::dense::ranges::Given;
 use signorini_contact::dense::rule::Largest;
-use signorini_contact::dense::sizes;
 use signorini_contact::dense::tableau::{InitialTableau, Tableau};
-use signorini_kernel::Real;
+use signorini_contact::dense::{Iterate, sizes};
 use signorini_kernel::error::{Array, Error, same_length};
-use signorini_kernel::features;
 use signorini_kernel::index::{Index, read, write};
 use signorini_kernel::law::Law;
-
-/// Rounds at most, exchanges and corrections together.
-const ROUNDS: u32 = 16;
-
-/// A start that is so many times as far from the answer as that is large leaves its rounding errors in the choice of
-/// edges that touch: it is made once more, from where it has led.
-const FAR: u32 = 16;
+use signorini_kernel::{Real, features};
 
 /// Rounds within which that may be.
 const AGAIN: u32 = 6;
 
 /// A row may be off by this many ε of its terms in a solution.
-pub(crate) const SLACK: u32 = 64;
+pub const SLACK: u32 = 64;
 
 /// Where defects come from.
-pub(crate) trait Defect<R: Real, I: Index> {
+pub trait Defect<R: Real, I: Index> {
     /// Writes d = b − Ku by places.
     fn measure(&self, factor: &Factor<R, I>, u: &[R], places: &mut [R]);
 }
@@ -55,51 +48,6 @@ pub struct Factored<'a, R, I> {
     pub scale: &'a [R],
     /// Where exchanges begin: B blocks, P entries.
     pub start: InitialTableau<'a, R>,
-}
-
-/// Memory of a contact problem (borrowed).
-#[derive(Debug)]
-pub struct Memory<'a, R> {
-    /// Exchanges, kept from solve to solve: B blocks.
-    pub tableau: &'a mut [Block<R>],
-    /// Which edges are exchanged: P entries.
-    pub exchanged: &'a mut [bool],
-    /// Scratch, P entries each.
-    pub columns: [&'a mut [R]; 2],
-    /// Scratch, P entries.
-    pub load: &'a mut [R],
-    /// x = v √S_ii, kept from solve to solve; scratch beside it. P entries each.
-    pub iterate: Iterate<'a, R>,
-}
-
-/// What a solve did.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Solved<R> {
-    /// Exchanges.
-    pub pivots: u32,
-    /// Substitutions with the factor.
-    pub rounds: u32,
-    /// The last correction that was made, relative to u; infinite where none made it better, or where one has closed
-    /// an edge that exchanges had opened.
-    pub change: R,
-    /// The first step, relative to u.
-    pub first: R,
-}
-
-impl<R: Real> Solved<R> {
-    /// Whether rounding leaves three digits of u at least.
-    pub fn has_digits(&self) -> bool {
-        R::from_count(1024) * self.change <= R::ONE
-    }
-
-    /// Whether corrections have shrunk as only those by a factor of this very matrix do. From a start next to the
-    /// answer they may be too small to tell: who needs to know then measures what is left. Nor do they tell where
-    /// rounds ran out.
-    pub fn contracts(&self) -> bool {
-        self.rounds < ROUNDS
-            && self.first <= R::from_count(FAR)
-            && R::from_count(64) * self.change <= self.first
-    }
 }
 
 /// A factor with its contact problem, ready for any number of loads.
@@ -168,7 +116,7 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
     ///
     /// # Errors
     /// Arrays of the wrong length.
-    pub(crate) fn solve(
+    pub fn solve(
         &mut self,
         defect: &impl Defect<R, I>,
         law: Law<R>,

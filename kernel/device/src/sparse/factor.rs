@@ -119,7 +119,7 @@ impl<'a, R: Real, I: Index> Factor<'a, R, I> {
     }
 
     /// The place of an unknown: of a contact unknown its number.
-    pub(super) fn place(&self, unknown: usize) -> usize {
+    pub fn place(&self, unknown: usize) -> usize {
         if unknown < self.counts.free { read(self.places, unknown).at() } else { unknown }
     }
 
@@ -244,6 +244,30 @@ fn set<R: Real>(blocks: &mut [Block<R>], row: usize, column: usize, value: R) {
     if let Some(entry) = block.and_then(|row| row.get_mut(column % SIDE)) {
         *entry = value;
     }
+}
+
+/// S to a diagonal of 1, `scale` to 1/√S_ii; false where an entry on the diagonal is not positive.
+pub fn normalise<R: Real>(schur: &mut [Block<R>], scale: &mut [R], order: usize) -> bool {
+    let mut positive = true;
+    scale.fill(R::ZERO);
+    for (row, scale) in scale.iter_mut().enumerate().take(order) {
+        let position = count(row / SIDE * SIDE) + row / SIDE;
+        let line = schur.get(position).and_then(|block| block.get(row % SIDE));
+        let diagonal = line.map_or(R::ZERO, |line| read(line, row % SIDE));
+        *scale = R::ONE / diagonal.rounded_sqrt();
+        positive &= diagonal > R::ZERO && scale.finite();
+    }
+    let mut blocks = schur.iter_mut();
+    for row in 0..order.div_ceil(SIDE) {
+        for (column, block) in blocks.by_ref().take(row + 1).enumerate() {
+            for (r, line) in block.iter_mut().enumerate() {
+                for (c, entry) in line.iter_mut().enumerate() {
+                    *entry *= read(scale, row * SIDE + r) * read(scale, column * SIDE + c);
+                }
+            }
+        }
+    }
+    positive
 }
 
 /// A place that is below the limit, as the pattern has shown.

@@ -14,8 +14,8 @@
 //!
 //! ```text
 //!   order (from the host) ─► elimination (pattern of L) ─► factor (L, D, S) ─► contact (exchanges, corrections)
-//!                                                          or baked             ▲ defects: direct (rows of K)
-//!                                                                               └          cells (element matrices)
+//!                                                          or baked             ▲
+//!                                                                               └─ defects: cells (element matrices)
 //! ```
 //! The order of elimination is worked out beforehand, by whatever keeps L sparse; the contact unknowns come
 //! last. The memory is the caller's: [`elimination::Pattern`] says how much L takes. Solving costs twice the
@@ -23,15 +23,14 @@
 
 pub mod cells;
 pub mod contact;
-pub mod direct;
 pub mod elimination;
 pub mod factor;
+mod solved;
 pub mod storage;
 
 pub use cells::Balance;
-pub(crate) use contact::SLACK;
-pub use contact::{Exact, Factored, Memory, Solved};
-pub use direct::{Direct, DirectMemory, SolveSummary};
+pub use contact::{Exact, Factored};
 pub use elimination::Pattern;
 pub use factor::Factor;
-pub use storage::{ArrayStorage, Storage};
+pub use solved::Solved;
+pub use storage::{ArrayStorage, Memory, Storage};

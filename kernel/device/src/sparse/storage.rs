@@ -1,10 +1,24 @@
-//! Owned memory for the exchanges of a contact problem; can be a `static`.
+//! Memory for the exchanges of a contact problem, lent or owned; can be a `static`. P and B are those of [`super::Factored`].
 
-use super::Memory;
 use signorini_contact::dense::Iterate;
 use signorini_contact::dense::blocks::{Block, SIDE, count, padded};
 use signorini_kernel::Real;
 use signorini_kernel::error::{Array, Error, same_length};
+
+/// Memory of a contact problem (borrowed).
+#[derive(Debug)]
+pub struct Memory<'a, R> {
+    /// Exchanges, kept from solve to solve: B blocks.
+    pub tableau: &'a mut [Block<R>],
+    /// Which edges are exchanged: P entries.
+    pub exchanged: &'a mut [bool],
+    /// Scratch, P entries each.
+    pub columns: [&'a mut [R]; 2],
+    /// Scratch, P entries.
+    pub load: &'a mut [R],
+    /// x = v √S_ii, kept from solve to solve; scratch beside it. P entries each.
+    pub iterate: Iterate<'a, R>,
+}
 
 /// Arrays of numbers, each of [`padded`] contact edges.
 const NUMBERS: usize = 6;

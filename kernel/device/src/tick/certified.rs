@@ -5,10 +5,7 @@ use super::running::FEWEST;
 use super::{Deadline, Ended, Limits, Report, Running, Tick};
 use signorini_bound::certificate::{Buffers, Certificate, Verdict, certify};
 use signorini_bound::equilibrium::Iterate;
-use signorini_kernel::Math;
-use signorini_kernel::Real;
-use signorini_kernel::error::Error;
-use signorini_kernel::index::Index;
+use signorini_kernel::{Error, Index, Math, Real};
 
 /// Sweeps until one of the limits or the deadline ends it, and certifies what it then has. The square root of `M`
 /// serves the search for ω.

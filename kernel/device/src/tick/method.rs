@@ -10,9 +10,7 @@
 //! [`signorini_contact::method::Method`] is the same for the condensed model.
 
 use super::{Deadline, Limits, Report, Running};
-use signorini_kernel::Real;
-use signorini_kernel::error::Error;
-use signorini_kernel::index::Index;
+use signorini_kernel::{Error, Index, Real};
 
 /// Brings a tick that has begun to its answer.
 pub trait Method<R: Real, I: Index> {

@@ -21,7 +21,6 @@
 mod certified;
 mod method;
 mod range;
-mod report;
 mod resume;
 mod running;
 mod substitutions;
@@ -29,25 +28,22 @@ mod uncertified;
 
 pub use certified::CertifiedSweeps;
 pub use method::{Method, Sweeping};
-pub use report::{Figures, Report};
 pub use resume::Progress;
-pub use running::Running;
+pub use running::{Figures, Report, Running};
 pub use signorini_kernel::limits::{Deadline, Limits};
 pub use signorini_kernel::report::Ended;
 pub use substitutions::Substitutions;
 pub use uncertified::UncertifiedSweeps;
 
 use signorini_bound::certificate::{Discretization, LoadCase};
-use signorini_kernel::Real;
-use signorini_kernel::assembly;
 use signorini_kernel::error::{Array, Error, all_finite, same_length};
-use signorini_kernel::index::Index;
 use signorini_kernel::law::Law;
 use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::EdgeCounts;
 use signorini_kernel::relaxation::{Relaxation, Search};
 use signorini_kernel::rows::Rows;
+use signorini_kernel::{Index, Real, assembly};
 
 /// Memory of a [`Tick`] (borrowed).
 #[derive(Debug)]

@@ -10,9 +10,8 @@
 //! would hide in what rounding makes of the others.
 
 use super::{Data, Memory};
-use signorini_kernel::Real;
 use signorini_kernel::error::{Array, Error, all_moderate};
-use signorini_kernel::index::Index;
+use signorini_kernel::{Index, Real};
 
 /// How much larger than m/ε an iterate may be that is largest_useful going on with.
 const WORTH: u32 = 1024;

@@ -2,17 +2,16 @@
 
 use super::{Memory, Tick};
 use signorini_bound::certificate::Discretization;
-use signorini_kernel::Real;
 use signorini_kernel::error::{Array, Error, same_length};
-use signorini_kernel::index::Index;
 use signorini_kernel::mesh::edges::EdgeCounts;
 use signorini_kernel::relaxation::{Relaxation, Search};
+use signorini_kernel::{Index, Real};
 
 /// What a tick leaves to the next one besides its arrays: how far the search for ω has come.
 ///
 /// Before the first tick it is [`Progress::NONE`], which is all zeros, so that a `static` that holds it
 /// costs no flash.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Progress<R> {
     search: Search<R>,
     begun: bool,

@@ -1,14 +1,25 @@
-//! A tick in progress.
+//! A tick in progress, and what it says in the end.
 
-use super::{Data, Deadline, Ended, Figures, Report, Tick, contact_state};
+use super::{Data, Deadline, Ended, Tick, contact_state};
 use signorini_bound::certificate::Verdict;
-use signorini_kernel::Index;
-use signorini_kernel::Math;
-use signorini_kernel::Real;
-use signorini_kernel::contact;
-use signorini_kernel::error::Error;
-use signorini_kernel::psor;
 use signorini_kernel::relaxation::Search;
+use signorini_kernel::{Error, Index, Math, Real, contact, psor, report};
+
+/// An answer's report with the figures of its sweeps, which are counted since the tick began.
+pub type Report<R> = report::Report<R, Figures<R>>;
+
+/// What sweeps on a mesh leave to say.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Figures<R> {
+    /// max |r_i|/K_ii over the unknowns, on contact edges |min(u_i − ψ_i, −r_i/K_ii)|.
+    pub residual: R,
+    /// Contact edges that became active or ceased to be since the report before.
+    pub changes: u32,
+    /// ∫_C (τ·n − q) ≥ 0, τ within the law of contact at any stop ([`signorini_kernel::contact`]).
+    pub force: R,
+    /// The relaxation factor.
+    pub omega: R,
+}
 
 /// Sweeps before the first certificate of a tick, and at least between two.
 pub(super) const FEWEST: u32 = 4;

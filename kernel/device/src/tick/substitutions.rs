@@ -12,12 +12,10 @@
 use super::method::{Method, Sweeping};
 use super::range::largest_useful;
 use super::{Deadline, Limits, Report, Running};
-use crate::sparse::{Balance, Exact, SLACK};
-use signorini_kernel::Real;
-use signorini_kernel::error::Error;
-use signorini_kernel::index::Index;
+use crate::sparse::contact::SLACK;
+use crate::sparse::{Balance, Exact};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
-use signorini_kernel::psor;
+use signorini_kernel::{Error, Index, Real, psor};
 
 /// Solves with a factor, whose answer gets a bound where `sweeps` give one.
 #[derive(Debug)]

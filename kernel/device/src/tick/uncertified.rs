@@ -4,11 +4,7 @@ use super::method::{Method, Sweeping};
 use super::running::FEWEST;
 use super::{Deadline, Ended, Limits, Report, Running};
 use signorini_bound::certificate::Verdict;
-use signorini_kernel::Math;
-use signorini_kernel::Real;
-use signorini_kernel::error::Error;
-use signorini_kernel::flux;
-use signorini_kernel::index::Index;
+use signorini_kernel::{Error, Index, Math, Real, flux};
 
 /// Sweeps until the sweeps or the time are used up or, where `limits.share` is more than 0, until the
 /// residual is down to rounding; without a bound neither that share nor `limits.error` can be told. τ

@@ -13,18 +13,16 @@ use signorini_bound::conforming::VertexData;
 use signorini_bound::equilibrium::is_root;
 use signorini_bound::forest::ForestBuffers;
 use signorini_bound::prepare::{Conductivities, is_parallelogram, is_told, prepare};
-use signorini_kernel::Real;
-use signorini_kernel::Tensor;
 use signorini_kernel::element::rannacher_turek::place;
 use signorini_kernel::error::{Array, CellId, Error};
 use signorini_kernel::index::{Index, read, write};
-use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::stiffness::{Coefficient, Stiffness};
+use signorini_kernel::{Mesh, Real, Tensor};
 
 /// Ways out of the cells and cells packed along them.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Equilibration<
     R,
     I,
@@ -222,9 +220,10 @@ fn cancelled<R: Real, const N: usize>(a: Tensor<R>, corners: [[R; 2]; N]) -> R {
 }
 
 /// What boundary data allow for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum BoundSupport {
     /// A bound.
+    #[default]
     Bound,
     /// None, since u_D jumps.
     NotForJumps,

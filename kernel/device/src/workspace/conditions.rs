@@ -2,17 +2,16 @@
 
 use heapless::Vec;
 
-use super::{Workspace, bound};
+use super::{Workspace, bound, fit};
 use crate::condition::{BoundaryEdge, Condition};
-use signorini_kernel::Real;
 use signorini_kernel::assembly::{self, CellLoads};
 use signorini_kernel::error::{Array, Error, all_finite, known, same_length};
-use signorini_kernel::features;
 use signorini_kernel::index::{Index, read};
-use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::Edges;
+use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
+use signorini_kernel::{Libm, Mesh, Real, features};
 
 impl<
     R: Real,
@@ -123,6 +122,47 @@ impl<
                 push(&mut self.dirichlet_ends, asked.ends(), Array::Dirichlet)
             }
         }
+    }
+
+    /// Numbers the edges as the conditions say, and lists those of the boundary with their lengths.
+    pub(super) fn number_edges(
+        &mut self,
+        mesh: &Mesh<R, I>,
+        condition: &mut impl FnMut(&BoundaryEdge<R, I>) -> Option<Condition<R>>,
+    ) -> Result<(), Error> {
+        fit(&mut self.at_vertex, mesh.vertices().len(), Array::Vertices)?;
+        fit(&mut self.of_triangles, mesh.triangles().len(), Array::Triangles)?;
+        fit(&mut self.of_quads, mesh.quads().len(), Array::Quads)?;
+        let most = E.min(mesh.half_edges());
+        fit(&mut self.half_edges, most, Array::Edges)?;
+        let mut next = Vec::<I, E>::new();
+        fit(&mut next, most, Array::Edges)?;
+        let buffers = NumberingBuffers {
+            of_triangles: &mut self.of_triangles,
+            of_quads: &mut self.of_quads,
+            half_edges: &mut self.half_edges,
+            at_vertex: &mut self.at_vertex,
+            next: &mut next,
+        };
+        let block = |ends| condition(&BoundaryEdge::new(mesh, ends)).map(|found| found.block());
+        self.counts = number(mesh, buffers, block)?.counts();
+        self.half_edges.truncate(self.counts.edges());
+        self.list_boundary(mesh)
+    }
+
+    fn list_boundary(&mut self, mesh: &Mesh<R, I>) -> Result<(), Error> {
+        let Self { of_triangles, of_quads, half_edges, boundary, lengths, .. } = self;
+        let edges = Edges::baked(of_triangles, of_quads, half_edges, self.counts);
+        let is_outer = |at: &usize| read(edges.half_edges(), *at)[1] == I::NONE;
+        let needed = (0..self.counts.edges()).filter(is_outer).count();
+        fit(boundary, needed, Array::Boundary)?;
+        fit(lengths, needed, Array::Boundary)?;
+        let places = boundary.iter_mut().zip(lengths.iter_mut());
+        for (at, (edge, length)) in (0..self.counts.edges()).filter(is_outer).zip(places) {
+            *edge = I::new(at).unwrap_or(I::NONE);
+            *length = edges.length::<R, Libm>(mesh, at);
+        }
+        Ok(())
     }
 
     /// The matrix and the ways out, which follow the transfer laws.

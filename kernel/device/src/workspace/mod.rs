@@ -5,34 +5,22 @@
 //! and the last iterate stay, so that every one starts warm. Who needs another arrangement takes the
 //! layers themselves: they work on slices.
 
+mod answers;
 mod bound;
 mod conditions;
 mod sizes;
-mod ticks;
 
 use heapless::Vec;
-use signorini_kernel::law::Law;
 
 use crate::condition::{BoundaryEdge, Condition};
 use crate::tick::Progress;
 use signorini_bound::conforming::VertexData;
-use signorini_kernel::Real;
-use signorini_kernel::assembly::{self, CellLoads};
-use signorini_kernel::csr::Csr;
-use signorini_kernel::error::{Array, Error, all_moderate};
-use signorini_kernel::index::{Index, read};
-use signorini_kernel::mesh::Mesh;
-use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
-use signorini_kernel::mesh::diagonal::DiagonalTerms;
+use signorini_kernel::error::{Array, Error};
+use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
-use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
 use signorini_kernel::rows::OwnedRows;
-use signorini_kernel::solver::{Outcome, Settings, Solver};
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
-use signorini_kernel::system::Shifts;
-use signorini_kernel::system::System;
-use signorini_kernel::{Libm, Math};
-use signorini_kernel::{contact, flux};
+use signorini_kernel::{Index, Math, Mesh, Real, assembly};
 
 use bound::{BoundSupport, Equilibration};
 
@@ -42,10 +30,10 @@ use bound::{BoundSupport, Equilibration};
 ///
 /// Too small a capacity is an error that names the array and the number that it needs. Without room for matrix entries
 /// it [`tick`](Workspace::tick)s and does not [`solve`](Workspace::solve).
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Workspace<
-    R,
-    I,
+    R: Real,
+    I: Index,
     const VERTICES: usize,
     const TRIANGLES: usize,
     const QUADS: usize,
@@ -95,24 +83,6 @@ pub struct Workspace<
     vertices: Vec<R, VERTICES>,
     bubbles: Vec<R, EDGES>,
     progress: Progress<R>,
-}
-
-impl<
-    R: Real,
-    I: Index,
-    const V: usize,
-    const T: usize,
-    const Q: usize,
-    const B: usize,
-    const C: usize,
-    const E: usize,
-    const N: usize,
-    const W: usize,
-> Default for Workspace<R, I, V, T, Q, B, C, E, N, W>
-{
-    fn default() -> Self {
-        Self::new()
-    }
 }
 
 impl<
@@ -201,46 +171,6 @@ impl<
         Ok(self.counts)
     }
 
-    fn number_edges(
-        &mut self,
-        mesh: &Mesh<R, I>,
-        condition: &mut impl FnMut(&BoundaryEdge<R, I>) -> Option<Condition<R>>,
-    ) -> Result<(), Error> {
-        fit(&mut self.at_vertex, mesh.vertices().len(), Array::Vertices)?;
-        fit(&mut self.of_triangles, mesh.triangles().len(), Array::Triangles)?;
-        fit(&mut self.of_quads, mesh.quads().len(), Array::Quads)?;
-        let most = E.min(mesh.half_edges());
-        fit(&mut self.half_edges, most, Array::Edges)?;
-        let mut next = Vec::<I, E>::new();
-        fit(&mut next, most, Array::Edges)?;
-        let buffers = NumberingBuffers {
-            of_triangles: &mut self.of_triangles,
-            of_quads: &mut self.of_quads,
-            half_edges: &mut self.half_edges,
-            at_vertex: &mut self.at_vertex,
-            next: &mut next,
-        };
-        let block = |ends| condition(&BoundaryEdge::new(mesh, ends)).map(|found| found.block());
-        self.counts = number(mesh, buffers, block)?.counts();
-        self.half_edges.truncate(self.counts.edges());
-        self.list_boundary(mesh)
-    }
-
-    fn list_boundary(&mut self, mesh: &Mesh<R, I>) -> Result<(), Error> {
-        let Self { of_triangles, of_quads, half_edges, boundary, lengths, .. } = self;
-        let edges = Edges::baked(of_triangles, of_quads, half_edges, self.counts);
-        let is_outer = |at: &usize| read(edges.half_edges(), *at)[1] == I::NONE;
-        let needed = (0..self.counts.edges()).filter(is_outer).count();
-        fit(boundary, needed, Array::Boundary)?;
-        fit(lengths, needed, Array::Boundary)?;
-        let places = boundary.iter_mut().zip(lengths.iter_mut());
-        for (at, (edge, length)) in (0..self.counts.edges()).filter(is_outer).zip(places) {
-            *edge = I::new(at).unwrap_or(I::NONE);
-            *length = edges.length::<R, Libm>(mesh, at);
-        }
-        Ok(())
-    }
-
     fn lay_out_matrix(&mut self) -> Result<(), Error> {
         let nonzeros = self.numbered().nonzeros();
         fit(&mut self.row_ptr, self.counts.unknowns() + 1, Array::RowPointers)?;
@@ -265,52 +195,6 @@ impl<
         self.force = R::ZERO;
         let bubbles = if mesh.quads().is_empty() { 0 } else { counts.edges() };
         fit(&mut self.bubbles, bubbles, Array::Scratch)
-    }
-
-    /// Solves from the present iterate and recovers the flux. Look at the outcome's status: the
-    /// iterate is feasible and usable also where sweeps ran out.
-    ///
-    /// # Errors
-    /// Data that are not finite or within 1/ε² of the largest number, where the answer may overflow (ψ, u_D, b and
-    /// b_i/K_ii); a relaxation factor outside (0, 2); a workspace for ticks only. The last answer stays then, bit for bit.
-    pub fn solve(&mut self, settings: Settings<R>) -> Result<Outcome<R>, Error> {
-        if !self.built {
-            return Err(Error::NotBuilt);
-        }
-        if N == 0 {
-            let needed = self.numbered().nonzeros();
-            return Err(Error::Capacity { of: Array::MatrixValues, needed, limit: 0 });
-        }
-        // Borrowed apart, since moving an array out of the workspace would pass through the stack.
-        let Self { of_triangles, of_quads, half_edges, counts, u, flux, .. } = self;
-        let edges = Edges::baked(of_triangles, of_quads, half_edges, *counts);
-        let matrix = Csr::new(&self.row_ptr, &self.col_idx, &self.values, counts.edges())?;
-        let boundary = Boundary::new(&edges, &self.neumann, &self.robin, &self.contact_flux)?;
-        let shifts = Shifts { part: &[], parts: 1, diagonal: DiagonalTerms::new(&boundary) };
-        let system =
-            System::new(matrix, &self.load, Law::above(&self.gap), *counts)?.with_shifts(shifts)?;
-        let (unknowns, given) = u.split_at_mut_checked(counts.unknowns()).unwrap_or_default();
-        all_moderate(Array::Load, self.load.iter().copied())?;
-        let steps = matrix.iter().zip(&self.load).map(|(row, &load)| load / row.diagonal());
-        all_moderate(Array::Load, steps)?;
-        all_moderate(Array::LowerBounds, self.gap.iter().copied())?;
-        all_moderate(Array::Dirichlet, self.dirichlet.iter().copied())?;
-        let mut solver = Solver::<R>::new(settings)?;
-        given.iter_mut().zip(&self.dirichlet).for_each(|(u, &value)| *u = value);
-        if unknowns.iter().any(|u| !u.finite()) {
-            // An overflow of the last solve: start anew.
-            unknowns.fill(R::ZERO);
-        }
-        let mut rows = self.rows.within(&edges)?;
-        let outcome = solver.run(&system, &mut rows, u)?;
-        let stiffness = stiffness_of(&self.triangles, &self.quads);
-        let cells = CellLoads { triangles: &self.source_triangles, quads: &self.source_quads };
-        flux::recover(&edges, stiffness, cells, u, &[], flux)?;
-        for (at, active) in self.active.iter_mut().enumerate() {
-            *active = contact::is_active(*counts, Law::above(&self.gap), u, at);
-        }
-        self.force = contact::force(*counts, &boundary, Law::above(&self.gap), u, flux);
-        Ok(outcome)
     }
 
     /// The edges and their order.

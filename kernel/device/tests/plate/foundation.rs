@@ -1,17 +1,20 @@
 //! The plate with full data: what a certificate and a tick stand on.
 
-use signorini_bound::cells::{CellBuffers, Cells, Quad, Triangle, pack};
 use signorini_bound::certificate::{self, Discretization, LoadCase, Metric};
 use signorini_bound::conforming::VertexData;
 use signorini_bound::equilibrium::is_root;
-use signorini_bound::forest::{Forest, ForestBuffers, grow};
+use signorini_device::full::{Base, Full, Functional};
+use signorini_device::tick::Data;
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::element::rannacher_turek;
+use signorini_kernel::law::Law;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
+use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::{Error, Real, Tensor};
 
 use super::{NONE, Plate, Side};
+use crate::owned::Packed;
 
 pub const A: Tensor<f64> = Tensor { xx: 3.0, xy: -1.2, yy: 1.5 };
 pub const LOAD: f64 = -0.8;
@@ -27,14 +30,9 @@ pub struct Foundation {
     robin: Vec<Robin<f64, u16>>,
     flux: Vec<f64>,
     stiffness: (Vec<[f64; 3]>, Vec<[f64; 6]>),
-    compliance: Vec<f64>,
     points: Vec<[Tensor<f64>; 64]>,
     place: Vec<u32>,
-    ways: [Vec<u16>; 3],
-    triangles: Vec<Triangle<f64, u16>>,
-    quads: Vec<Quad<f64, u16>>,
-    weights: [Vec<f64>; 2],
-    stability: certificate::Stability<f64>,
+    packed: Packed<f64>,
     pub loads: (Vec<f64>, Vec<f64>),
     gap: Vec<[f64; 2]>,
     given: Vec<[f64; 2]>,
@@ -49,23 +47,19 @@ impl Foundation {
         let law = |edge| Robin { edge, coefficient: LAW[0], ambient: LAW[0] * LAW[1] };
         let on = |side| free_edges(&plate, side);
         let neumann = on(Side::Insulated)?.into_iter().map(|edge| Neumann { edge, flux: 0.3 });
-        let (neumann, robin) =
+        let (neumann, robin): (Vec<_>, Vec<_>) =
             (neumann.collect(), on(Side::Transfer)?.into_iter().map(law).collect());
         let mut k = (vec![[0.0; 3]; plate.triangles.len()], vec![[0.0; 6]; plate.quads.len()]);
         stiffness::fill(&plate.mesh()?, Coefficient::Uniform(A), 2, &mut k.0, &mut k.1)?;
-        let cells = k.0.len() + k.1.len();
-        let mut foundation = Self {
+        let flux = vec![-0.2; counts.contact];
+        let packed = packed(&plate, (&neumann, &robin, &flux), &k)?;
+        Ok(Self {
             neumann,
             robin,
-            flux: vec![-0.2; counts.contact],
-            compliance: vec![0.25 / (A.xx * A.yy - A.xy * A.xy); k.0.len()],
+            flux,
             points: if at_points { metric(&plate) } else { Vec::new() },
-            place: (0..cells as u32).collect(),
-            ways: [(); 3].map(|()| vec![NONE; cells]),
-            triangles: vec![Triangle::EMPTY; k.0.len()],
-            quads: vec![Quad::EMPTY; k.1.len()],
-            weights: [vec![0.0; plate.vertices.len()], vec![0.0; counts.edges()]],
-            stability: certificate::Stability::default(),
+            place: (0..(k.0.len() + k.1.len()) as u32).collect(),
+            packed,
             loads: (vec![LOAD / 2.0; k.0.len()], vec![LOAD; k.1.len()]),
             gap: vec![[GAP; 2]; counts.contact],
             given: vec![[GIVEN; 2]; counts.dirichlet],
@@ -73,29 +67,7 @@ impl Foundation {
             dirichlet: vec![GIVEN; counts.dirichlet],
             stiffness: k,
             plate,
-        };
-        foundation.find_ways()?;
-        Ok(foundation)
-    }
-
-    fn find_ways(&mut self) -> Result<(), Error> {
-        let Self { plate, neumann, robin, flux, stiffness, compliance, points, place, .. } = self;
-        let (mesh, edges) = (plate.mesh()?, plate.edges()?);
-        let boundary = Boundary::new(&edges, neumann, robin, flux)?;
-        let mut distance = vec![0.0; edges.cells()];
-        let [order, parent, places] = &mut self.ways;
-        let buffers = ForestBuffers { order, parent, place: places, distance: &mut distance };
-        let forest = grow(&edges, |_| 1.0, |edge| is_root(&edges, &boundary, edge), buffers)?;
-        let stiffness = Stiffness { triangles: &stiffness.0, quads: &stiffness.1 };
-        let [of_vertices, of_edges] = &mut self.weights;
-        let (triangles, quads) = (&mut self.triangles, &mut self.quads);
-        let buffers = CellBuffers { triangles, quads, of_vertices, of_edges };
-        let cells = pack(&mesh, &edges, stiffness, &[], compliance, &forest, buffers)?;
-        let metric = Metric { at_points: points, place, distortions: &[] };
-        let mut way = vec![0.0; edges.cells()];
-        self.stability =
-            certificate::stability(&edges, &cells, metric, &boundary, &forest, &mut way)?;
-        Ok(())
+        })
     }
 
     pub fn boundary(&self) -> Result<Boundary<'_, f64, u16>, Error> {
@@ -112,16 +84,13 @@ impl Foundation {
 
     pub fn discretization(&self) -> Result<Discretization<'_, f64, u16>, Error> {
         let edges = self.plate.edges()?;
-        let [order, parent, place] = &self.ways;
-        let forest = Forest::new(&edges, order, parent, place)?;
-        let [of_vertices, of_edges] = &self.weights;
         Ok(Discretization {
             mesh: self.plate.mesh()?,
             edges,
             stiffness: self.stiffness(),
-            cells: Cells::new(&self.triangles, &self.quads, of_vertices, of_edges, &forest)?,
+            cells: self.packed.cells(&edges)?,
             metric: self.metric(),
-            stability: self.stability,
+            stability: self.packed.stability(&edges, self.metric(), &self.boundary()?)?,
         })
     }
 
@@ -130,11 +99,59 @@ impl Foundation {
             loads: CellLoads { triangles: &self.loads.0, quads: &self.loads.1 },
             boundary: self.boundary()?,
             ends: VertexData { gap: &self.gap, given: &self.given },
-            curved: &[],
-            transfer: &[],
-            oscillation: 0.0,
+            ..LoadCase::default()
         })
     }
+
+    /// Data of a tick.
+    pub fn data(&self) -> Result<Data<'_, f64, u16>, Error> {
+        let law = Law::above(&self.lower);
+        Ok(Data { given: self.given()?, law, dirichlet: &self.dirichlet })
+    }
+
+    /// The full model, without inputs.
+    pub fn full<'a>(
+        &'a self,
+        outputs: &'a [Functional<'a, f64, u16>],
+        has_bound: bool,
+    ) -> Result<Full<'a, f64, u16>, Error> {
+        let LoadCase { loads, ends, .. } = self.given()?;
+        Ok(Full {
+            discretization: self.discretization()?,
+            base: Base {
+                loads,
+                neumann: &self.neumann,
+                robin: &self.robin,
+                contact_flux: &self.flux,
+                gap: &self.lower,
+                dirichlet: &self.dirichlet,
+                ends,
+                ..Base::default()
+            },
+            patterns: &[],
+            oscillation: &[],
+            outputs,
+            has_bound,
+            corners: &[],
+            start: 0.0,
+            relaxation: Relaxation::Adaptive(1.0),
+        })
+    }
+}
+
+type Records<'a> = (&'a [Neumann<f64, u16>], &'a [Robin<f64, u16>], &'a [f64]);
+
+fn packed(
+    plate: &Plate,
+    (neumann, robin, flux): Records,
+    k: &(Vec<[f64; 3]>, Vec<[f64; 6]>),
+) -> Result<Packed<f64>, Error> {
+    let (mesh, edges) = (plate.mesh()?, plate.edges()?);
+    let boundary = Boundary::new(&edges, neumann, robin, flux)?;
+    let compliance = vec![0.25 / (A.xx * A.yy - A.xy * A.xy); k.0.len()];
+    let stiffness = Stiffness { triangles: &k.0, quads: &k.1 };
+    let is_root = |edge| is_root(&edges, &boundary, edge);
+    Packed::new((&mesh, &edges), stiffness, [&[], &compliance], |_| 1.0, is_root)
 }
 
 fn free_edges(plate: &Plate, side: Side) -> Result<Vec<u16>, Error> {

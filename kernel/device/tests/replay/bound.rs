@@ -1,35 +1,24 @@
 //! The parts of a certificate, and certificates themselves.
 
-use signorini_bound::cells::{CellBuffers, Cells, Quad, Triangle, pack};
 use signorini_bound::certificate::{
     Buffers, Curved, Discretization, LoadCase, Metric, Stability, certify, of_quad, of_triangle,
-    stability,
 };
 use signorini_bound::conforming::VertexData;
 use signorini_bound::equilibrium::{Iterate, is_root};
-use signorini_bound::forest::{Forest, ForestBuffers, grow};
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::element::rannacher_turek::place;
 use signorini_kernel::law::Law;
-use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::edges::Block;
 use signorini_kernel::{Error, Tensor};
 
 use super::arrays::Arrays;
 use super::journal::Journal;
 use super::scene::{Draw, Scalar};
-
-const NONE: u16 = u16::MAX;
+use crate::owned::Packed;
 
 /// The part of the discretization that stays in memory.
 pub struct EquilibrationForest<R> {
-    order: Vec<u16>,
-    parent: Vec<u16>,
-    places: Vec<u16>,
-    triangles: Vec<Triangle<R, u16>>,
-    quads: Vec<Quad<R, u16>>,
-    of_vertices: Vec<R>,
-    of_edges: Vec<R>,
+    packed: Packed<R>,
     points: Vec<[Tensor<R>; 64]>,
     place: Vec<u32>,
     stability: Stability<R>,
@@ -39,26 +28,10 @@ impl<R: Scalar> EquilibrationForest<R> {
     /// With A at the points of the cells whose number is a multiple of `every`; of none where that is 0.
     pub fn new(arrays: &Arrays<R>, every: usize) -> Result<Self, Error> {
         let (edges, boundary, mesh) = (arrays.edges()?, arrays.boundary()?, arrays.mesh()?);
-        let cells = edges.cells();
-        let (triangles, quads) = (arrays.triangles.len(), arrays.quads.len());
-        let mut ways = Self {
-            order: vec![NONE; cells],
-            parent: vec![NONE; cells],
-            places: vec![NONE; cells],
-            triangles: vec![Triangle::EMPTY; triangles],
-            quads: vec![Quad::EMPTY; quads],
-            of_vertices: vec![R::ONE; arrays.vertices.len()],
-            of_edges: vec![R::ONE; edges.counts().edges()],
-            points: Vec::new(),
-            place: vec![u32::MAX; if every > 0 { cells } else { 0 }],
-            stability: Stability::default(),
-        };
         let alpha: Vec<_> = arrays.tensors.iter().map(|a| (a.xx + a.yy) * R::HALF).collect();
         let determinant = |a: &Tensor<R>| R::QUARTER / (a.xx * a.yy - a.xy * a.xy);
-        let compliance: Vec<_> = arrays.tensors[..triangles].iter().map(determinant).collect();
-        let mut distance = vec![R::ZERO; cells];
-        let (order, parent, place) = (&mut ways.order, &mut ways.parent, &mut ways.places);
-        let buffers = ForestBuffers { order, parent, place, distance: &mut distance };
+        let triangles = &arrays.tensors[..arrays.triangles.len()];
+        let compliance: Vec<_> = triangles.iter().map(determinant).collect();
         let cost = |cell: usize| R::ONE / alpha[cell];
         // Contact edges are roots where nothing else is.
         let held = arrays.counts.dirichlet + arrays.robin.len() > 0;
@@ -66,26 +39,17 @@ impl<R: Scalar> EquilibrationForest<R> {
             is_root(&edges, &boundary, edge)
                 || (!held && arrays.counts.block(edge) == Block::Contact)
         };
-        let forest = grow(&edges, cost, is_way_out, buffers)?;
-        let (of_vertices, of_edges) = (&mut ways.of_vertices, &mut ways.of_edges);
-        let (triangles, quads) = (&mut ways.triangles, &mut ways.quads);
-        let buffers = CellBuffers { triangles, quads, of_vertices, of_edges };
-        let k = arrays.stiffness();
-        let cells = pack(&mesh, &edges, k, &alpha, &compliance, &forest, buffers)?;
+        let (k, a) = (arrays.stiffness(), [&alpha[..], &compliance]);
+        let packed = Packed::new((&mesh, &edges), k, a, cost, is_way_out)?;
+        let mut place = vec![u32::MAX; if every > 0 { edges.cells() } else { 0 }];
+        let mut points = Vec::new();
         for at in (0..edges.cells()).step_by(every.max(1)).filter(|_| every > 0) {
-            ways.place[at] = ways.points.len() as u32;
-            ways.points.push(at_points(arrays, at));
+            place[at] = points.len() as u32;
+            points.push(at_points(arrays, at));
         }
-        let metric = Metric { at_points: &ways.points, place: &ways.place, distortions: &[] };
-        ways.stability = stability(
-            &edges,
-            &cells,
-            metric,
-            &boundary,
-            &forest,
-            &mut vec![R::ZERO; edges.cells()],
-        )?;
-        Ok(ways)
+        let metric = Metric { at_points: &points, place: &place, distortions: &[] };
+        let stability = packed.stability(&edges, metric, &boundary)?;
+        Ok(Self { packed, points, place, stability })
     }
 
     pub fn discretization<'a>(
@@ -93,13 +57,11 @@ impl<R: Scalar> EquilibrationForest<R> {
         arrays: &'a Arrays<R>,
     ) -> Result<Discretization<'a, R, u16>, Error> {
         let edges = arrays.edges()?;
-        let forest = Forest::new(&edges, &self.order, &self.parent, &self.places)?;
-        let (of_vertices, of_edges) = (&self.of_vertices, &self.of_edges);
         Ok(Discretization {
             mesh: arrays.mesh()?,
             edges,
             stiffness: arrays.stiffness(),
-            cells: Cells::new(&self.triangles, &self.quads, of_vertices, of_edges, &forest)?,
+            cells: self.packed.cells(&edges)?,
             metric: Metric { at_points: &self.points, place: &self.place, distortions: &[] },
             stability: self.stability,
         })
@@ -148,24 +110,28 @@ fn more<R: Scalar>(arrays: &Arrays<R>) -> More<R> {
     (curved, points.collect())
 }
 
+/// The data of the scene, with their means alone.
+fn given<R: Scalar>(arrays: &Arrays<R>) -> Result<LoadCase<'_, R, u16>, Error> {
+    Ok(LoadCase {
+        loads: arrays.cell_loads(),
+        boundary: arrays.boundary()?,
+        ends: arrays.ends(),
+        ..LoadCase::default()
+    })
+}
+
 pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), Error> {
     let (curved, transfer) = more(arrays);
     for every in [0, 1, 2] {
         let ways = EquilibrationForest::new(arrays, every)?;
-        journal.digest("forest", (&ways.order, &ways.parent, &ways.places));
-        journal.digest("cells", (&ways.triangles, &ways.quads));
-        journal.digest("weights", (&ways.of_vertices, &ways.of_edges));
+        let Packed { ways: [order, parent, places], triangles, quads, weights } = &ways.packed;
+        journal.digest("forest", (order, parent, places));
+        journal.digest("cells", (triangles, quads));
+        journal.digest("weights", (&weights[0], &weights[1]));
         journal.line("reach", ways.stability.largest);
         journal.line("weighed", ways.stability.weighed);
         journal.line("oblique", ways.stability.oblique);
-        let given = LoadCase {
-            loads: arrays.cell_loads(),
-            boundary: arrays.boundary()?,
-            ends: arrays.ends(),
-            curved: &[],
-            transfer: &[],
-            oscillation: R::ZERO,
-        };
+        let given = given(arrays)?;
         certified(arrays, &ways, &given, journal)?;
         let oscillation = R::of(0.125);
         let bent = LoadCase { curved: &curved, transfer: &transfer, oscillation, ..given };
@@ -185,14 +151,7 @@ fn closed<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), Er
         let edge = usize::from(law.edge);
         let way_out = is_root(&arrays.edges()?, &arrays.boundary()?, edge);
         journal.line("a way out", way_out);
-        let given = LoadCase {
-            loads: arrays.cell_loads(),
-            boundary: arrays.boundary()?,
-            ends: arrays.ends(),
-            curved: &[],
-            transfer: &[],
-            oscillation: R::ZERO,
-        };
+        let given = given(&arrays)?;
         certified(&arrays, &EquilibrationForest::new(&arrays, 0)?, &given, journal)?;
     }
     Ok(())
@@ -212,11 +171,8 @@ fn nothing<R: Scalar>(
     let (gap, ends) = (pairs(counts.contact), pairs(counts.dirichlet));
     let given = LoadCase {
         loads: CellLoads { triangles: &triangles, quads: &quads },
-        boundary: Boundary::new(&discretization.edges, &[], &[], &[])?,
         ends: VertexData { gap: &gap, given: &ends },
-        curved: &[],
-        transfer: &[],
-        oscillation: R::ZERO,
+        ..LoadCase::default()
     };
     let all = counts.edges();
     let (mut s, mut bubbles, mut tau) = (zeros(arrays.vertices.len()), zeros(all), zeros(all));
@@ -236,7 +192,7 @@ fn certified<R: Scalar>(
     journal: &mut Journal,
 ) -> Result<(), Error> {
     let all = arrays.counts.edges();
-    let lengths = [arrays.vertices.len(), all, all, ways.order.len()];
+    let lengths = [arrays.vertices.len(), all, all, arrays.tensors.len()];
     for factor in [1.0, 0.125] {
         let mut numbers = lengths.map(|length| vec![R::ONE; length]);
         let [vertices, bubbles, tau, indicators] = &mut numbers;

@@ -6,19 +6,17 @@ use signorini_device::full::{
     Base, Contribution, CurvedPart, CurvedSum, DataMemory, EdgeTrace, Full, Functional, Lengths,
     Memory, Pattern, Points, Product, Storage,
 };
-use signorini_device::tick::{
-    self, CertifiedSweeps, Deadline, Limits, Progress, UncertifiedSweeps,
-};
-use signorini_kernel::flux_range::Spans;
+use signorini_device::tick::{CertifiedSweeps, Deadline, Limits, Progress, UncertifiedSweeps};
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::relaxation::Relaxation;
-use signorini_kernel::rows::{QUADS, Row, Rows};
+use signorini_kernel::rows::{QUADS, Row};
 use signorini_kernel::{Error, Libm};
 
 use super::arrays::Arrays;
 use super::bound::EquilibrationForest;
 use super::journal::Journal;
 use super::scene::{Draw, Scalar};
+use crate::owned::TickArrays;
 
 /// Every third place, with a random weight.
 fn shares<R: Scalar>(count: usize, draw: &mut Draw) -> Vec<Contribution<R, u16>> {
@@ -89,14 +87,13 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
             loads: arrays.cell_loads(),
             neumann: &arrays.neumann,
             robin: &arrays.robin,
-            spans: Spans::UNLIMITED,
             contact_flux: &arrays.flux,
             gap: &arrays.lower,
             dirichlet: &arrays.start[counts.unknowns()..],
             ends: arrays.ends(),
-            curved: &[],
             curved_sums: &sums,
             transfer: &transfer,
+            ..Base::default()
         },
         patterns: &patterns,
         oscillation: &oscillation,
@@ -155,7 +152,7 @@ fn play<R: Scalar>(
     ticks: u32,
     journal: &mut Journal,
 ) -> Result<(), Error> {
-    let (counts, base) = (arrays.counts, &full.base);
+    let base = &full.base;
     let lengths =
         [base.loads.triangles, base.loads.quads, base.contact_flux, base.gap, base.dirichlet];
     let mut own = Own {
@@ -165,11 +162,8 @@ fn play<R: Scalar>(
         transfer: base.transfer.to_vec(),
     };
     let (mut neumann, mut robin) = (arrays.neumann.clone(), arrays.robin.clone());
-    let mut rows = vec![Row::<R, u16, QUADS>::EMPTY; counts.unknowns()];
-    let all = counts.edges();
-    let mut numbers =
-        [counts.unknowns(), arrays.vertices.len(), all, all, all].map(|n| vec![R::ZERO; n]);
-    let mut active = vec![false; counts.contact];
+    let edges = &full.discretization.edges;
+    let mut own_arrays = TickArrays::new(edges, arrays.vertices.len());
     let (mut progress, mut outputs) = (Progress::NONE, [R::ZERO; 5]);
     let lengths = Lengths::of(full);
     let mut storage = stored(&lengths);
@@ -179,10 +173,8 @@ fn play<R: Scalar>(
         let inputs = &inputs[..full.patterns.len()];
         let [triangles, quads, contact_flux, gap, dirichlet] = &mut own.numbers;
         let [gap_ends, dirichlet_ends] = &mut own.ends;
-        let [load, vertices, bubbles, tau, u] = &mut numbers;
-        let rows = Rows::new(&full.discretization.edges, &mut rows)?;
         let memory = Memory {
-            tick: tick::Memory { rows, load, active: &mut active, vertices, bubbles, tau, u },
+            tick: own_arrays.memory(edges)?,
             data: DataMemory {
                 triangles,
                 quads,
@@ -217,7 +209,7 @@ fn play<R: Scalar>(
                 assert_eq!((same, stored), (report, outputs));
             }
             let kept = storage.numbers(&lengths).expect("its own lengths");
-            let [load, vertices, bubbles, tau, u] = &numbers;
+            let [load, vertices, bubbles, tau, u] = &own_arrays.numbers;
             assert_eq!([kept.load, kept.vertices, kept.tau, kept.u], [load, vertices, tau, u]);
             assert!(kept.bubbles.is_empty() || kept.bubbles == bubbles);
         }
@@ -226,7 +218,7 @@ fn play<R: Scalar>(
         journal.line("outputs", outputs);
         journal.digest("data", (&own.numbers, &own.ends, &own.curved, &own.transfer));
         journal.digest("laws", (&neumann, &robin));
-        journal.digest("numbers", &numbers);
+        journal.digest("numbers", &own_arrays.numbers);
     }
     Ok(())
 }

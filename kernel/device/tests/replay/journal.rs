@@ -7,7 +7,27 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use signorini_device::tick::{Figures, Report};
+use signorini_kernel::Error;
 use signorini_kernel::report::Ended;
+
+use super::arrays::Arrays;
+use super::scene::SCENES;
+
+/// A stage on every scene, in both scalars.
+pub fn replay(name: &str, narrow: Stage<f32>, wide: Stage<f64>) {
+    let mut journal = Journal::beside(name);
+    for scene in &SCENES {
+        journal.title(scene.name, "f32");
+        Arrays::new(scene).and_then(|arrays| narrow(&arrays, &mut journal)).expect("f32");
+        journal.compare();
+        journal.title(scene.name, "f64");
+        Arrays::new(scene).and_then(|arrays| wide(&arrays, &mut journal)).expect("f64");
+        journal.compare();
+    }
+    journal.finish();
+}
+
+type Stage<R> = fn(&Arrays<R>, &mut Journal) -> Result<(), Error>;
 
 pub struct Journal {
     path: PathBuf,

@@ -1,8 +1,8 @@
 //! Solves: how ω moves, where they end, and the help that slow ones get.
 
-use signorini_kernel::conjugate::{self, ConjugateBuffers};
+use signorini_kernel::conjugate;
 use signorini_kernel::law::Law;
-use signorini_kernel::refinement::{self, RefinementBuffers};
+use signorini_kernel::refinement;
 use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::rows::{QUADS, Row, Rows};
 use signorini_kernel::solver::{Settings, Solver};
@@ -71,9 +71,8 @@ pub fn help<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), 
         for _ in 0..sweeps {
             psor::sweep(&rows, Law::above(&arrays.lower), &mut u)?;
         }
-        let mut buffers = ConjugateBuffers { direction: &mut direction, residual: &mut residual };
-        let goal = R::of(goal);
-        let used = conjugate::run(&system, &mut rows, goal, iterations, &mut u, &mut buffers)?;
+        let (goal, scratch) = (R::of(goal), [&mut direction[..], &mut residual]);
+        let used = conjugate::run(&system, &mut rows, goal, iterations, &mut u, scratch)?;
         journal.line("iterations", used);
         journal.digest("u", &u);
         journal.digest("direction and residual", (&direction, &residual));
@@ -88,18 +87,11 @@ fn refined<R: Scalar>(
     tolerance: f64,
     journal: &mut Journal,
 ) -> Result<(), Error> {
-    let (unknowns, all) = (arrays.counts.unknowns(), arrays.counts.edges());
-    let mut memory = vec![Row::<R, u16, QUADS>::EMPTY; unknowns];
-    let mut scratch =
-        [all, unknowns, arrays.counts.contact, all, unknowns].map(|n| vec![R::ONE; n]);
-    let [low, defect, lower, direction, residual] = &mut scratch;
-    let buffers = RefinementBuffers {
-        rows: Rows::new(&arrays.edges()?, &mut memory)?,
-        low,
-        defect,
-        lower,
-        conjugate: ConjugateBuffers { direction, residual },
-    };
+    let counts = arrays.counts;
+    let mut memory = vec![Row::<R, u16, QUADS>::EMPTY; counts.unknowns()];
+    let [mut low, mut scratch] =
+        [counts.edges(), refinement::scratch(counts)].map(|length| vec![R::ONE; length]);
+    let rows = Rows::new(&arrays.edges()?, &mut memory)?;
     let settings = Settings {
         accuracy: R::EPSILON,
         tolerance: R::of(tolerance),
@@ -108,10 +100,11 @@ fn refined<R: Scalar>(
     };
     let (system, diagonal) = (arrays.system(true)?, arrays.diagonal()?);
     let mut u = arrays.start.clone();
+    let (both, all) = ([&mut u[..], &mut low], &mut scratch);
     let outcome =
-        refinement::run::<R, u16, Libm, QUADS>(&system, diagonal, settings, 4, &mut u, buffers)?;
+        refinement::run::<R, u16, Libm, QUADS>(&system, diagonal, settings, 4, both, rows, all)?;
     journal.line("refined", (outcome.status, outcome.sweeps, outcome.conjugate, outcome.omega));
     journal.digest("residual", outcome.residual);
-    journal.digest("u", (&u, &scratch[0]));
+    journal.digest("u", (&u, &low));
     Ok(())
 }

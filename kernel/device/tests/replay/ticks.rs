@@ -3,31 +3,27 @@
 use signorini_bound::certificate::LoadCase;
 use signorini_bound::conforming::VertexData;
 use signorini_device::tick::{
-    CertifiedSweeps, Data, Deadline, Limits, Memory, Report, Tick, UncertifiedSweeps,
+    CertifiedSweeps, Data, Deadline, Limits, Report, Tick, UncertifiedSweeps,
 };
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::law::Law;
 use signorini_kernel::relaxation::Relaxation;
-use signorini_kernel::rows::{QUADS, Row, Rows};
+use signorini_kernel::rows::QUADS;
 use signorini_kernel::{Error, Libm};
 
 use super::arrays::Arrays;
 use super::bound::EquilibrationForest;
 use super::journal::Journal;
 use super::scene::{Draw, Scalar};
+use crate::owned::TickArrays;
 
 pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), Error> {
     let ways = EquilibrationForest::new(arrays, 4)?;
     let discretization = ways.discretization(arrays)?;
-    let (unknowns, all) = (arrays.counts.unknowns(), arrays.counts.edges());
-    let mut memory = vec![Row::<R, u16, QUADS>::EMPTY; unknowns];
-    let lengths = [unknowns, arrays.vertices.len(), all, all, all];
-    let mut numbers = lengths.map(|length| vec![R::ZERO; length]);
-    let [load, vertices, bubbles, tau, u] = &mut numbers;
-    let active = &mut vec![true; arrays.counts.contact];
-    let rows = Rows::new(&discretization.edges, &mut memory)?;
-    let memory = Memory { rows, load, active, vertices, bubbles, tau, u };
-    let mut tick = Tick::new(discretization, memory, Relaxation::for_unknowns(unknowns))?;
+    let mut own = TickArrays::new(&discretization.edges, arrays.vertices.len());
+    let memory = own.memory(&discretization.edges)?;
+    let relaxation = Relaxation::for_unknowns(arrays.counts.unknowns());
+    let mut tick = Tick::new(discretization, memory, relaxation)?;
     let mut draw = Draw(13);
     for at in 0..14 {
         let input =
@@ -116,9 +112,7 @@ impl<R: Scalar> Input<R> {
             loads: CellLoads { triangles: &self.cells[0], quads: &self.cells[1] },
             boundary: arrays.boundary()?,
             ends: VertexData { gap: &self.ends, given: &arrays.given },
-            curved: &[],
-            transfer: &[],
-            oscillation: R::ZERO,
+            ..LoadCase::default()
         };
         let dirichlet = &arrays.start[arrays.counts.unknowns()..];
         Ok(Data { given, law: Law::above(&self.lower), dirichlet })

@@ -1,10 +1,9 @@
 //! A whole solve, step by step what `signorini solve` does.
 
 use signorini_device::model::Model;
-use signorini_kernel::conjugate::ConjugateBuffers;
 use signorini_kernel::law::Law;
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
-use signorini_kernel::refinement::{self, RefinementBuffers};
+use signorini_kernel::refinement;
 use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::solver::{Outcome, Settings, Status};
 use signorini_kernel::system::System;
@@ -62,23 +61,13 @@ fn refine<R: Bits, M: Math<R>, const WIDTH: usize>(
     u: &mut [R],
     low: &mut [R],
 ) -> Result<Outcome<R>, Error> {
-    let (edges, unknowns) = (model.counts.edges(), model.counts.unknowns());
     let mut rows = [Row::<R, u16, WIDTH>::EMPTY; EDGES];
-    let (mut scratch, mut lower) = ([[R::ZERO; EDGES]; 3], [R::ZERO; CONTACT]);
-    let [defect, direction, residual] = &mut scratch;
-    let buffers = RefinementBuffers {
-        rows: Rows::new(&model.edges()?, cut(&mut rows, unknowns)?)?,
-        low,
-        defect: cut(defect, unknowns)?,
-        lower: cut(&mut lower, model.counts.contact)?,
-        conjugate: ConjugateBuffers {
-            direction: cut(direction, edges)?,
-            residual: cut(residual, unknowns)?,
-        },
-    };
+    let rows = Rows::new(&model.edges()?, cut(&mut rows, model.counts.unknowns())?)?;
+    let mut scratch = [R::ZERO; 3 * EDGES + CONTACT];
+    let scratch = cut(&mut scratch, refinement::scratch(model.counts))?;
     let settings = Settings { accuracy: R::EPSILON, max_sweeps: MOST, ..Settings::default() };
     let diagonal = DiagonalTerms::new(&model.boundary()?);
-    refinement::run::<R, u16, M, WIDTH>(system, diagonal, settings, 6, u, buffers)
+    refinement::run::<R, u16, M, WIDTH>(system, diagonal, settings, 6, [u, low], rows, scratch)
 }
 
 fn name(status: Status) -> &'static str {

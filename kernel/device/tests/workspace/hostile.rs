@@ -1,22 +1,12 @@
 //! Workspaces where the scalar or the caller fails them: no bound that is none, no answer to another question.
 
+use super::{Plate, SQUARE, TWO, UNIT, sweeps};
 use signorini_bound::certificate::Verdict;
 use signorini_device::condition::{BoundaryEdge, Condition};
-use signorini_device::tick::{Deadline, Limits};
-use signorini_device::workspace;
+use signorini_device::tick::Deadline;
 use signorini_kernel::solver::Settings;
 use signorini_kernel::stiffness::Coefficient;
 use signorini_kernel::{Error, Mesh, Real, Tensor};
-
-const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-const TWO: [[u16; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
-const UNIT: Coefficient<'static, f64> = Coefficient::Uniform(Tensor { xx: 1.0, xy: 0.0, yy: 1.0 });
-
-type Plate<R> = workspace!(R, u16: vertices 16, triangles 16, quads 4, boundary 16);
-
-fn sweeps<R: Real>(sweeps: u32) -> Limits<R> {
-    Limits { error: R::ZERO, share: R::EPSILON, sweeps }
-}
 
 /// 0 on the left, nothing passes the rest.
 fn held<R: Real>(edge: &BoundaryEdge<R, u16>) -> Option<Condition<R>> {

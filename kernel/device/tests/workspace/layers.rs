@@ -1,5 +1,6 @@
 //! The short way through the layers: answers with a bound at a deadline, and what has none.
 
+use super::UNIT;
 use signorini_bound::certificate::Verdict;
 use signorini_device::condition::{BoundaryEdge, Condition};
 use signorini_device::tick::{Deadline, Limits, Report};
@@ -8,8 +9,7 @@ use signorini_kernel::error::Array;
 use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::report::Ended;
 use signorini_kernel::solver::Settings;
-use signorini_kernel::stiffness::Coefficient;
-use signorini_kernel::{Error, Mesh, Tensor};
+use signorini_kernel::{Error, Mesh};
 
 /// Squares in each direction of the unit square.
 const N: usize = 8;
@@ -19,8 +19,6 @@ type Triangles = workspace!(f64, u16: vertices NODES, triangles 2 * N * N, quads
 type Lean =
     workspace!(f64, u16: vertices NODES, triangles 2 * N * N, quads 0, boundary 4 * N, ticks only);
 type Quads = workspace!(f64, u16: vertices NODES, triangles 0, quads N * N, boundary 4 * N);
-
-const UNIT: Coefficient<'static, f64> = Coefficient::Uniform(Tensor { xx: 1.0, xy: 0.0, yy: 1.0 });
 
 fn nodes() -> Vec<[f64; 2]> {
     let at = |k: usize| k as f64 / N as f64;

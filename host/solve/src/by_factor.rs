@@ -1,16 +1,19 @@
-//! The exact solver on a matrix that was factored here: S is scaled in place, defects come from its rows.
+//! The exact solver on a matrix that was factored here: S is scaled once, defects come from the rows of K.
 
-use super::contact::{Defect, Exact, Factored, Memory, SLACK, Solved};
-use super::factor::Factor;
-use signorini_contact::dense::blocks::{Block, Blocks, SIDE, count};
+use signorini_contact::dense::blocks::{Block, padded};
 use signorini_contact::dense::tableau::InitialTableau;
+use signorini_device::sparse::contact::{Defect, SLACK};
+use signorini_device::sparse::factor::normalise;
+use signorini_device::sparse::{Exact, Factor, Factored, Solved};
 use signorini_kernel::Real;
 use signorini_kernel::error::{Array, Error, same_length};
-use signorini_kernel::index::{Index, read, write};
+use signorini_kernel::index::{Index, write};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::refinement::defects;
 use signorini_kernel::solver::{Settings, Status};
 use signorini_kernel::system::{Residual, System};
+
+use super::ldlt::{Exchanges, exchanges};
 
 /// What a solve did.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,49 +29,50 @@ pub struct SolveSummary<R> {
     pub rounds: u32,
 }
 
-/// Memory of S and its contact problem: P and B as in [`Factored`].
+/// S scaled to a diagonal of 1, and the memory of its exchanges.
 #[derive(Debug)]
-pub struct DirectMemory<'a, R> {
-    /// S as the factor left it: B blocks. Becomes scaled.
-    pub schur: &'a mut [Block<R>],
-    /// Becomes 1/√S_ii: P entries.
-    pub scale: &'a mut [R],
-    /// Zeros, P of them: where exchanges begin.
-    pub none: &'a mut [bool],
-    /// That of the exchanges.
-    pub contact: Memory<'a, R>,
-    /// Scratch, one entry an unknown.
-    pub places: &'a mut [R],
+pub struct Scaled<R> {
+    schur: Vec<Block<R>>,
+    scale: Vec<R>,
+    /// Exchanges begin with none.
+    none: Vec<bool>,
+    exchanges: Exchanges<R>,
 }
 
-/// A factor with its contact problem and the memory for both, ready for any number of loads.
-#[derive(Debug)]
-pub struct Direct<'a, R, I> {
-    exact: Exact<'a, R, I>,
-    places: &'a mut [R],
-}
-
-impl<'a, R: Real, I: Index> Direct<'a, R, I> {
-    /// Takes a factor and the S that it left in `memory.schur`. `None` where S has no positive diagonal.
-    ///
-    /// # Errors
-    /// Memory of the wrong length.
-    pub fn new(
-        factor: Factor<'a, R, I>,
-        memory: DirectMemory<'a, R>,
-    ) -> Result<Option<Self>, Error> {
-        let DirectMemory { schur, scale, none, contact, places } = memory;
-        Blocks::new(schur, factor.counts().contact)?;
-        if !normalise(schur, scale, factor.counts().contact) {
-            return Ok(None);
-        }
-        none.fill(false);
-        let start = InitialTableau { blocks: schur, exchanged: none };
-        let mut exact = Exact::new(Factored { factor, schur, scale, start }, contact)?;
-        exact.restart()?;
-        Ok(Some(Self { exact, places }))
+impl<R: Real> Scaled<R> {
+    /// Takes the S that a factor left for so many contact edges; `None` where it has no positive diagonal.
+    pub fn new(mut schur: Vec<Block<R>>, contact: usize) -> Option<Self> {
+        let (mut scale, none) = (vec![R::ZERO; padded(contact)], vec![false; padded(contact)]);
+        let is_positive = normalise(&mut schur, &mut scale, contact);
+        is_positive.then(|| Self { schur, scale, none, exchanges: exchanges(contact) })
     }
 
+    /// The solver by the factor whose S this is.
+    ///
+    /// # Errors
+    /// A factor of another number of contact edges.
+    pub fn by<'a, I: Index>(
+        &'a mut self,
+        factor: Factor<'a, R, I>,
+    ) -> Result<ByFactor<'a, R, I>, Error> {
+        let (Self { schur, scale, none, exchanges }, counts) = (self, factor.counts());
+        let start = InitialTableau { blocks: schur, exchanged: none };
+        let factored = Factored { factor, schur, scale, start };
+        let mut exact = Exact::new(factored, exchanges.memory(counts.contact)?)?;
+        exact.restart()?;
+        Ok(ByFactor { exact, places: vec![R::ZERO; counts.unknowns()] })
+    }
+}
+
+/// A factor with its contact problem, ready for any number of loads.
+#[derive(Debug)]
+pub struct ByFactor<'a, R, I> {
+    exact: Exact<'a, R, I>,
+    /// Scratch.
+    places: Vec<R>,
+}
+
+impl<R: Real, I: Index> ByFactor<'_, R, I> {
     /// Solves `system`, from any `u`, which becomes the answer together with its low part `low`; `diagonal` is what K has
     /// on its diagonal beyond the element matrices, and the tolerances of `settings` tell whether the answer is good
     /// enough. `None` where there is no answer that this scalar can hold: no solution, or a matrix that is singular in
@@ -86,7 +90,7 @@ impl<'a, R: Real, I: Index> Direct<'a, R, I> {
     ) -> Result<Option<SolveSummary<R>>, Error> {
         same_length(Array::Scratch, low.len(), u.len())?;
         let rows = Rows { system, diagonal };
-        let Some(solved) = self.exact.solve(&rows, system.law(), self.places, u, low)? else {
+        let Some(solved) = self.exact.solve(&rows, system.law(), &mut self.places, u, low)? else {
             return Ok(None);
         };
         let residual = system.residual(u);
@@ -128,28 +132,4 @@ impl<R: Real, I: Index> Defect<R, I> for Rows<'_, '_, R, I> {
             }
         }
     }
-}
-
-/// S to a diagonal of 1, `scale` to 1/√S_ii; false where an entry on the diagonal is not positive.
-pub fn normalise<R: Real>(schur: &mut [Block<R>], scale: &mut [R], order: usize) -> bool {
-    let mut positive = true;
-    scale.fill(R::ZERO);
-    for (row, scale) in scale.iter_mut().enumerate().take(order) {
-        let position = count(row / SIDE * SIDE) + row / SIDE;
-        let line = schur.get(position).and_then(|block| block.get(row % SIDE));
-        let diagonal = line.map_or(R::ZERO, |line| read(line, row % SIDE));
-        *scale = R::ONE / diagonal.rounded_sqrt();
-        positive &= diagonal > R::ZERO && scale.finite();
-    }
-    let mut blocks = schur.iter_mut();
-    for row in 0..order.div_ceil(SIDE) {
-        for (column, block) in blocks.by_ref().take(row + 1).enumerate() {
-            for (r, line) in block.iter_mut().enumerate() {
-                for (c, entry) in line.iter_mut().enumerate() {
-                    *entry *= read(scale, row * SIDE + r) * read(scale, column * SIDE + c);
-                }
-            }
-        }
-    }
-    positive
 }

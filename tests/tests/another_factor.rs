@@ -2,7 +2,7 @@
 //! like one.
 
 use crate::factored;
-use signorini_device::sparse::{SolveSummary, Solved};
+use signorini_device::sparse::Solved;
 use signorini_kernel::Error;
 use signorini_kernel::csr::Csr;
 use signorini_kernel::law::Law;
@@ -11,6 +11,7 @@ use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
 use signorini_kernel::solver::{Settings, Status};
 use signorini_kernel::system::System;
+use signorini_solve::by_factor::SolveSummary;
 use signorini_tolerances::kernel::SOLVED as ON_PAPER;
 
 /// A free knot, one in contact and one held at 0, each joined to both others.

@@ -7,9 +7,9 @@
 //!   u_E = Σ_k φ_k(middle of E) u_k,        k over the 3 or 4 sides of the coarse cell
 //! ```
 
-use crate::error::{Array, Error, same_length};
-use crate::index::{Index, read};
-use crate::real::Real;
+use signorini_kernel::Real;
+use signorini_kernel::error::{Array, Error, same_length};
+use signorini_kernel::index::{Index, read};
 
 /// Where one fine edge takes its value from.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

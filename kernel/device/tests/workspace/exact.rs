@@ -1,25 +1,16 @@
 //! Workspaces by numbers that are exact: thresholds from both sides, means, ways out, and the errors of long edges.
 
+use super::{Edge, ONE, OPEN, Plate, SQUARE, TWO, UNIT, ZERO, sweeps};
 use signorini_bound::certificate::{Certificate, Verdict};
-use signorini_device::condition::{BoundaryEdge, Condition};
-use signorini_device::tick::{Deadline, Limits};
-use signorini_device::workspace;
+use signorini_device::condition::Condition;
+use signorini_device::tick::Deadline;
 use signorini_kernel::error::{Array, CellId};
 use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::solver::Settings;
 use signorini_kernel::stiffness::Coefficient;
 use signorini_kernel::{Error, Mesh, Tensor};
 
-type Plate = workspace!(f64, u16: vertices 16, triangles 16, quads 4, boundary 16);
-type Edge = BoundaryEdge<f64, u16>;
-
-const ONE: Tensor<f64> = Tensor { xx: 1.0, xy: 0.0, yy: 1.0 };
-const UNIT: Coefficient<'static, f64> = Coefficient::Uniform(ONE);
-const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-const TWO: [[u16; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 const WHOLE: [[u16; 4]; 1] = [[0, 1, 2, 3]];
-const OPEN: Condition<f64> = Condition::Neumann { flux: 0.0 };
-const ZERO: Condition<f64> = Condition::Dirichlet { value: 0.0 };
 
 /// `condition` on the edge between these vertices, 0 on that from vertex 0 to 1 unless it is this one.
 fn on(vertices: [u16; 2], condition: Condition<f64>) -> impl Fn(&Edge) -> Option<Condition<f64>> {
@@ -37,9 +28,8 @@ fn held(edge: &Edge) -> Option<Condition<f64>> {
     on([0, 1], ZERO)(edge)
 }
 
-fn verdict(plate: &mut Plate, mesh: &Mesh<f64, u16>, sweeps: u32) -> Result<Verdict<f64>, Error> {
-    let limits = Limits { error: 0.0, share: f64::EPSILON, sweeps };
-    Ok(plate.tick(mesh, limits, &mut Deadline::never())?.verdict)
+fn verdict(plate: &mut Plate, mesh: &Mesh<f64, u16>, most: u32) -> Result<Verdict<f64>, Error> {
+    Ok(plate.tick(mesh, sweeps(most), &mut Deadline::never())?.verdict)
 }
 
 fn bound(plate: &mut Plate, mesh: &Mesh<f64, u16>, sweeps: u32) -> Result<Certificate<f64>, Error> {

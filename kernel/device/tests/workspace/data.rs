@@ -1,22 +1,14 @@
 //! Workspaces whose data change: what stays, what is another mesh, what is too large, and what rounding of data costs.
 
-use signorini_device::condition::{BoundaryEdge, Condition};
-use signorini_device::tick::{Deadline, Limits};
-use signorini_device::workspace;
+use super::{Edge, OPEN, Plate, SQUARE, TWO, UNIT, ZERO, sweeps};
+use signorini_device::condition::Condition;
+use signorini_device::tick::Deadline;
 use signorini_kernel::error::Array;
 use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::solver::Settings;
 use signorini_kernel::stiffness::Coefficient;
 use signorini_kernel::{Error, Libm, Mesh, Tensor};
 use signorini_tolerances::kernel::BOUND;
-
-type Plate = workspace!(f64, u16: vertices 16, triangles 16, quads 4, boundary 16);
-type Edge = BoundaryEdge<f64, u16>;
-
-const UNIT: Coefficient<'static, f64> = Coefficient::Uniform(Tensor { xx: 1.0, xy: 0.0, yy: 1.0 });
-const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-const OPEN: Condition<f64> = Condition::Neumann { flux: 0.0 };
-const ZERO: Condition<f64> = Condition::Dirichlet { value: 0.0 };
 
 /// 0 on the left, `right` beyond x = 1, `rest` elsewhere.
 fn bar(right: Condition<f64>, rest: Condition<f64>) -> impl Fn(&Edge) -> Option<Condition<f64>> {
@@ -81,7 +73,7 @@ fn lengths_of_contact_are_those_of_its_edges() -> Result<(), Error> {
 fn cells_that_differ_in_one_corner_are_another_mesh() -> Result<(), Error> {
     let [one, other] = [[[0_u16, 2, 3]], [[1, 2, 3]]];
     let (one, other) = (Mesh::new(&SQUARE, &one, &[])?, Mesh::new(&SQUARE, &other, &[])?);
-    let limits = Limits { error: 0.0, share: f64::EPSILON, sweeps: 1 };
+    let limits = sweeps(1);
     let mut plate = Plate::new();
     plate.build(&one, UNIT, |_| Some(ZERO))?;
     plate.tick(&one, limits, &mut Deadline::never())?;
@@ -95,7 +87,7 @@ fn cells_that_differ_in_one_corner_are_another_mesh() -> Result<(), Error> {
 fn loads_are_as_large_as_what_they_move() -> Result<(), Error> {
     let mesh = Mesh::new(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], &[[0_u16, 1, 2]], &[])?;
     let thin = Coefficient::Uniform(Tensor::scalar(2.0_f64.powi(-200)));
-    let limits = Limits { error: 0.0, share: f64::EPSILON, sweeps: 1 };
+    let limits = sweeps(1);
     for (times, fits) in [(0.25, true), (1.0, true), (3.0, false), (16.0, false)] {
         // Rows hold ω b_i/K_ii: what is told of the load does not know ω.
         for omega in [0.5, 1.0, 1.75] {
@@ -117,7 +109,7 @@ fn loads_are_as_large_as_what_they_move() -> Result<(), Error> {
 /// Where u_D lies below ψ by rounding, so does s: the bound for ψ has what is missing as well.
 #[test]
 fn a_gap_that_rounding_lifts_costs_what_it_lifts() -> Result<(), Error> {
-    let mesh = Mesh::new(&SQUARE, &[[0_u16, 1, 2], [0, 2, 3]], &[])?;
+    let mesh = Mesh::new(&SQUARE, &TWO, &[])?;
     for steps in [0.0, 2.0, 16.0, 64.0] {
         let value = 1.0 - steps * f64::EPSILON;
         let mut plate = Plate::new();
@@ -128,8 +120,7 @@ fn a_gap_that_rounding_lifts_costs_what_it_lifts() -> Result<(), Error> {
                 _ => OPEN,
             })
         })?;
-        let limits = Limits { error: 0.0, share: f64::EPSILON, sweeps: 100 };
-        let report = plate.tick(&mesh, limits, &mut Deadline::never())?;
+        let report = plate.tick(&mesh, sweeps(100), &mut Deadline::never())?;
         let rounding = report.verdict.certificate().expect("a bound").rounding;
         // Both edges have the cell with Σ|K| = 4. Storing moves each by 2 ε, and ψ follows s by `steps` ε.
         let moved = (2.0 + steps) * (2.0 + steps) + 4.0;

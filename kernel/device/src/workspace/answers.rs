@@ -1,4 +1,5 @@
-//! A control loop on a workspace: sweeps until the answer is good enough or time is up, with its error bound.
+//! Answers of a workspace: a solve to its end; and ticks of a control loop, which sweep until the answer is good enough or time
+//! is up, with its error bound.
 
 use super::bound::BoundSupport;
 use super::{Workspace, ends, stiffness_of};
@@ -6,16 +7,17 @@ use crate::tick::{
     CertifiedSweeps, Data, Deadline, Limits, Memory, Progress, Report, Tick, UncertifiedSweeps,
 };
 use signorini_bound::certificate::{LoadCase, Verdict};
-use signorini_kernel::Libm;
-use signorini_kernel::Real;
 use signorini_kernel::assembly::CellLoads;
-use signorini_kernel::error::Error;
-use signorini_kernel::index::Index;
+use signorini_kernel::csr::Csr;
+use signorini_kernel::error::{Array, Error, all_moderate};
 use signorini_kernel::law::Law;
-use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::Boundary;
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::solver::{Outcome, Settings, Solver};
+use signorini_kernel::system::{Shifts, System};
+use signorini_kernel::{Index, Libm, Mesh, Real, contact, flux};
 
 impl<
     R: Real,
@@ -30,6 +32,52 @@ impl<
     const W: usize,
 > Workspace<R, I, V, T, Q, B, C, E, N, W>
 {
+    /// Solves from the present iterate and recovers the flux. Look at the outcome's status: the
+    /// iterate is feasible and usable also where sweeps ran out.
+    ///
+    /// # Errors
+    /// Data that are not finite or within 1/ε² of the largest number, where the answer may overflow (ψ, u_D, b and
+    /// b_i/K_ii); a relaxation factor outside (0, 2); a workspace for ticks only. The last answer stays then, bit for bit.
+    pub fn solve(&mut self, settings: Settings<R>) -> Result<Outcome<R>, Error> {
+        if !self.built {
+            return Err(Error::NotBuilt);
+        }
+        if N == 0 {
+            let needed = self.numbered().nonzeros();
+            return Err(Error::Capacity { of: Array::MatrixValues, needed, limit: 0 });
+        }
+        // Borrowed apart, since moving an array out of the workspace would pass through the stack.
+        let Self { of_triangles, of_quads, half_edges, counts, u, flux, .. } = self;
+        let edges = Edges::baked(of_triangles, of_quads, half_edges, *counts);
+        let matrix = Csr::new(&self.row_ptr, &self.col_idx, &self.values, counts.edges())?;
+        let boundary = Boundary::new(&edges, &self.neumann, &self.robin, &self.contact_flux)?;
+        let shifts = Shifts { part: &[], parts: 1, diagonal: DiagonalTerms::new(&boundary) };
+        let system =
+            System::new(matrix, &self.load, Law::above(&self.gap), *counts)?.with_shifts(shifts)?;
+        let (unknowns, given) = u.split_at_mut_checked(counts.unknowns()).unwrap_or_default();
+        all_moderate(Array::Load, self.load.iter().copied())?;
+        let steps = matrix.iter().zip(&self.load).map(|(row, &load)| load / row.diagonal());
+        all_moderate(Array::Load, steps)?;
+        all_moderate(Array::LowerBounds, self.gap.iter().copied())?;
+        all_moderate(Array::Dirichlet, self.dirichlet.iter().copied())?;
+        let mut solver = Solver::<R>::new(settings)?;
+        given.iter_mut().zip(&self.dirichlet).for_each(|(u, &value)| *u = value);
+        if unknowns.iter().any(|u| !u.finite()) {
+            // An overflow of the last solve: start anew.
+            unknowns.fill(R::ZERO);
+        }
+        let mut rows = self.rows.within(&edges)?;
+        let outcome = solver.run(&system, &mut rows, u)?;
+        let stiffness = stiffness_of(&self.triangles, &self.quads);
+        let cells = CellLoads { triangles: &self.source_triangles, quads: &self.source_quads };
+        flux::recover(&edges, stiffness, cells, u, &[], flux)?;
+        for (at, active) in self.active.iter_mut().enumerate() {
+            *active = contact::is_active(*counts, Law::above(&self.gap), u, at);
+        }
+        self.force = contact::force(*counts, &boundary, Law::above(&self.gap), u, flux);
+        Ok(outcome)
+    }
+
     /// How ω is chosen from the next tick on: adaptive from the best ω of a square with as many unknowns, unless this
     /// says otherwise.
     ///
@@ -74,9 +122,7 @@ impl<
                 loads: CellLoads { triangles: &self.source_triangles, quads: &self.source_quads },
                 boundary: Boundary::new(&edges, &self.neumann, &self.robin, &self.contact_flux)?,
                 ends: ends(&self.gap_ends, &self.dirichlet_ends),
-                curved: &[],
-                transfer: &[],
-                oscillation: R::ZERO,
+                ..LoadCase::default()
             },
             law: Law::above(&self.gap),
             dirichlet: &self.dirichlet,
