@@ -84,12 +84,12 @@ fn what_ran_is_said() {
     let condensed = "model = 'condensed'\nscalar = 'f32'";
     for (setting, more, asked, used, printed) in [
         ("", &[][..], "auto", "kernel sweeps", " sweeps, scaled residual"),
-        ("refine = 1", &[], "auto", "kernel factor", "converged by a factor of "),
-        ("refine = 1\nscalar = 'f32'", &[], "auto", "kernel factor", "by a factor of "),
+        ("refine = 1", &[], "auto", "kernel factor", "converged by elimination, "),
+        ("refine = 1\nscalar = 'f32'", &[], "auto", "kernel factor", "by elimination, "),
         ("refine = 1", &["--max-sweeps", "9000"], "auto", "kernel sweeps", " sweeps, "),
         ("", &["--solver", "kernel"], "kernel", "kernel sweeps", " sweeps, "),
         ("", &["--solver", "direct"], "direct", "direct", " active-set steps, "),
-        ("solver = 'factor'", &[], "auto", "kernel factor", "by a factor of "),
+        ("solver = 'factor'", &[], "auto", "kernel factor", "by elimination, "),
         (condensed, &[], "auto", "condensed exact", "exchanges on the condensed"),
     ] {
         let what = format!("{setting} {more:?}");

@@ -79,6 +79,7 @@ fn record<R: Scalar>(of: &OutputWeights<R>) -> String {
 
 const PLUS_MINUS: &str = "
 impl controller::Weighed<Scalar> for Outputs {
+    #[inline(always)]
     fn plus_minus(report: &Report<Scalar>) -> Self {
         let weights = &OUTPUT_WEIGHTS;
         Outputs::from_array(signorini_device::intervals::plus_minus(weights, report))

@@ -117,7 +117,9 @@ impl Solution {
             self.factored.unwrap_or(Factored { entries: 0, exchanges: 0, rounds: 0 });
         let how = match self.ran {
             Ran::Sweeps => format!("after {} sweeps", self.sweeps),
-            Ran::Factor => format!("by a factor of {entries} entries, {exchanges} exchanges"),
+            Ran::Factor => format!(
+                "by elimination, {entries} entries in the factor, {exchanges} changes of the contact set"
+            ),
             Ran::Direct => format!("by the direct solver, {exchanges} active-set steps"),
             Ran::CondensedExact => "by exchanges on the condensed model".to_owned(),
             Ran::CondensedSweeps => format!("after {} sweeps on the condensed model", self.sweeps),

@@ -98,7 +98,9 @@ fn report_bound(solution: &Solution, energy_norm: Option<f64>) {
         return say(format_args!("  no error bound: {reason}"));
     };
     let part = |of: f64| match energy_norm {
-        Some(norm) if norm > 0.0 => format!("{} % of ‖A^½∇s‖", percent_above(of / norm)),
+        // Of a constant solution, whose gradient is rounding, a percentage says nothing.
+        Some(norm) if norm > of => format!("{} % of ‖A^½∇s‖", percent_above(of / norm)),
+        Some(norm) if norm > 0.0 => format!("no less than ‖A^½∇s‖ itself, {norm:.2e}"),
         _ => "‖A^½∇s‖ is 0".to_owned(),
     };
     say(format_args!("  error bounds in the energy norm, guaranteed:"));

@@ -121,6 +121,7 @@ pub struct Answer<O, R> {
 impl<O: Weighed<R>, R> Answer<O, R> {
     /// How far each output may be from its value for the exact solution of the scene, in its own unit; infinite where nothing is
     /// guaranteed. What the sum of an output rounds is not in it.
+    #[inline(always)]
     pub fn plus_minus(&self) -> O {
         O::plus_minus(&self.report)
     }

@@ -45,11 +45,13 @@ impl<R: Real> OutputWeights<R> {
     /// assert_eq!(weights.plus_minus(&report), 0.22);
     /// assert_eq!(OutputWeights::NONE.plus_minus(&report), f64::INFINITY);
     /// ```
+    #[inline(always)]
     pub fn plus_minus(&self, report: &Report<R>) -> R {
         report.certificate().map_or(R::INFINITY, |bound| self.within(bound))
     }
 
     /// How far the output may be off within this bound.
+    #[inline(always)]
     pub fn within(&self, bound: &Certificate<R>) -> R {
         let is_told = self.algebraic == R::ZERO || bound.algebraic < bound.total;
         if !is_told || self.total == R::INFINITY {
@@ -61,6 +63,7 @@ impl<R: Real> OutputWeights<R> {
 }
 
 /// How far each output may be off.
+#[inline(always)]
 pub fn plus_minus<R: Real, const N: usize>(
     weights: &[OutputWeights<R>; N],
     report: &Report<R>,
