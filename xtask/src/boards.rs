@@ -68,7 +68,7 @@ pub fn run(steps: &mut Steps) {
 }
 
 fn build_desk() -> Result<(), String> {
-    let mut command = cargo(&["build", "--release", "--locked", "--features", "desk"]);
+    let mut command = cargo(&["build", "--profile", "desk", "--locked", "--features", "desk"]);
     command.args(["-p", "signorini-firmware", "--bin", "desk", "--target-dir"]);
     command.arg(target_dir("desk")).env("SIGNORINI_SCENES", scenes()?);
     command.current_dir(root().join("tests/firmware"));
@@ -76,7 +76,7 @@ fn build_desk() -> Result<(), String> {
 }
 
 fn desk(name: &str) -> Result<String, String> {
-    output(Command::new(target_dir("desk").join("release/desk")).arg(name))
+    output(Command::new(target_dir("desk").join("desk/desk")).arg(name))
 }
 
 fn on_board(steps: &mut Steps, board: &Board, images: &[&str]) {

@@ -149,10 +149,12 @@ fn at_length(steps: &mut Steps) {
     results::run(steps);
 }
 
-/// A small part of each of them.
+/// A small part of each of them. Others stand among the tests above: hostile bytes (fuzzing), a campaign's parts in one rank (MPI),
+/// results that meshio reads (PyVista). Of OSQP the lock file is checked.
 fn witnesses(steps: &mut Steps) {
     sanitize::witness(steps);
     mutants::witness(steps);
+    oldest::witness(steps);
     steps.lint("packages apart: their lock files are whole", || {
         [fuzz::MANIFEST, osqp::MANIFEST, mutants::MANIFEST].iter().try_for_each(|manifest| {
             let words =

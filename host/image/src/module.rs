@@ -132,12 +132,12 @@ impl Module {
     /// A build that fails.
     pub fn desk(&self) -> Result<PathBuf, String> {
         let folder = target_dir("desk");
-        let mut command = cargo(&["build", "--release", "--locked", "-p", PACKAGE]);
+        let mut command = cargo(&["build", "--profile", "desk", "--locked", "-p", PACKAGE]);
         command.args(["--bin", "scene_desk", "--target-dir"]).arg(&folder);
         let features = [self.of_kernel(), vec!["desk".to_owned()]].concat();
         command.arg("--features").arg(features.join(","));
         command.env("SIGNORINI_SCENE", &self.file).current_dir(root().join("tests/firmware"));
-        self.made(command, &folder.join("release/scene_desk"), "desk")
+        self.made(command, &folder.join("desk/scene_desk"), "desk")
     }
 
     fn of_kernel(&self) -> Vec<String> {
