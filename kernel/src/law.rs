@@ -82,7 +82,7 @@ impl<'a, R: Real> Law<'a, R> {
         edges.map(move |(at, &lower)| EdgeLaw { lower, span: spans.on(at) })
     }
 
-    /// Puts u + low onto the gap wherever u may not be where it is (or is not a number), and returns by how much at most. `u`
+    /// Sets every u + low that the law forbids, or that is NaN, to ψ; returns the largest move. `u`
     /// and `low` hold the means on the contact edges; `low` is empty where nobody asks for it.
     pub fn snap_to_gap(&self, u: &mut [R], low: &mut [R]) -> R {
         let mut most = R::ZERO;
@@ -223,7 +223,7 @@ impl<R: Real> EdgeLaw<R> {
         features::LIMITED && u < self.lower && !self.span.is_above()
     }
 
-    /// What the load lacks at this u: the span where u is on the side whose flux is not the base.
+    /// What to add to the load at this u: the span where the flux is at the end that the load does not contain, else 0.
     #[inline(always)]
     pub fn missing(self, u: R) -> R {
         let length = self.span.length();
@@ -234,8 +234,8 @@ impl<R: Real> EdgeLaw<R> {
         if is_other { length } else { R::ZERO }
     }
 
-    /// The u that a relaxation ends at, from the one at which the row of K with its load alone would be satisfied; `softness` is
-    /// what a unit of load moves that one by. NaN becomes ψ.
+    /// The new u of a contact edge. `wanted` solves its row with the load as stored; adding the least or the most flux moves it
+    /// by `softness` times that. The result is whichever stays on its side of ψ, else ψ; NaN becomes ψ.
     #[inline(always)]
     pub fn project(self, wanted: R, softness: R) -> R {
         if self.span.is_above() {

@@ -3,7 +3,7 @@
 use crate::Real;
 use crate::verdict::Certificate;
 
-/// When enough is enough; whichever comes first.
+/// When a tick may stop: at this error, this share or this many sweeps, whichever is first.
 ///
 /// `error` and `share` are about sweeps on a mesh. A condensed model takes no certificate on its way: it goes on to its
 /// end, which is below any share, or until sweeps or time are used up.

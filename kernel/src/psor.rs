@@ -118,7 +118,7 @@ pub fn defect<R: Real, I: Index, const WIDTH: usize>(
     Ok(defect)
 }
 
-/// Whether u solves each row but for what rounding makes of its terms: `slack` ε of their sum
+/// Whether each row's residual is small enough to be rounding: at most `slack` ε of the sum
 /// |b_i|/K_ii + Σ|K_ij u_j|/K_ii, on contact edges of |u_i| + |ψ_i| where the opening decides. Whoever
 /// changes one entry of K by that much makes u the solution. Costs more than [`defect`], and is asked more seldom.
 #[inline(never)]
@@ -197,7 +197,7 @@ unsafe fn relax_contact<R: Real, I: Index, const WIDTH: usize>(
     }
 }
 
-/// A law with what its row is moved by, by a unit of load.
+/// The law of an edge, with ω/K_ii: by how much a unit of load moves its u.
 #[inline(always)]
 fn soft<R: Real, I: Index, const WIDTH: usize>(
     (law, row): (EdgeLaw<R>, &Row<R, I, WIDTH>),

@@ -2,4 +2,5 @@
 
 mod elements;
 mod exact;
+mod law;
 mod nonparametric;

@@ -1,4 +1,4 @@
-//! An answer as what is read off it takes it: inputs, openings, residuals, and what these may be.
+//! A condensed answer as outputs and certificate read it: inputs, openings, residuals, and the ranges of these.
 
 use crate::dense::ranges::Ranges;
 

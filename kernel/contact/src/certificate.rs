@@ -239,7 +239,7 @@ impl<R: Real> Form<'_, R> {
         terms * R::HALF * R::EPSILON * (self.row_sum * largest + loads + self.spans(answer))
     }
 
-    /// ‖δ‖
+    /// ‖δ‖: by how much r has to change so that open edges balance and touching ones are pressed; `None` where no edge bears it.
     fn mend(&self, x: &[R], residual: &[R], uncertainty: R) -> Option<Mended<R>> {
         let amount = |x: R, r: R| if x > R::ZERO || r < R::ZERO { -r } else { R::ZERO };
         let amounts = x.iter().zip(residual).map(|(&x, &r)| amount(x, r));

@@ -1,4 +1,4 @@
-//! A baked quadratic form ‖Fz‖², F upper triangular and kept by columns: cancellation is done with.
+//! A baked quadratic form ‖Fz‖², F upper triangular and kept by columns. The host found F, so that nothing cancels on the target.
 //!
 //! The form of the bound vanishes to second order next to smooth solutions: summed from its matrix, most
 //! of it would cancel. Its factor has entries of one size, so that ‖Fz‖ is right up to a few ε of

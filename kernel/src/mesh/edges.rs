@@ -20,9 +20,9 @@ use crate::{Math, Mesh, Real, features};
 /// Where an edge stands in the order of the unknowns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Block {
-    /// Inside the domain, Neumann or Robin: an unknown without a bound.
+    /// Inside the domain, Neumann or Robin: an unknown that no law of contact holds.
     Free,
-    /// Contact: an unknown bounded below by the gap.
+    /// Contact: an unknown that the law of contact holds at, above or below its gap.
     Contact,
     /// Dirichlet: not an unknown.
     Dirichlet,
@@ -31,9 +31,9 @@ pub enum Block {
 /// How many edges stand in each block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct EdgeCounts {
-    /// Unknowns without a bound.
+    /// Unknowns off contact.
     pub free: usize,
-    /// Unknowns with a bound.
+    /// Unknowns on contact.
     pub contact: usize,
     /// Edges with a given value.
     pub dirichlet: usize,

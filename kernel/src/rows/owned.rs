@@ -13,7 +13,7 @@ pub trait LayOut<R, I, const WIDTH: usize> {
     fn lay_out(&mut self, edges: &Edges<I>) -> Result<Rows<'_, R, I, WIDTH>, Error>;
 }
 
-/// Whose offsets nobody vouches for is laid out every time.
+/// Plain slices: laid out at each call, since nothing guarantees their offsets.
 impl<R: Real, I: Index, const WIDTH: usize, T: AsMut<[Row<R, I, WIDTH>]>> LayOut<R, I, WIDTH>
     for T
 {

@@ -29,7 +29,7 @@ pub struct Cell<R, I, const SIDES: usize, const ENTRIES: usize> {
     pub k: [R; ENTRIES],
     /// 1 where an edge is directed out of this cell, else −1.
     pub signs: [R; SIDES],
-    /// α
+    /// α = ½ tr A, the cell's weight in means at vertices.
     pub alpha: R,
     /// 1/α
     pub softness: R,

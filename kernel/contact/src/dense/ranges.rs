@@ -82,7 +82,7 @@ impl<R: Real> Ranges<'_, R> {
         })
     }
 
-    /// What the load of an exchanged edge has beyond b.
+    /// The flux added to b for an edge off the gap: the end that belongs to the sign of x; 0 at x = 0 or for an infinite end.
     #[inline(always)]
     pub fn excess(&self, at: usize, x: R) -> R {
         let [least, most] = self.ends(at);
@@ -102,7 +102,8 @@ impl<R: Real> Ranges<'_, R> {
         }
     }
 
-    /// z as it would be were all ranges w ≥ 0: more than 0 outside, and less within, where nothing is wrong.
+    /// z mapped to the case w ≥ 0, so that one rule serves all ranges: where nothing is wrong it is ≥ 0 for an edge that touches, ≤ 0
+    /// for an exchanged one.
     pub(super) fn violation(&self, at: usize, z: R, x: R, within: bool) -> R {
         if within {
             return if x < R::ZERO { -z } else { z };

@@ -91,7 +91,7 @@ impl<R: Real> Modal<'_, R> {
         Ok(progress.report(x, verdict))
     }
 
-    /// The load of these inputs, which are set with amplitudes of no meaning; returns t.
+    /// Fills `load` with B(t)p and the front of `all` with p, whose amplitudes mean nothing yet; returns t.
     fn combine(&self, inputs: &[R], all: &mut [R], load: &mut [R]) -> Result<R, Error> {
         all_finite(Array::Load, inputs)?;
         same_length(Array::Load, all.len(), inputs.len() + self.compliance.len())?;

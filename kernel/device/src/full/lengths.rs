@@ -45,7 +45,7 @@ pub struct Numbers<T> {
 pub struct Lengths {
     /// Packed rows: the unknowns.
     pub rows: usize,
-    /// Active edges: those on contact.
+    /// Flags of contact edges, one each.
     pub active: usize,
     /// Numbers, by array.
     pub numbers: Numbers<usize>,

@@ -13,7 +13,7 @@ use super::{Data, Memory};
 use signorini_kernel::error::{Array, Error, all_moderate};
 use signorini_kernel::{Index, Real};
 
-/// How much larger than m/ε an iterate may be that is largest_useful going on with.
+/// An iterate more than this many times m/ε is not worth going on from.
 const WORTH: u32 = 1024;
 
 /// m, once load and rows are those of `data`.
@@ -31,7 +31,7 @@ pub(super) fn size<R: Real, I: Index, const WIDTH: usize>(
     Ok(load.or_larger(lower).or_larger(dirichlet))
 }
 
-/// The largest |u| that is largest_useful going on with.
+/// The largest |u| that a tick still starts from; above it u is zeroed.
 pub(super) fn largest_useful<R: Real>(size: R) -> R {
     R::from_count(WORTH) * size / R::EPSILON
 }

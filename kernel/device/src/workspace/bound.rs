@@ -134,7 +134,7 @@ impl<
         Ok(())
     }
 
-    /// Takes what cancels in the element matrix of a cell.
+    /// Records how much cancels in a cell's element matrix; an error where that is too much.
     fn bear(&mut self, cancelled: R, cell: CellId) -> Result<(), Error> {
         self.cancelled = self.cancelled.or_larger(cancelled);
         let told = R::from_count(32) * R::EPSILON * cancelled < R::ONE;

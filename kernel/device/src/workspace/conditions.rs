@@ -53,7 +53,7 @@ impl<
         self.replace_conditions(mesh, condition)
     }
 
-    /// The second asking, which replaces the data: what it says counts.
+    /// Asks for the condition of every edge again and stores the answers: the first round only checked them.
     pub(super) fn replace_conditions(
         &mut self,
         mesh: &Mesh<R, I>,
