@@ -19,12 +19,21 @@ fn pages(folder: &Path, all: &mut Vec<PathBuf>) {
     }
 }
 
-/// Code spans that are paths to files; `NAME` stands for any.
-fn paths(page: &str) -> impl Iterator<Item = &str> {
+/// Code spans that are paths to files, one for each word in braces; `NAME` stands for any.
+fn paths(page: &str) -> impl Iterator<Item = String> {
     let spans = page.split('`').skip(1).step_by(2);
     let is_path = |span: &&str| FOLDERS.iter().any(|folder| span.starts_with(folder));
-    let is_one = |span: &&str| !span.contains(['*', '<', '{', ' ', '\n']) && !span.contains("NAME");
-    spans.filter(is_path).filter(is_one)
+    let is_one = |span: &&str| !span.contains(['*', '<', ' ', '\n']) && !span.contains("NAME");
+    spans.filter(is_path).filter(is_one).flat_map(expanded)
+}
+
+fn expanded(path: &str) -> Vec<String> {
+    match path.split_once('{').and_then(|(head, rest)| Some((head, rest.split_once('}')?))) {
+        Some((head, (words, tail))) => {
+            words.split(',').flat_map(|word| expanded(&format!("{head}{word}{tail}"))).collect()
+        }
+        None => vec![path.to_owned()],
+    }
 }
 
 #[test]
@@ -36,7 +45,7 @@ fn files_that_pages_name_exist() {
     for page in all {
         for path in paths(&text(&page)) {
             count += 1;
-            assert!(repository(path).exists(), "{}: {path}", page.display());
+            assert!(repository(&path).exists(), "{}: {path}", page.display());
         }
     }
     assert!(count > 50, "{count} paths");

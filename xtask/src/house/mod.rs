@@ -3,7 +3,6 @@
 //! Source files are read as syntax; tests within them may do as they like.
 
 mod first_lines;
-mod paths;
 mod rules;
 mod sources;
 
@@ -22,5 +21,4 @@ pub fn run(steps: &mut Steps) {
         });
     }
     first_lines::run(steps);
-    paths::run(steps);
 }
