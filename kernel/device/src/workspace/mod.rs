@@ -222,7 +222,7 @@ impl<
     }
 
     /// ∫_C (τ·n − q) ≥ 0 of the last answer: the sum of λ, within the law of contact wherever the solve was stopped
-    /// ([`contact::force`]).
+    /// ([`signorini_kernel::contact::force`]).
     pub fn contact_force(&self) -> R {
         self.force
     }
