@@ -23,3 +23,5 @@ pub const TRANSFER: bool = cfg!(feature = "transfer");
 pub const CURVED: bool = cfg!(feature = "curved");
 /// Each cell's share in the error bound.
 pub const INDICATORS: bool = cfg!(feature = "indicators");
+/// Whether there is the fast square root: modules that take it ask at compile time.
+pub const MICROMATH: bool = cfg!(feature = "micromath");
