@@ -1,6 +1,5 @@
 //! The functions that s is a sum of, and rows of a residual over these and fluxes, as few as there can be.
 
-use super::factor::norm;
 use signorini_kernel::mesh::edges::Block as Kind;
 use signorini_problem::Problem;
 
@@ -17,6 +16,11 @@ pub(super) struct Block {
     pub edges: Vec<u32>,
     /// Row after row.
     pub rows: Vec<Vec<f64>>,
+}
+
+/// |x|
+pub(crate) fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
 }
 
 /// The rows of R in the QR factorisation of `columns` by modified Gram–Schmidt: Q is not kept, and a

@@ -6,9 +6,10 @@
 //! ```
 //! with the means of the positive and the negative part of s − ψ over edge i.
 
+use super::block::norm;
 use super::ends::nearest;
 use super::evaluate::dot;
-use super::factor::{column, norm};
+use super::factor::column;
 use super::{CondensedModel, Corner, Form};
 use signorini_kernel::excess::Excess;
 

@@ -17,7 +17,7 @@ use faer::{Accum, Mat, Par, Side};
 use super::best::Table;
 use super::block::Block;
 
-/// Rows a chunk, on top of one for each column.
+/// Rows per chunk, on top of one for each column.
 const CHUNK: usize = 1024;
 
 /// F of the residual in all columns of `s`.
@@ -89,11 +89,6 @@ pub(super) fn packed(factor: &Mat<f64>) -> Vec<f64> {
 /// Column j of such a triangle.
 pub(super) fn column(factor: &[f64], j: usize) -> &[f64] {
     &factor[j * (j + 1) / 2..(j + 1) * (j + 2) / 2]
-}
-
-/// |x|
-pub(super) fn norm(x: &[f64]) -> f64 {
-    x.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
 }
 
 /// Source for a part held by contact alone.

@@ -18,7 +18,8 @@ use super::affine::AffineOutput;
 use super::interval::{Interval, between, dot};
 use super::reduced::Reduced;
 use super::sides::Sides;
-use crate::factor::{column, norm};
+use crate::block::norm;
+use crate::factor::column;
 use crate::{CondensedModel, Corner, Form, Vertex};
 use signorini_reference::ReferenceError;
 

@@ -5,7 +5,8 @@ use faer::Mat;
 use super::reduced::Build;
 use super::reduction::Affine;
 use super::sides::VertexSide;
-use crate::factor::{column, norm, packed};
+use crate::block::norm;
+use crate::factor::{column, packed};
 use crate::{Corner, Form, Vertex};
 
 impl Build<'_> {

@@ -8,9 +8,7 @@ use super::bound::Certified;
 use super::checks::{self, Check};
 use super::cost::{self, Cost};
 use super::outputs::KnownOutputs;
-use super::panel::panel;
 use crate::cycles;
-use signorini_draw::ScenePanel;
 use signorini_problem::Problem;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
@@ -60,8 +58,8 @@ pub struct Run {
     pub cost: Cost,
 }
 
-/// Solves the scene at `path` three times and compares.
-pub fn study(path: &Path) -> Result<(KnownScene, ScenePanel)> {
+/// Solves the scene at `path` three times and compares; its problem and the solution in f64 are there to be drawn.
+pub fn study(path: &Path) -> Result<(Problem, Solution, KnownScene)> {
     let scene = Scene::read(path)?;
     let problem = Problem::new(&scene, mesh_of_scene(&scene)?.mesh)?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -91,8 +89,7 @@ pub fn study(path: &Path) -> Result<(KnownScene, ScenePanel)> {
         outputs,
         checks,
     };
-    let panel = panel(&problem, &double, &case);
-    Ok((case, panel))
+    Ok((problem, double, case))
 }
 
 /// The kernel down to the rounding floor.

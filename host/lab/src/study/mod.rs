@@ -61,9 +61,9 @@ pub fn run() -> Result<u8> {
     let (mut cases, mut panels) = (Vec::new(), Vec::new());
     for path in &scenes {
         bar.set_message(format!("{}", path.strip_prefix(root).unwrap_or(path).display()));
-        let (case, panel) = case::study(path)?;
+        let (problem, solution, case) = case::study(path)?;
+        panels.push(panel::panel(&problem, &solution, &case));
         cases.push(case);
-        panels.push(panel);
         bar.inc(1);
     }
     bar.set_message("convergence on refined grids");

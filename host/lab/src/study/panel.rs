@@ -12,7 +12,7 @@ use signorini_problem::field::CellField;
 use signorini_problem::{EdgeKind, Problem};
 use signorini_solve::Solution;
 
-/// Points an edge at which the exact multiplier is drawn.
+/// Points per edge at which the exact multiplier is drawn.
 const SAMPLES: usize = 9;
 /// How far the kernel is from the reference.
 const FROM_FAER: &str = "largest distance of u to faer’s, over the range of u";
