@@ -6,6 +6,7 @@ use crate::cell::Cell;
 use crate::quadrature::{bisected, mean_on_edge};
 use signorini_scene::error::Result;
 use signorini_scene::expression::Expression;
+use signorini_scene::expression::enclosure::{Form, Region};
 use signorini_scene::scene::{Field, Input, Located, Scene};
 
 /// A field with its inputs: Σ weight · expression.
@@ -97,6 +98,14 @@ impl<'s> Sum<'s> {
             sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
         }
         sums
+    }
+
+    /// All values in a region.
+    pub fn enclose(&self, region: &Region) -> Form {
+        let base = self.base.value.enclose(region, self.time);
+        self.inputs.iter().fold(base, |sum, (weight, pattern)| {
+            sum.combined(1.0, &pattern.value.enclose(region, self.time), *weight)
+        })
     }
 
     /// The sum of the sizes of its terms there, of which rounding is a part.

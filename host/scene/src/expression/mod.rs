@@ -17,6 +17,7 @@
 
 mod arithmetic;
 mod elementary;
+pub mod enclosure;
 mod lexer;
 mod operation;
 mod parser;

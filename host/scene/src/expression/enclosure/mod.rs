@@ -1,0 +1,64 @@
+//! Enclosures of expressions over cells, edges and parts of them: no value lies outside.
+//!
+//! ```text
+//! corners ─► Region ─┐
+//!                    ├─► program, run on forms ─► Form: c₀ + c₁ξ + c₂η + c₃ξ² + c₄ξη + c₅η² + [r₋, r₊], and a range
+//! expression, t ─────┘
+//! ```
+//! (ξ, η) are reference coordinates of the region. A smooth operation is its Taylor polynomial of degree 2 in its operand, and
+//! Lagrange's remainder with the third derivative enclosed by intervals; beside it each form carries the range that
+//! intervals alone give ([`interval`], rounded outward), and takes it where the remainder is wider. `abs`, `min` and `max` are
+//! resolved where the sign of their argument is known, and lie between a chord and a chord less the kink's height where it
+//! is not. A jump is the hull of its values.
+//!
+//! What is enclosed is the expression in real numbers and in f64 alike, almost everywhere: at a pole the sign of a zero does not count.
+//! Where it has values in a part of the region only, the form encloses these, and says that it is not [`Form::is_finite`].
+
+mod derivatives;
+mod form;
+mod function;
+mod interval;
+mod numbers;
+mod polynomial;
+mod region;
+mod slope;
+#[cfg(test)]
+mod tests;
+
+pub use form::Form;
+pub use interval::Interval;
+pub use polynomial::Shape;
+pub use region::Region;
+
+use super::Expression;
+use numbers::Forms;
+use slope::{Slope, Slopes};
+
+impl Expression {
+    /// All values in `region` at the time t, in f64 arithmetic whatever that of the expression.
+    pub fn enclose(&self, region: &Region, t: f64) -> Form {
+        self.enclose_during(region, Interval::point(t))
+    }
+
+    /// All values in `region` at all times in `t`.
+    pub fn enclose_during(&self, region: &Region, t: Interval) -> Form {
+        if let Some(value) = self.is_constant() {
+            return Form::constant(region.shape(), value);
+        }
+        let [x, y] = region.coordinates();
+        let at = [x, y, Form::flat(region.shape(), t, true)];
+        self.program.run(&Forms(region.shape()), at)
+    }
+
+    /// All values and all derivatives along a way on which x and y change as fast as `direction` says, where there are any:
+    /// at a kink the derivatives of both sides.
+    pub fn enclose_slope(&self, region: &Region, t: f64, direction: [f64; 2]) -> [Form; 2] {
+        let constant = |value| Form::constant(region.shape(), value);
+        let [x, y] = region.coordinates();
+        let [dx, dy] = direction.map(constant);
+        let at = [(x, dx), (y, dy), (constant(t), constant(0.0))];
+        let at = at.map(|(value, slope)| Slope { value, slope });
+        let Slope { value, slope } = self.program.run(&Slopes(Forms(region.shape())), at);
+        [value, slope]
+    }
+}
