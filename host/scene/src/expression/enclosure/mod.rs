@@ -14,11 +14,14 @@
 //! What is enclosed is the expression in real numbers and in f64 alike, almost everywhere: at a pole the sign of a zero does not count.
 //! Where it has values in a part of the region only, the form encloses these, and says that it is not [`Form::is_finite`].
 
+mod continuation;
+mod degree;
 mod derivatives;
 mod form;
 mod function;
 mod interval;
 mod numbers;
+mod parts;
 mod polynomial;
 mod region;
 mod slope;
@@ -31,6 +34,9 @@ pub use polynomial::Shape;
 pub use region::Region;
 
 use super::Expression;
+use super::program::Numbers;
+use continuation::Discs;
+use degree::{Degree, Degrees};
 use numbers::Forms;
 use slope::{Slope, Slopes};
 
@@ -48,6 +54,19 @@ impl Expression {
         let [x, y] = region.coordinates();
         let at = [x, y, Form::flat(region.shape(), t, true)];
         self.program.run(&Forms(region.shape()), at)
+    }
+
+    /// The largest modulus of its analytic continuation, where one reference coordinate of the region's rule is complex and within
+    /// ½(ρ + 1/ρ) of the middle: see [`Region::missed`]. Infinite where there may be none.
+    pub fn modulus(&self, region: &Region, rho: f64, t: f64) -> f64 {
+        let [x, y] = region.neighbourhood(rho);
+        self.program.run(&Discs, [x, y, Discs.constant(t)]).modulus()
+    }
+
+    /// Its degree as a polynomial in x and y at the time t, infinite where it may be none.
+    pub fn degree(&self, t: f64) -> f64 {
+        let one = Degree { degree: 1.0, value: f64::NAN };
+        self.program.run(&Degrees, [one, one, Degrees.constant(t)]).degree
     }
 
     /// All values and all derivatives along a way on which x and y change as fast as `direction` says, where there are any:

@@ -83,6 +83,14 @@ impl Forms {
     }
 }
 
+impl Form {
+    /// self/other; anything where `other` may be 0.
+    #[must_use]
+    pub fn over(&self, other: &Self) -> Self {
+        Forms(self.shape()).binary(Binary::Divide, *self, *other)
+    }
+}
+
 /// aᵖ
 fn to(a: &Form, p: f64) -> Form {
     let (range, is_number) = super::function::power(a.range(), p);

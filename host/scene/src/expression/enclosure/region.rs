@@ -1,5 +1,6 @@
 //! Regions: cells, edges and parts of them, as images of reference shapes.
 
+use super::continuation::Disc;
 use super::form::Form;
 use super::function::ULP;
 use super::interval::Interval;
@@ -10,12 +11,12 @@ use super::polynomial::{self, Shape};
 /// Parts halve these vectors, which is exact: lengths and areas of parts have the relative accuracy of those of the whole.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Region {
-    shape: Shape,
+    pub(super) shape: Shape,
     /// Corners: the last ones of segments and triangles are copies.
-    corners: [[f64; 2]; 4],
-    centre: [f64; 2],
+    pub(super) corners: [[f64; 2]; 4],
+    pub(super) centre: [f64; 2],
     /// x_ξ, x_η, x_ξη
-    along: [[f64; 2]; 3],
+    pub(super) along: [[f64; 2]; 3],
 }
 
 /// Gauss points on [−1, 1] and their weights, which sum to 1: exact to degree 5.
@@ -119,6 +120,73 @@ impl Region {
         }
     }
 
+    /// Discs around x and y where one reference coordinate of the rule of Gauss points is complex, in the ellipse of ρ. A triangle
+    /// is the quad whose last corners are one.
+    pub(super) fn neighbourhood(&self, rho: f64) -> [Disc; 2] {
+        let reach = reach(rho);
+        [0, 1].map(|k| {
+            let [u, v, w] = self.along.map(|along| along[k].abs());
+            let coordinates = self.corners.map(|corner| corner[k]);
+            let [low, high] =
+                [f64::min, f64::max].map(|of| coordinates.into_iter().fold(coordinates[0], of));
+            match self.shape {
+                Shape::Triangle => {
+                    Disc::new(0.5 * (low + high), 0.5 * (1.0 + reach) * (high - low))
+                }
+                _ => Disc::new(self.centre[k], (v + reach * (u + w)).max(u + reach * (v + w))),
+            }
+        })
+    }
+
+    /// What a rule of n Gauss points in each direction misses at most of an integral over the region, of a function with this modulus in
+    /// the ellipse of ρ ([`super::continuation`]).
+    pub fn missed(&self, points: usize, rho: f64, modulus: f64) -> f64 {
+        let reach = reach(rho);
+        // The largest area element over that in the middle: 1 − ŷ over ½ on a triangle.
+        let stretch = match self.shape {
+            Shape::Segment => 0.5,
+            Shape::Triangle => 1.0 + reach,
+            Shape::Quad => {
+                let [u, v, w] = self.along;
+                1.0 + reach * (cross(u, w).abs() + cross(w, v).abs()) / cross(u, v).abs()
+            }
+        };
+        let rate = rho.powi(-2 * points as i32) / (1.0 - rho.powi(-2));
+        64.0 / 15.0 * stretch * self.measure() * rate * modulus
+    }
+
+    /// The least modulus of the area element in the ellipse of ρ over that in the middle; not positive where it may vanish.
+    pub fn least_density(&self, rho: f64) -> f64 {
+        let [u, v, w] = self.along;
+        match self.shape {
+            Shape::Quad => {
+                1.0 - reach(rho) * (cross(u, w).abs() + cross(w, v).abs()) / cross(u, v).abs()
+            }
+            Shape::Segment | Shape::Triangle => 1.0,
+        }
+    }
+
+    /// The area element over that of the reference square, or of a part of it, as a form: what [`Region::measure`] is the mean of.
+    pub fn density(&self) -> Form {
+        let [u, v, w] = self.along;
+        let measure = self.measure();
+        if self.shape != Shape::Quad || w == [0.0; 2] {
+            return Form::constant(self.shape, measure);
+        }
+        let way = cross(u, v).signum();
+        let [xi, eta] = [cross(u, w), cross(w, v)].map(|slope| 4.0 * way * slope);
+        let size = xi.abs() + eta.abs();
+        let range = Interval::point(measure).widened(size * (1.0 + 4.0 * ULP));
+        let coefficients = [measure, xi, eta, 0.0, 0.0, 0.0];
+        Form::new(
+            self.shape,
+            coefficients,
+            Interval::around(8.0 * ULP * measure),
+            (range, true),
+            true,
+        )
+    }
+
     /// x and y as forms.
     pub(super) fn coordinates(&self) -> [Form; 2] {
         [0, 1].map(|k| {
@@ -146,6 +214,18 @@ impl Region {
             .meet(Interval::point(sum).widened(slack) + measure * form.remainder)
     }
 
+    /// ∫p² over the region, and by how much ∫f² may differ from it: ‖p + r‖² lies within ‖r‖(2‖p‖ + ‖r‖) of ‖p‖².
+    pub fn square(&self, form: &Form) -> [f64; 2] {
+        let squares = self
+            .rule()
+            .into_iter()
+            .map(|(at, weight)| weight * polynomial::value(&form.coefficients, at).powi(2));
+        let square: f64 = squares.sum();
+        let rest = form.remainder.size() * self.measure().sqrt();
+        let slack = 64.0 * ULP;
+        [square, rest * (2.0 * square.sqrt() + rest) * (1.0 + slack) + slack * square]
+    }
+
     /// All that the mean of f over the region may be, by `form`.
     pub fn mean(&self, form: &Form) -> Interval {
         let measure = self.measure();
@@ -154,101 +234,18 @@ impl Region {
         let mean = Interval::new(integral.low / measure, integral.high / measure);
         form.range().meet(mean.widened(slack * mean.size()))
     }
-
-    /// Halves of a segment; quarters of a triangle or a quad, or halves across its longer direction where it is thin.
-    pub fn parts(&self) -> Vec<Self> {
-        match self.shape {
-            Shape::Segment => self.halves(0),
-            Shape::Quad => {
-                let [u, v] = [0, 1].map(|k| self.along[k][0].hypot(self.along[k][1]));
-                match (u > THIN * v, v > THIN * u) {
-                    (true, _) => self.halves(0),
-                    (_, true) => self.halves(1),
-                    _ => self.halves(0).iter().flat_map(|half| half.halves(1)).collect(),
-                }
-            }
-            Shape::Triangle => self.parts_of_triangle(),
-        }
-    }
-
-    /// Halves across the direction of ξ or η.
-    fn halves(&self, axis: usize) -> Vec<Self> {
-        let [a, b, c, d] = self.corners;
-        let corners = |way: f64| match (self.shape, axis, way < 0.0) {
-            (Shape::Segment, _, true) => [a, middle(a, b), middle(a, b), middle(a, b)],
-            (Shape::Segment, _, false) => [middle(a, b), b, b, b],
-            (_, 0, true) => [a, middle(a, b), middle(c, d), d],
-            (_, 0, false) => [middle(a, b), b, c, middle(c, d)],
-            (_, _, true) => [a, b, middle(b, c), middle(d, a)],
-            (_, _, false) => [middle(d, a), middle(b, c), c, d],
-        };
-        let [own, across] = [self.along[axis], self.along[1 - axis]];
-        let half = |way: f64| {
-            let twist = self.along[2];
-            let centre = [0, 1].map(|k| self.centre[k] + 0.5 * way * own[k]);
-            let mut along = self.along.map(|along| along.map(|x| 0.5 * x));
-            along[1 - axis] = [0, 1].map(|k| across[k] + 0.5 * way * twist[k]);
-            Self { shape: self.shape, corners: corners(way), centre, along }
-        };
-        [-1.0, 1.0].map(half).to_vec()
-    }
-
-    /// Quarters, or halves at the middle of the longest side where its height is less than a quarter of it.
-    fn parts_of_triangle(&self) -> Vec<Self> {
-        let [a, b, c, _] = self.corners;
-        let [u, v, _] = self.along;
-        let w = [0, 1].map(|k| v[k] - u[k]);
-        let squares = [u, w, v].map(|[x, y]| x * x + y * y);
-        let longest = squares.iter().copied().fold(0.0, f64::max);
-        if longest * 0.25 > cross(u, v).abs() {
-            let back = |u: [f64; 2]| u.map(|x| -x);
-            // The longest side from its first corner, and from there to the third.
-            let turned = match squares {
-                [ab, ..] if ab == longest => ([a, b, c], [u, v]),
-                [_, bc, _] if bc == longest => ([b, c, a], [w, back(u)]),
-                _ => ([c, a, b], [back(v), back(w)]),
-            };
-            return Self::halved(turned);
-        }
-        let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
-        let corners = [[a, ab, ca], [ab, b, bc], [ca, bc, c], [bc, ca, ab]];
-        let parts = corners.iter().enumerate();
-        let part = |(k, corners): (usize, &[[f64; 2]; 3])| {
-            let scale = if k == 3 { -0.5 } else { 0.5 };
-            Self::in_triangle(*corners, [u, v].map(|along| along.map(|x| scale * x)))
-        };
-        parts.map(part).collect()
-    }
-
-    fn halved(([a, b, c], [u, v]): ([[f64; 2]; 3], [[f64; 2]; 2])) -> Vec<Self> {
-        let (middle, half) = (middle(a, b), u.map(|x| 0.5 * x));
-        let other = [0, 1].map(|k| v[k] - half[k]);
-        vec![
-            Self::in_triangle([a, middle, c], [half, v]),
-            Self::in_triangle([middle, b, c], [half, other]),
-        ]
-    }
-
-    /// A part of a triangle, whose sides are known better than its corners.
-    fn in_triangle([a, b, c]: [[f64; 2]; 3], [u, v]: [[f64; 2]; 2]) -> Self {
-        let corners = [a, b, c, c];
-        Self {
-            shape: Shape::Triangle,
-            corners,
-            centre: centroid([a, b, c]),
-            along: [u, v, [0.0; 2]],
-        }
-    }
 }
 
-/// A side so much longer than the other is halved alone.
-const THIN: f64 = 2.0;
+/// Semi-axis of the ellipse of ρ, which lies in the disc of that radius.
+fn reach(rho: f64) -> f64 {
+    0.5 * (rho + 1.0 / rho)
+}
 
-fn middle(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+pub(super) fn middle(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [0, 1].map(|k| 0.5 * (a[k] + b[k]))
 }
 
-fn centroid([a, b, c]: [[f64; 2]; 3]) -> [f64; 2] {
+pub(super) fn centroid([a, b, c]: [[f64; 2]; 3]) -> [f64; 2] {
     [0, 1].map(|k| (a[k] + b[k] + c[k]) / 3.0)
 }
 
@@ -256,6 +253,6 @@ fn from(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [0, 1].map(|k| b[k] - a[k])
 }
 
-fn cross(u: [f64; 2], v: [f64; 2]) -> f64 {
+pub(super) fn cross(u: [f64; 2], v: [f64; 2]) -> f64 {
     u[0] * v[1] - u[1] * v[0]
 }
