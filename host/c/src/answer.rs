@@ -6,7 +6,8 @@ use crate::state::{Seal, State};
 use signorini_device::Error;
 use signorini_device::codes::{Refusal, refusal};
 
-/// State and inputs of a call, where they may reach the controller.
+/// State and inputs of a call, where they may reach the controller: inputs by reference, since a copy beside a refusal in one `Result`
+/// is made byte by byte.
 ///
 /// # Safety
 /// Each pointer is null or valid.
@@ -14,15 +15,15 @@ use signorini_device::codes::{Refusal, refusal};
 pub unsafe fn admitted<'s>(
     state: *mut State,
     inputs: *const Inputs,
-) -> Result<(&'s mut State, Inputs), Refusal> {
+) -> Result<(&'s mut State, &'s Inputs), Refusal> {
     // SAFETY: the caller's.
-    let (Some(state), Some(&inputs)) = (unsafe { (state.as_mut(), inputs.as_ref()) }) else {
+    let (Some(state), Some(inputs)) = (unsafe { (state.as_mut(), inputs.as_ref()) }) else {
         return Err(Refusal::NullPointer);
     };
     if !state.is_own() {
         return Err(Refusal::ForeignState);
     }
-    match infinite(&inputs) {
+    match infinite(inputs) {
         Some(input) => {
             state.blame(input);
             Err(Refusal::InputNotFinite)

@@ -23,7 +23,7 @@ pub unsafe extern "C" fn tick(
         Err(why) => return why.code(),
     };
     let (controller, seal) = state.open();
-    let answer = answered(controller, inputs);
+    let answer = answered(controller, *inputs);
     // SAFETY: the caller's.
     unsafe { told(state, seal, &answer, outputs, report) }
 }

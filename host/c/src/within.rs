@@ -55,7 +55,7 @@ pub unsafe extern "C" fn tick_within(
         certificate: deadline.map_or(0, |deadline| deadline.certificate),
     };
     let (controller, seal) = state.open();
-    let answer = controller.tick_within(inputs, limits, &mut deadline);
+    let answer = controller.tick_within(*inputs, limits, &mut deadline);
     // SAFETY: the caller's.
     unsafe { told(state, seal, &answer, outputs, report) }
 }
