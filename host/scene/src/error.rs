@@ -105,8 +105,7 @@ impl InputError {
     /// Adds the text and the byte range to underline; the line number follows from it.
     pub fn excerpt(mut self, text: &Arc<str>, span: std::ops::Range<usize>) -> Self {
         let start = text.floor_char_boundary(span.start);
-        let line = text.as_bytes()[..start].iter().filter(|&&byte| byte == b'\n').count() + 1;
-        self.line = Some(line);
+        self.line = Some(line_of(text.as_bytes(), start));
         let end = text[start..].find('\n').map_or(text.len(), |length| start + length);
         let begin = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
         if end - begin > LONGEST_EXCERPT {
@@ -117,6 +116,11 @@ impl InputError {
         self.underlined = Some(span.into());
         self
     }
+}
+
+/// The line, counted from 1, in which a byte of a text stands.
+pub fn line_of(text: &[u8], at: usize) -> usize {
+    text.iter().take(at).filter(|&&byte| byte == b'\n').count() + 1
 }
 
 impl fmt::Display for InputError {

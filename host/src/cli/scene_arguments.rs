@@ -16,7 +16,7 @@ use signorini_solve::adaptive::{MeshOfScene, Promise, mesh_of_scene};
 pub(super) struct SceneArguments {
     /// The scene file (TOML)
     scene: PathBuf,
-    /// Another mesh than the scene names (Gmsh MSH 2.2 or 4.1)
+    /// Another mesh than the scene names (Gmsh MSH 2.0 to 2.2 or 4.1)
     #[arg(long, value_name = "FILE")]
     mesh: Option<PathBuf>,
     /// Set an input of the scene; repeatable

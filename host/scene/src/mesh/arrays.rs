@@ -3,6 +3,7 @@
 //! Clockwise cells are turned round and vertices without a cell dropped, as in a file that is read. Errors call cells and vertices by
 //! their positions in the arrays.
 
+use super::assemble::plane;
 use super::assemble::sound::{Cells, Sound};
 use super::{Curve, Mesh, Surface};
 use crate::error::{InputError, Result};
@@ -10,8 +11,8 @@ use crate::error::{InputError, Result};
 /// The arrays that a mesh is made of.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Arrays {
-    /// Coordinates of the vertices.
-    pub points: Vec<[f64; 2]>,
+    /// Coordinates of the vertices, in one plane z = constant.
+    pub points: Vec<[f64; 3]>,
     /// Vertices of the triangles, in either sense.
     pub triangles: Vec<[u32; 3]>,
     /// Vertices of the quads, in either sense.
@@ -32,6 +33,7 @@ impl Arrays {
         self.check()?;
         let triangles = self.triangles.len();
         let Self { points, triangles: of_three, quads, curves, surfaces } = self;
+        let points: Vec<[f64; 2]> = points.iter().map(|&[x, y, _]| [x, y]).collect();
         let cells = Cells {
             points: &points,
             triangles: of_three,
@@ -64,8 +66,14 @@ impl Arrays {
         };
         let cells = self.triangles.iter().map(|of| &of[..]);
         let cells = cells.chain(self.quads.iter().map(|of| &of[..]));
-        for (at, cell) in (0..).zip(cells) {
+        for (at, cell) in (0..).zip(cells.clone()) {
             outside(&cell_name(self.triangles.len(), at), cell)?;
+        }
+        let used: Vec<u32> = cells.flatten().copied().collect();
+        if let Some(apart) = plane::apart(&used, |at| self.points[at as usize]) {
+            let said = apart.map(|at| (format!("point {at}"), self.points[at as usize][2]));
+            let hint = "a third column may be left out";
+            return Err(InputError::new(plane::why(said)).hint(hint).into());
         }
         let lacking = self.curves.iter().map(|(name, of)| ("curve", name, "edge", of.is_empty()));
         let of_surfaces =
@@ -124,7 +132,9 @@ mod tests {
 
     fn square() -> Arrays {
         Arrays {
-            points: vec![[9.0, 9.0], [0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 0.5]],
+            points: [[9.0, 9.0], [0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 0.5]]
+                .map(|[x, y]| [x, y, 3.0])
+                .to_vec(),
             triangles: vec![[2, 3, 5]],
             quads: vec![[1, 2, 3, 4]],
             curves: vec![("left".to_owned(), vec![[4, 1], [1, 4]])],
@@ -143,6 +153,15 @@ mod tests {
     }
 
     #[test]
+    fn any_height_is_that_of_a_plane() {
+        let mut arrays = square();
+        // The first point is of no cell, and rotations leave noise.
+        (arrays.points[0][2], arrays.points[4][2]) = (-70.0, 3.0 + 1e-12);
+        let flat = square().points.iter().map(|&[x, y, _]| [x, y, 0.0]).collect();
+        assert_eq!(arrays.mesh().expect("a mesh"), Arrays { points: flat, ..square() }.mesh().expect("a mesh"));
+    }
+
+    #[test]
     fn what_is_wrong_is_named_as_it_was_given() {
         let refused = |change: &dyn Fn(&mut Arrays)| {
             let mut arrays = square();
@@ -151,11 +170,13 @@ mod tests {
         };
         let said = refused(&|of| of.quads[0][2] = 7);
         assert_eq!(said, "quad 0 has the vertex 7, and there are 6 points");
-        let said = refused(&|of| of.points[3] = [f64::NAN, 0.0]);
-        assert!(said.starts_with("point 3 is [NaN, 0.0]"), "{said}");
+        let said = refused(&|of| of.points[3] = [f64::NAN, 0.0, 3.0]);
+        assert!(said.starts_with("point 3 is [NaN, 0.0, 3.0]"), "{said}");
+        let said = refused(&|of| of.points[3][2] = 3.1);
+        assert!(said.starts_with("point 3 has z = 3.1, point 2 has z = 3, expected"), "{said}");
         let said = refused(&|of| of.triangles[0] = [2, 3, 3]);
         assert!(said.starts_with("triangle 0 is degenerate"), "{said}");
-        let said = refused(&|of| of.points[3] = [0.2, 0.2]);
+        let said = refused(&|of| of.points[3] = [0.2, 0.2, 3.0]);
         assert!(
             said.starts_with("quad 0 is not convex") && said.ends_with("at vertex 3"),
             "{said}"

@@ -13,10 +13,14 @@ const UNPACK: &str = "unpack it first";
 const MESH_IT: &str = "mesh it: `gmsh -2 FILE -format msh41 -o mesh.msh`";
 const SURFACE: &str = "it holds triangles without physical groups: mesh the plane domain in Gmsh and name its curves there";
 const OLD: &str = "save it anew: `gmsh FILE -save -format msh41 -o mesh.msh`";
+const SAVE: &str = "save as MSH 4.1 (`gmsh FILE -save -format msh41 -o mesh.msh`)";
+const UTF16: &str = "save it as UTF-8, or as plain ASCII";
 const SCENE: &str = "give the scene as the command's argument; its key `mesh` names the mesh";
 
 /// Beginnings of files, blanks left out, each with the file's kind and a hint.
-const BEGINNINGS: [(&[u8], &str, &str); 29] = [
+const BEGINNINGS: [(&[u8], &str, &str); 31] = [
+    (b"\xff\xfe", "a text in UTF-16", UTF16),
+    (b"\xfe\xff", "a text in UTF-16", UTF16),
     (b"$NOD\n", "a Gmsh mesh of format 1 (`$NOD`, `$ELM`)", OLD),
     (b"$NOD\r", "a Gmsh mesh of format 1 (`$NOD`, `$ELM`)", OLD),
     (b"$PostFormat", "a Gmsh post-processing view", OLD),
@@ -61,18 +65,19 @@ const LINES: [(&str, &str, &str); 9] = [
     ("[material.", "a scene", SCENE),
 ];
 
-/// The error that names what the file is, where it is known and no mesh that is read.
-pub(super) fn refused(bytes: &[u8]) -> Option<InputError> {
-    let (found, hint) = known(bytes)?;
-    let message = format!("the file is {found}, expected a Gmsh mesh (MSH 2.2 or 4.1)");
-    Some(InputError::new(message).hint(hint))
+/// The error that names what a file of no format that is read is, as far as it is known.
+pub(super) fn refused(bytes: &[u8]) -> InputError {
+    let unknown = match bytes.trim_ascii() {
+        b"" => ("empty", SAVE),
+        _ => ("of no known kind", SAVE),
+    };
+    let (found, hint) = known(bytes).unwrap_or(unknown);
+    let message = format!("the file is {found}, expected a Gmsh mesh (MSH 2.0 to 2.2, or 4.1)");
+    InputError::new(message).hint(hint)
 }
 
 fn known(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
     let start = bytes.trim_ascii_start();
-    if start.starts_with(b"$MeshFormat") {
-        return None;
-    }
     // Behind its declaration an XML file says what it is.
     let start = match start.strip_prefix(b"<?xml").and_then(after_declaration) {
         Some(rest) => rest.trim_ascii_start(),

@@ -1,6 +1,7 @@
 //! A mesh file of any format that is read: one that is told by its content.
 //!
-//! A format is a module that makes a draft of bytes and lets [`assemble`](super::assemble) check it; it is chosen here.
+//! A format is a module that tells its own bytes and makes a draft of them, which it lets [`assemble`](super::assemble) check; it
+//! stands in [`FORMATS`]. Bytes of no format are named as what they are ([`foreign`]).
 
 use std::io::Read;
 use std::path::Path;
@@ -11,6 +12,20 @@ use crate::error::{InputError, Result};
 
 /// The largest file that is read: 2 GiB.
 const SIZE_LIMIT: u64 = 1 << 31;
+
+/// What some editors put before a text in UTF-8.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// A format that is read.
+struct Format {
+    /// Whether bytes are of it.
+    is_of: fn(&[u8]) -> bool,
+    /// The mesh in such bytes.
+    parse: fn(&[u8]) -> Parsed<Mesh>,
+}
+
+/// All formats.
+const FORMATS: [Format; 1] = [Format { is_of: gmsh::is_gmsh, parse: gmsh::parse }];
 
 /// Reads a mesh; every error names the file and, as the file numbers them, what is wrong in it.
 ///
@@ -26,9 +41,10 @@ pub fn read(path: &Path) -> Result<Mesh> {
 /// # Errors
 /// Those of [`read`], without the name of a file.
 pub fn parse(bytes: &[u8]) -> std::result::Result<Mesh, Box<InputError>> {
-    match foreign::refused(bytes) {
-        Some(error) => Err(error.into()),
-        None => gmsh::parse(bytes),
+    let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
+    match FORMATS.iter().find(|format| (format.is_of)(bytes)) {
+        Some(format) => (format.parse)(bytes),
+        None => Err(foreign::refused(bytes).into()),
     }
 }
 

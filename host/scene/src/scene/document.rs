@@ -9,7 +9,7 @@ use std::sync::Arc;
 use toml::de::DeTable;
 
 use super::Located;
-use crate::error::{InputError, Result};
+use crate::error::{InputError, Result, line_of};
 
 const LARGEST_FILE: usize = 1 << 20;
 
@@ -51,7 +51,7 @@ pub(super) fn document(bytes: &[u8], path: &Path) -> Result<Document> {
         return Err(unreadable(path, format!("longer than {LARGEST_FILE} bytes")).into());
     }
     let text = std::str::from_utf8(bytes).map_err(|error| {
-        let line = bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count() + 1;
+        let line = line_of(bytes, error.valid_up_to());
         unreadable(path, "not UTF-8 text".to_owned()).line(line)
     })?;
     Ok(Document { path: path.to_owned(), text: text.into() })

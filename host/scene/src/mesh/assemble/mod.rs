@@ -10,17 +10,14 @@
 
 mod cells;
 pub(super) mod draft;
+pub(super) mod plane;
 pub(super) mod sound;
 
 use self::cells::{NodeIndex, Resolved};
-use self::draft::{Draft, Element, Kind, Node, Parsed};
+use self::draft::{Draft, Element, Kind, Parsed};
 use self::sound::{Cells, Sound};
 use crate::error::InputError;
 use crate::mesh::{Curve, Mesh, Surface};
-
-/// How far from their plane vertices may lie, as part of the size of the mesh: what rotations and
-/// CAD kernels leave.
-const PLANE_TOLERANCE: f64 = 1e-9;
 
 /// Puts the lists together, with everything checked.
 pub(super) fn assemble(draft: &Draft) -> Parsed<Mesh> {
@@ -61,27 +58,11 @@ fn check_plane(draft: &Draft, cells: &[Resolved]) -> Parsed<()> {
     let mut used: Vec<u32> = cells.iter().flat_map(Resolved::corners).copied().collect();
     used.sort_unstable();
     used.dedup();
-    let nodes: Vec<&Node> = used.iter().map(|&node| &draft.nodes[node as usize]).collect();
-    let extent = |axis: usize| {
-        let range = |(low, high): (f64, f64), node: &&Node| {
-            (low.min(node.point[axis]), high.max(node.point[axis]))
-        };
-        let (low, high) = nodes.iter().fold((f64::INFINITY, f64::NEG_INFINITY), range);
-        high - low
-    };
-    let tolerance = PLANE_TOLERANCE * extent(0).max(extent(1));
-    let Some(first) = nodes.first() else { return Ok(()) };
-    match nodes.iter().find(|node| (node.point[2] - first.point[2]).abs() > tolerance) {
-        None => Ok(()),
-        Some(node) => {
-            let message = format!(
-                "node {} has z = {}, node {} has z = {}, expected a mesh in a plane z = constant",
-                node.tag, node.point[2], first.tag, first.point[2]
-            );
-            let hint = "mesh in the x-y plane, in two dimensions (command line: `-2`)";
-            Err(draft.error(node.at, message).hint(hint).into())
-        }
-    }
+    let node = |at: u32| &draft.nodes[at as usize];
+    let Some(apart) = plane::apart(&used, |at| node(at).point) else { return Ok(()) };
+    let said = apart.map(|at| (format!("node {}", node(at).tag), node(at).point[2]));
+    let hint = "mesh in the x-y plane, in two dimensions (command line: `-2`)";
+    Err(draft.error(node(apart[0]).at, plane::why(said)).hint(hint).into())
 }
 
 /// The physical surfaces; a cell listed twice for the same one, or twice for none, is an error.

@@ -5,7 +5,7 @@
 //! binary. A number never continues on the next line: a record with one missing is found on its
 //! own line.
 
-use crate::error::InputError;
+use crate::error::{InputError, line_of};
 use crate::mesh::assemble::draft::Parsed;
 
 /// How the numbers inside a section are written.
@@ -44,12 +44,8 @@ impl<'a> Cursor<'a> {
 
     /// An error at a byte offset: the line of a text, the offset in a binary file.
     pub(super) fn error(&self, at: u32, message: impl Into<String>) -> InputError {
-        let at = at as usize;
         match self.encoding {
-            Encoding::Ascii => {
-                let line = self.bytes[..at].iter().filter(|&&byte| byte == b'\n').count() + 1;
-                InputError::new(message).line(line)
-            }
+            Encoding::Ascii => InputError::new(message).line(line_of(self.bytes, at as usize)),
             _ => InputError::new(format!("byte {at}: {}", message.into())),
         }
     }
@@ -105,7 +101,11 @@ impl<'a> Cursor<'a> {
     fn parse<T: std::str::FromStr>(&mut self, what: &str) -> Parsed<T> {
         let word = self.word();
         let number = std::str::from_utf8(word).ok().and_then(|word| word.parse().ok());
-        number.ok_or_else(|| self.expected((self.at - word.len()) as u32, what, word))
+        let at = (self.at - word.len()) as u32;
+        number.ok_or_else(|| match word.iter().all(u8::is_ascii_digit) && !word.is_empty() {
+            true => Box::new(self.error(at, format!("{what} is too large: {}", excerpt(word)))),
+            false => self.expected(at, what, word),
+        })
     }
 
     /// A word in ASCII, else N bytes, of which `number` takes the lowest first.
@@ -132,8 +132,11 @@ impl<'a> Cursor<'a> {
         self.number(what, i32::from_le_bytes)
     }
 
-    /// A number that is not negative, 32 bits in binary.
+    /// A number that is not negative, 32 bits in binary and up to 64 in ASCII.
     pub(super) fn natural(&mut self, what: &str) -> Parsed<u64> {
+        if self.encoding == Encoding::Ascii {
+            return self.parse(what);
+        }
         let at = self.at();
         let number = self.int(what)?;
         u64::try_from(number).map_err(|_| self.expected(at, what, number.to_string().as_bytes()))

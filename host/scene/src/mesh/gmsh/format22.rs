@@ -1,4 +1,4 @@
-//! Format 2.2: nodes and elements in one list each, every element with its physical tag.
+//! Formats 2.0 to 2.2: nodes and elements in one list each, every element with its physical tag.
 //!
 //! ```text
 //! $Nodes                 $Elements

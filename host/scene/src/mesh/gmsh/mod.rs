@@ -1,4 +1,4 @@
-//! Gmsh meshes: MSH 2.2 and 4.1, ASCII and binary in either byte order.
+//! Gmsh meshes: MSH 2.0 to 2.2 and 4.1, ASCII and binary in either byte order.
 //!
 //! ```text
 //! bytes ─► cursor ─► sections (format22, format41) ─► raw ─► [assemble](super::assemble) ─► Mesh
@@ -21,6 +21,11 @@ use super::assemble::assemble;
 use super::assemble::draft::Parsed;
 use crate::error::InputError;
 
+/// Whether a file is Gmsh's, of whatever version: a line opens `$MeshFormat`.
+pub(super) fn is_gmsh(bytes: &[u8]) -> bool {
+    bytes.split(|&byte| byte == b'\n').any(|line| line.trim_ascii() == b"$MeshFormat")
+}
+
 /// The mesh in the bytes of a file.
 pub(super) fn parse(bytes: &[u8]) -> Parsed<Mesh> {
     let mut cursor = Cursor::new(bytes);
@@ -30,7 +35,7 @@ pub(super) fn parse(bytes: &[u8]) -> Parsed<Mesh> {
         let known = match (name, format) {
             (b"MeshFormat", None) => {
                 let found = mesh_format(&mut cursor)?;
-                raw.labels_are_physical = matches!(found, Format::V22);
+                raw.labels_are_physical = !matches!(found, Format::V41);
                 format = Some(found);
                 true
             }
@@ -42,7 +47,7 @@ pub(super) fn parse(bytes: &[u8]) -> Parsed<Mesh> {
     }
     if format.is_none() {
         let error = InputError::new("expected a Gmsh mesh, found no `$MeshFormat`");
-        return Err(error.hint("save as MSH 2.2 or 4.1").into());
+        return Err(error.hint("save as MSH 4.1 or 2.2").into());
     }
     let error = |at, message| cursor.error(at, message);
     assemble(&raw.draft(&cursor, &error)?)
@@ -51,6 +56,9 @@ pub(super) fn parse(bytes: &[u8]) -> Parsed<Mesh> {
 /// The formats that are read.
 #[derive(Clone, Copy)]
 enum Format {
+    /// 2.2, but that names of groups have no dimension.
+    V20,
+    /// 2.1 and 2.2.
     V22,
     V41,
 }
@@ -66,7 +74,8 @@ fn mesh_format(cursor: &mut Cursor) -> Parsed<Format> {
         return Err(cursor.error(at, "expected a version, 0 or 1, and 8").into());
     };
     let format = match version {
-        b"2.2" => Format::V22,
+        b"2" | b"2.0" => Format::V20,
+        b"2.1" | b"2.2" => Format::V22,
         b"4.1" => Format::V41,
         other => {
             let start = &other[..other.len().min(16)];
@@ -104,9 +113,16 @@ fn section(
     name: &[u8],
 ) -> Parsed<bool> {
     let seen = match (name, format) {
-        (b"PhysicalNames", _) => raw.names.replace(raw::names(cursor)?).is_some(),
-        (b"Nodes", Format::V22) => raw.nodes.replace(format22::nodes(cursor)?).is_some(),
-        (b"Elements", Format::V22) => raw.elements.replace(format22::elements(cursor)?).is_some(),
+        (b"PhysicalNames", _) => {
+            let may_lack_dimension = matches!(format, Format::V20);
+            raw.names.replace(raw::names(cursor, may_lack_dimension)?).is_some()
+        }
+        (b"Nodes", Format::V20 | Format::V22) => {
+            raw.nodes.replace(format22::nodes(cursor)?).is_some()
+        }
+        (b"Elements", Format::V20 | Format::V22) => {
+            raw.elements.replace(format22::elements(cursor)?).is_some()
+        }
         (b"Entities", Format::V41) => raw.entities.replace(format41::entities(cursor)?).is_some(),
         (b"Nodes", Format::V41) => raw.nodes.replace(format41::nodes(cursor)?).is_some(),
         (b"Elements", Format::V41) => raw.elements.replace(format41::elements(cursor)?).is_some(),

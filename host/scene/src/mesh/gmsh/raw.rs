@@ -1,6 +1,7 @@
 //! The sections of a file as they stand in it, the same for both formats.
 
 use std::collections::hash_map::Entry;
+use std::ops::RangeInclusive;
 
 use super::cursor::Cursor;
 use crate::error::InputError;
@@ -12,7 +13,7 @@ pub(super) struct Raw {
     pub(super) names: Option<Names>,
     /// The physical tags of each geometrical entity.
     pub(super) entities: Option<Groups>,
-    /// Whether labels of elements are physical tags (format 2.2), not entities.
+    /// Whether labels of elements are physical tags (formats 2.0 to 2.2), not entities.
     pub(super) labels_are_physical: bool,
     pub(super) nodes: Option<Vec<Node>>,
     pub(super) elements: Option<Vec<Element>>,
@@ -39,7 +40,7 @@ impl Raw {
                     );
                     return Err(cursor.error(element.at, message).into());
                 }
-                // Format 2.2, where 0 is none, or 4.1 without entities and so without groups.
+                // Formats 2.0 to 2.2, where 0 is none, or 4.1 without entities and so without groups.
                 let is_group = self.labels_are_physical && label != 0;
                 group.insert(is_group.then_some(label).into_iter().collect());
             }
@@ -119,35 +120,40 @@ fn foreign(code: i32) -> (&'static str, &'static str) {
     }
 }
 
-/// Reads `$PhysicalNames`, by dimension and physical tag: `dimension tag "name"`, a line each, text in every encoding.
-pub(super) fn names(cursor: &mut Cursor) -> Parsed<Names> {
+/// Reads `$PhysicalNames`, by dimension and physical tag: `dimension tag "name"`, a line each, text in every encoding. Without a
+/// dimension, as in format 2.0, a name is that of every group with its tag.
+pub(super) fn names(cursor: &mut Cursor, may_lack_dimension: bool) -> Parsed<Names> {
     let count = cursor.count_line("the number of physical names", 2)?;
     let mut names = Names::new();
     for _ in 0..count {
         cursor.skip_blank_lines();
         let at = cursor.at();
         let line = cursor.line();
-        let Some((dimension, tag, name)) = split(line) else {
+        let Some((dimensions, tag, name)) = split(line, may_lack_dimension) else {
             let message = "expected a physical name: dimension, tag and the name in quotes";
             return Err(cursor.error(at, message).into());
         };
-        match names.entry((dimension, tag)) {
-            Entry::Vacant(place) => place.insert(name),
-            Entry::Occupied(_) => {
+        for dimension in dimensions {
+            if names.insert((dimension, tag), name.to_owned()).is_some() {
                 let message =
                     format!("physical group {tag} of dimension {dimension} is named twice");
                 return Err(cursor.error(at, message).into());
             }
-        };
+        }
     }
     Ok(names)
 }
 
-/// The parts of a line. Gmsh writes quotes inside a name as they are: the last one closes.
-fn split(line: &[u8]) -> Option<(u8, i32, String)> {
+/// The dimensions, the tag and the name of a line. Gmsh writes quotes inside a name as they are: the last one closes.
+fn split(line: &[u8], may_lack_dimension: bool) -> Option<(RangeInclusive<u8>, i32, &str)> {
     let (head, quoted) = std::str::from_utf8(line).ok()?.split_once('"')?;
-    let mut head = head.split_ascii_whitespace();
-    let (dimension, tag) = (head.next()?.parse().ok()?, head.next()?.parse().ok()?);
-    let name = quoted.strip_suffix('"')?;
-    (head.next().is_none() && dimension <= 3).then(|| (dimension, tag, name.to_owned()))
+    let (name, head) = (quoted.strip_suffix('"')?, head.split_ascii_whitespace());
+    match head.collect::<Vec<_>>()[..] {
+        [tag] if may_lack_dimension => Some((0..=3, tag.parse().ok()?, name)),
+        [dimension, tag] => {
+            let dimension = dimension.parse().ok().filter(|&dimension| dimension <= 3)?;
+            Some((dimension..=dimension, tag.parse().ok()?, name))
+        }
+        _ => None,
+    }
 }

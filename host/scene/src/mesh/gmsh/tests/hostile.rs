@@ -104,10 +104,8 @@ fn many_elements_in_many_groups_are_refused() {
 
 #[test]
 fn what_is_no_mesh() {
-    assert_eq!(error(b""), "expected a Gmsh mesh, found no `$MeshFormat`");
-    assert_eq!(error(b" \n\n"), "expected a Gmsh mesh, found no `$MeshFormat`");
-    let section = "1: expected the beginning of a section, like `$Nodes`, found";
-    assert_eq!(error(b"\xff\xfe\x00garbage"), format!("{section} `\\xff\\xfe\\x00garbage`"));
+    let in_comment = "$A\n$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$EndA\n";
+    assert_eq!(error(in_comment.as_bytes()), "expected a Gmsh mesh, found no `$MeshFormat`");
     assert!(error(&[b'a'; 100_000]).len() < 200);
     assert!(error(&[b"$", &[b'a'; 100_000][..]].concat()).len() < 200);
     assert!(error(b"$NOD\n1\n1 0 0 0\n$ENDNOD\n").contains("Gmsh mesh of format 1"));
@@ -131,8 +129,8 @@ fn time_is_linear_in_hostile_files() {
     text += "$EndElements\n";
     assert_eq!(super::mesh(text.as_bytes()).triangles.len(), fan as usize);
     let sections = "$A\n$EndA\n".repeat(200_000);
-    assert!(error(sections.as_bytes()).contains("found no `$MeshFormat`"));
-    let markers = format!("$A\n{}", "$EndB\n".repeat(200_000));
+    assert!(error(sections.as_bytes()).contains("of no known kind"));
+    let markers = format!("{head}$A\n{}", "$EndB\n".repeat(200_000));
     assert!(error(markers.as_bytes()).contains("is never closed"));
     assert!(start.elapsed() < Duration::from_secs(20));
 }

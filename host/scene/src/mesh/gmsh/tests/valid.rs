@@ -57,6 +57,58 @@ fn ascii41() -> String {
     String::from_utf8(model().v41(Coding::Ascii)).unwrap()
 }
 
+/// What Notepad and its like put before a text; who saves a binary file so has changed nothing else.
+#[test]
+fn a_byte_order_mark_is_passed_over() {
+    for coding in CODINGS {
+        for file in [model().v22(coding), model().v41(coding)] {
+            assert_eq!(mesh(&[b"\xef\xbb\xbf", &file[..]].concat()), expected(), "{coding:?}");
+        }
+    }
+    let wrong = ascii22().replace("7 1 0 0.5", "7 1 zero 0.5");
+    let said = super::error(format!("\u{feff}{wrong}").as_bytes());
+    assert_eq!(said, "13: expected a coordinate, found `zero`");
+}
+
+/// 2.1 is 2.2; 2.0 too, but that its names have no dimension.
+#[test]
+fn older_formats() {
+    for coding in CODINGS {
+        let with = |version: &str| {
+            let file = model().v22(coding);
+            let old = b"2.2";
+            let at = file.windows(old.len()).position(|part| part == old).expect("a version");
+            [&file[..at], version.as_bytes(), &file[at + old.len()..]].concat()
+        };
+        assert_eq!(mesh(&with("2.1")), expected(), "{coding:?}");
+        for version in ["2", "2.0"] {
+            assert_eq!(mesh(&with(version)), expected(), "{version} {coding:?}");
+        }
+    }
+    let bare = Model { names: vec![], ..model() };
+    let text = String::from_utf8(bare.v22(Coding::Ascii)).unwrap().replace("2.2 0 8", "2 0 8");
+    let named = |names: &str| {
+        let section = format!("$PhysicalNames\n{names}$EndPhysicalNames");
+        text.replace("$PhysicalNames\n0\n$EndPhysicalNames", &section)
+    };
+    let mesh = mesh(named("2\n8 \"wall\"\n3 \"left half\"\n").as_bytes());
+    let curves: Vec<_> = mesh.curves.iter().map(|curve| curve.name.as_str()).collect();
+    let surfaces: Vec<_> = mesh.surfaces.iter().map(|surface| surface.name.as_str()).collect();
+    assert_eq!((curves, surfaces), (vec!["1", "wall"], vec!["1", "left half"]));
+    let said = super::error(named("2\n8 \"wall\"\n8 \"half\"\n").as_bytes());
+    assert!(said.contains("physical group 8 of dimension 0 is named twice"), "{said}");
+    let said = super::error(named("1\n8 \"wall\"\n").replace("2 0 8", "2.1 0 8").as_bytes());
+    assert!(said.contains("expected a physical name: dimension, tag"), "{said}");
+}
+
+#[test]
+fn tags_above_31_bits() {
+    let text = ascii22().replace("1000000000", "4000000007").replace("\n99 ", "\n9000000000 ");
+    assert_eq!(mesh(text.replace("7 99 ", "7 9000000000 ").as_bytes()), expected());
+    let text = ascii41().replace("1000000000", "18000000000000000007");
+    assert_eq!(mesh(text.as_bytes()), expected());
+}
+
 #[test]
 fn line_ends_and_blanks_do_not_matter() {
     for text in [ascii22(), ascii41()] {
