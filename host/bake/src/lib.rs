@@ -18,6 +18,7 @@ pub mod dense;
 mod desk;
 pub mod emit;
 pub mod explain;
+pub mod fingerprint;
 pub mod full;
 pub mod intervals;
 mod item;

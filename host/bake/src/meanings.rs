@@ -28,7 +28,7 @@ pub(super) fn effect(input: &Input) -> String {
 
 /// The meaning of an output, in a few words.
 pub(super) fn meaning(output: &Output) -> String {
-    let place = output.of.as_ref().map_or("all contact".to_owned(), |of| code(&of.value));
+    let place = output.place("all contact", code);
     match output.quantity {
         Quantity::Flux => {
             format!("∫(A∇u)·n over {place}, n outward; unit of a flux times a length.")

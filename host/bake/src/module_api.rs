@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::fingerprint::Fingerprint;
 use super::item::{Item, arrays, braced, items, read, structure, terms};
 use super::meanings::{effect, meaning, said};
 use super::text::{code, prose};
@@ -195,14 +196,10 @@ fn dependency(features: &[&str]) -> String {
     )
 }
 
-/// FNV-1a over what the data are made of.
+/// A number over what the data are made of.
 fn hash(problem: &Problem) -> u64 {
-    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
-    let mut take = |bytes: &[u8]| {
-        for &byte in bytes {
-            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-        }
-    };
+    let mut all = Fingerprint::default();
+    let mut take = |bytes: &[u8]| all.take(bytes);
     take(problem.scene.text.as_bytes());
     // A fragment's setting is no part of that text.
     problem.scene.setting.iter().for_each(|setting| take(format!("{setting:?}").as_bytes()));
@@ -219,5 +216,5 @@ fn hash(problem: &Problem) -> u64 {
         take(curve.name.as_bytes());
         curve.edges.as_flattened().iter().for_each(|vertex| take(&vertex.to_le_bytes()));
     }
-    hash
+    all.0
 }

@@ -60,9 +60,14 @@ pub fn identifiers<'n>(names: impl Iterator<Item = &'n str>) -> Vec<String> {
         .collect()
 }
 
+/// Of a name without a letter or digit of ASCII its code points stand: such names differ as they do.
 fn identifier(name: &str) -> String {
     let words = name.split(|letter: char| !letter.is_ascii_alphanumeric());
-    let words: Vec<_> = words.filter(|word| !word.is_empty()).collect();
+    let words: Vec<_> = words.filter(|word| !word.is_empty()).map(str::to_owned).collect();
+    let words = match words.is_empty() {
+        true => name.chars().map(|letter| format!("u{:x}", u32::from(letter))).collect(),
+        false => words,
+    };
     let joined = words.join("_").to_ascii_lowercase();
     match joined.chars().next() {
         None => "unnamed".to_owned(),
@@ -124,6 +129,12 @@ mod tests {
         let expected =
             ["rib_foot", "rib_foot_2", "n3rd", "type_", "gr_e", "unnamed", "yield_", "air_t"];
         assert_eq!(identifiers(names.into_iter()), expected);
+        // Each by itself, as the names of files are.
+        let alone = |name: &str| identifiers(std::iter::once(name)).concat();
+        assert_eq!(
+            ["雪", "霜", "温度", "+", "Δ"].map(alone),
+            ["u96ea", "u971c", "u6e29_u5ea6", "u2b", "u394"]
+        );
     }
 
     #[test]

@@ -86,6 +86,81 @@ fn every_output_of_the_standard_scenes_is_within_its_interval() -> Result<()> {
     Ok(())
 }
 
+/// A list is the sum of what each of its boundaries has, in every model, and its interval holds what finer meshes say.
+#[test]
+fn outputs_over_a_list_are_sums_with_one_interval() -> Result<()> {
+    const LISTS: &str = r#"
+[output.crest]
+kind = "flux"
+of = "crest"
+[output.river]
+kind = "flux"
+of = "river"
+[output.out]
+kind = "flux"
+of = ["seepage face", "crest"]
+[output.pressed]
+kind = "force"
+of = ["crest", "seepage face"]
+[output.of_face]
+kind = "force"
+of = "seepage face"
+[output.of_crest]
+kind = "force"
+of = ["crest"]
+"#;
+    // All that takes flux: 0, of which a tick in f32 leaves what its sums round.
+    const THROUGH: &str = r#"
+[output.through]
+kind = "flux"
+of = ["crest", "river", "seepage face"]
+"#;
+    let path = path("levee.toml");
+    for model in ["condensed", "full"] {
+        let text = Scene::read(&path)?.text.to_string() + LISTS;
+        let with = |more: &str| {
+            Scene::parse(&format!("{text}{more}\n[setting]\nmodel = \"{model}\"\n"), &path)
+        };
+        let scene = with("")?;
+        let scalar = if model == "full" { ScalarKind::F64 } else { ScalarKind::F32 };
+        // The intervals of both models are weighed alike.
+        if model == "condensed" {
+            assert!(checked("levee.toml", &scene, scalar)? >= 2);
+        }
+        let scene = with(THROUGH)?;
+        let problem = on_mesh(&scene, 0)?;
+        with_module(&problem, Some(scalar), |session, module: &Module| {
+            for inputs in drawn::<f64>(&InputSpace::of(&scene), TRIED) {
+                session.tick(&inputs)?;
+                let answer = session.answer(&problem.with_inputs(&inputs)?)?;
+                let [seepage, _, _, crest, river, out, pressed, face, top, through] =
+                    answer.outputs[..]
+                else {
+                    panic!("{:?}", answer.outputs)
+                };
+                let size = [seepage, crest, river, pressed]
+                    .iter()
+                    .fold(0.0, |most: f64, x| most.max(x.abs()));
+                for (sum, parts) in [
+                    (out, seepage + crest),
+                    (through, seepage + crest + river),
+                    (pressed, face + top),
+                ] {
+                    assert!(
+                        (sum - parts).abs() <= 1e-5 * size,
+                        "{model} at {inputs:?}: {:?}",
+                        answer.outputs
+                    );
+                }
+                let by = module.plus_minus(answer.bound.as_ref());
+                assert!(by[5].is_ok(), "{model}: {by:?}");
+            }
+            Ok(())
+        })?;
+    }
+    Ok(())
+}
+
 /// With its supplies off by default the mats are a wall of a given flux there, and contact at every other input.
 #[test]
 fn defaults_at_which_a_flux_is_given_say_nothing_of_other_inputs() -> Result<()> {

@@ -48,7 +48,7 @@ pub(super) type Posed = std::result::Result<Goal, String>;
 
 /// Describes the quantity of an output in a few words.
 pub fn described(output: &Output) -> String {
-    let of = output.of.as_ref().map_or("all contact edges", |of| of.value.as_str());
+    let of = output.place("all contact edges", str::to_owned);
     match output.quantity {
         Quantity::Mean => format!("the mean of u over {of}"),
         Quantity::Flux => format!("the flux (A∇u)·n over {of}"),
@@ -121,7 +121,7 @@ impl Goal {
                 Some((cell, start)) => Ok(Ok(Self::of_cell(problem, cell, start))),
                 None => none("it is outside the mesh"),
             },
-            _ if part.kind().is_none() => none("its boundary has no edge"),
+            _ if part.edges().next().is_none() => none("its boundary has no edge"),
             Quantity::Mean => Self::of_mean(problem, answer, deviations, output).map(Ok),
             Quantity::Flux | Quantity::Force => Self::of_flux(problem, answer, output).map(Ok),
         }
@@ -191,9 +191,9 @@ impl Goal {
     /// Data that are not finite.
     pub fn given(problem: &Problem, output: &Output) -> Result<Option<Value>> {
         let part = Part::new(problem, output);
-        let field = match (output.quantity, part.kind()) {
-            (Quantity::Flux, Some(EdgeKind::Neumann)) => Field::Flux,
-            (Quantity::Mean, Some(EdgeKind::Dirichlet)) => Field::Value,
+        let field = match output.quantity {
+            Quantity::Flux if part.is_all(EdgeKind::Neumann) => Field::Flux,
+            Quantity::Mean if part.is_all(EdgeKind::Dirichlet) => Field::Value,
             _ => return Ok(None),
         };
         values::given(problem, &part, field).map(Some)

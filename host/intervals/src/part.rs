@@ -3,23 +3,23 @@
 use signorini_problem::{EdgeKind, Problem};
 use signorini_scene::scene::{Condition, Output};
 
-/// A boundary of the scene, or all contact edges.
+/// Boundaries of the scene, or all contact edges.
 pub(super) struct Part<'p> {
     problem: &'p Problem,
-    name: Option<&'p str>,
+    output: &'p Output,
 }
 
 impl<'p> Part<'p> {
     pub fn new(problem: &'p Problem, output: &'p Output) -> Self {
-        Self { problem, name: output.of.as_ref().map(|of| of.value.as_str()) }
+        Self { problem, output }
     }
 
     /// Whether the boundary of the scene's table `at` belongs to it.
     pub fn has_table(&self, at: usize) -> bool {
         let boundary = &self.problem.scene.boundaries[at];
-        match self.name {
-            Some(name) => boundary.name.value == name,
-            None => matches!(boundary.condition, Condition::Contact { .. }),
+        match self.output.of[..] {
+            [] => matches!(boundary.condition, Condition::Contact { .. }),
+            _ => self.output.is_of(&boundary.name.value),
         }
     }
 
@@ -39,8 +39,8 @@ impl<'p> Part<'p> {
         self.edges().map(|edge| self.problem.lengths[edge]).sum()
     }
 
-    /// Condition that holds on it; `None` where it has no edge.
-    pub fn kind(&self) -> Option<EdgeKind> {
-        self.edges().next().map(|edge| self.problem.kinds[edge])
+    /// Whether it has edges, and this condition holds on all of them.
+    pub fn is_all(&self, kind: EdgeKind) -> bool {
+        self.edges().next().is_some() && self.edges().all(|edge| self.problem.kinds[edge] == kind)
     }
 }

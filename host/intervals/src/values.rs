@@ -161,7 +161,7 @@ pub(super) fn cell(
     Ok(Some((at, Value { value, terms, largest: largest(s.vertices) })))
 }
 
-/// ∫τ·n over a part of the boundary; as a force, from the ends that it is measured from.
+/// ∫τ·n over a part of the boundary; as a force, from the ends that it is measured from. Through N the data give it.
 pub(super) fn flux(
     problem: &Problem,
     answer: &Answered,
@@ -170,6 +170,12 @@ pub(super) fn flux(
 ) -> Result<Value> {
     let [mut value, mut terms] = [0.0; 2];
     for edge in part.edges() {
+        if let (EdgeKind::Neumann, false) = (problem.kinds[edge], is_force) {
+            let data = Sum::on_edge(problem, edge, Field::Flux, problem.time);
+            let [given, size] = data.map_or(Ok([0.0; 2]), |data| integral(problem, edge, &data))?;
+            (value, terms) = (value + given, terms + size);
+            continue;
+        }
         let flux = answer.certified.tau[edge];
         let (direction, [end, size]) = match is_force {
             true if problem.kinds[edge] != EdgeKind::Contact => continue,

@@ -32,6 +32,9 @@ use signorini_scene::scene::{Output, Quantity};
 use signorini_solve::energy_norm::nonconformity;
 use signorini_solve::{ScalarKind, SharedFactor};
 
+/// Why an output needs no weights.
+const GIVEN: &str = "the data give it, up to their quadrature";
+
 /// Parts that are tried, and by how much each is larger than the last.
 const PARTS: i32 = 10;
 const STEP: f64 = 2.0;
@@ -115,12 +118,10 @@ impl Weighing<'_> {
             Err(why) => return Ok(Err(why)),
         };
         let part = Part::new(self.problem, output);
-        match (output.quantity, part.kind()) {
-            (Quantity::Mean, Some(EdgeKind::Dirichlet))
-            | (Quantity::Flux, Some(EdgeKind::Neumann)) => {
-                none("the data give it, up to their quadrature")
-            }
-            (Quantity::Mean, kind) => self.mean(&goal, kind == Some(EdgeKind::Contact)),
+        match output.quantity {
+            Quantity::Mean if part.is_all(EdgeKind::Dirichlet) => none(GIVEN),
+            Quantity::Flux if part.is_all(EdgeKind::Neumann) => none(GIVEN),
+            Quantity::Mean => self.mean(&goal, part.is_all(EdgeKind::Contact)),
             _ => self.flux(&goal, &part),
         }
     }
@@ -182,9 +183,9 @@ impl Weighing<'_> {
             return Ok(Err(UNBOUNDED.to_owned()));
         }
         // On contact edges τ is within the law, and so is the output.
-        let algebraic = match part.kind() {
-            Some(EdgeKind::Contact) => 0.0,
-            _ => self.of_edges(goal, part)?.max(total),
+        let algebraic = match part.is_all(EdgeKind::Contact) {
+            true => 0.0,
+            false => self.of_edges(goal, part)?.max(total),
         };
         Ok(Ok(Weights { total, square, algebraic, of_u: 0.0 }))
     }
@@ -253,12 +254,13 @@ impl Weighing<'_> {
         Ok(most.map(f64::sqrt))
     }
 
-    /// max |Σ_P ∫(τ − σ_h)·n| over ‖A^−½(τ − σ_h)‖, cell by cell: both have the same sources there, so that it is the energy of the
-    /// nonconforming function which has the mean 1 on P and 0 on all other edges.
+    /// max |Σ ∫(τ − σ_h)·n| over ‖A^−½(τ − σ_h)‖, cell by cell, summed over the edges of P beside contact: both have the same sources
+    /// there, so that it is the energy of the nonconforming function which has the mean 1 on these and 0 on all other edges.
     fn of_edges(&self, goal: &Goal, part: &Part) -> Result<f64> {
         let (nothing, dual) = (self.nothing(), Dual::new(self.problem, goal)?);
         let mut means = vec![0.0; self.problem.ends.len()];
-        part.edges().for_each(|edge| means[edge] = 1.0);
+        let is_contact = |edge: &usize| self.problem.kinds[*edge] == EdgeKind::Contact;
+        part.edges().filter(|edge| !is_contact(edge)).for_each(|edge| means[edge] = 1.0);
         nonconformity(dual.problem(), &nothing.admissible(), &means)
     }
 }

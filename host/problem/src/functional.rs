@@ -34,7 +34,7 @@ pub fn wanted(scene: &Scene) -> Cow<'_, [Output]> {
     }
     let output = |(name, quantity): (&str, Quantity)| {
         let name = Located { value: name.to_owned(), key: "output".to_owned(), span: 0..0 };
-        Output { name, quantity, of: None, unit: None }
+        Output { name, quantity, of: Vec::new(), unit: None }
     };
     let defaults =
         [("contact_force", Quantity::Force), ("contact_length", Quantity::Length)].map(output);
@@ -87,11 +87,12 @@ fn parts(lengths: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
     lengths.into_iter().map(|(edge, length)| (edge, length / all)).collect()
 }
 
-/// The boundary edges that an output is about.
+/// The boundary edges that an output is about, each once.
 fn boundary_edges(problem: &Problem, output: &Output) -> impl Iterator<Item = usize> {
     (0..problem.ends.len()).filter(move |&edge| {
-        let name = problem.boundary_of(edge).map(|boundary| &boundary.name.value);
-        let wanted = output.of.as_ref().is_none_or(|of| Some(&of.value) == name);
+        let boundary = problem.boundary_of(edge);
+        let wanted =
+            output.of.is_empty() || boundary.is_some_and(|of| output.is_of(&of.name.value));
         problem.kinds[edge] != EdgeKind::Interior && wanted
     })
 }

@@ -71,7 +71,7 @@ impl Approach {
 
     /// The lack of `problem`, whose `parts` have been examined.
     pub fn lack_with(self, problem: &Problem, parts: PartCounts) -> Option<Lack> {
-        Property::ALL.into_iter().find_map(|property| self.lack_of(property, problem, parts))
+        Property::ALL.iter().find_map(|&property| self.lack_of(property, problem, parts))
     }
 
     /// This property of `problem`, where it has it and this approach cannot treat it.

@@ -10,10 +10,24 @@ use signorini_scene::scene::term::first_in_time;
 /// Numbers that the fields behind a condensed model may hold together: 1.6 GB.
 pub(super) const MOST_NUMBERS: usize = 200_000_000;
 
-/// Such a property of a problem; its text names what has it. A scene that can state a new one has a variant here: the compiler then asks
-/// [`super::Approach`] what each approach makes of it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Property {
+/// Defines the properties with the list of all of them: none is left out.
+macro_rules! properties {
+    ($($(#[$about:meta])+ $name:ident,)+) => {
+        /// Such a property of a problem; its text names what has it. A scene that can state a new one has a variant here: the compiler
+        /// then asks [`super::Approach`] what each approach makes of it.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum Property {
+            $($(#[$about])+ $name,)+
+        }
+
+        impl Property {
+            /// In the order in which they are looked for.
+            pub(super) const ALL: &[Self] = &[$(Self::$name,)+];
+        }
+    };
+}
+
+properties! {
     /// No edge is in contact.
     NoContact,
     /// The fields of all contact edges and inputs do not fit into memory together.
@@ -31,17 +45,6 @@ pub enum Property {
 }
 
 impl Property {
-    /// In the order in which they are looked for.
-    pub(super) const ALL: [Self; 7] = [
-        Self::NoContact,
-        Self::ManyContactEdges,
-        Self::FloatingPart,
-        Self::PartHeldByContact,
-        Self::LoadInTime,
-        Self::TransferInput,
-        Self::Limit,
-    ];
-
     /// Whether it is read off the connected parts.
     pub(super) const fn is_of_parts(self) -> bool {
         matches!(self, Self::FloatingPart | Self::PartHeldByContact)

@@ -21,7 +21,7 @@ use signorini_kernel::solver::Status;
 
 use super::{
     Attempt, Ending, Ldlt, Options, Ran, Result, ScalarKind, Solution, Solved, SolverKind,
-    by_kernel, direct, factored, unfit,
+    by_kernel, direct, factored, unfit, went_well,
 };
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Approach, Assembled, Parts, Problem};
@@ -89,7 +89,7 @@ pub(super) fn by_factor<R: Scalar>(
     let settings = options.settings::<R>();
     let found = factored::solve(&system, diagonal, &settings, &mut u, &mut low, known);
     let Some((outcome, factored)) = found.map_err(&unfit)? else { return Ok(None) };
-    if !matches!(outcome.status, Status::Converged | Status::RoundingLimit) {
+    if !went_well(outcome.status) {
         return Ok(None);
     }
     let factored = Some(factored);

@@ -1,6 +1,8 @@
 //! How an answer came to its end, whatever gave it (the kernel's solver or one of its ticks), and which solver was used in
 //! the end: in the words of the terminal and `summary.json`.
 
+use std::sync::LazyLock;
+
 use serde::{Serialize, Serializer};
 use signorini_kernel::report::Ended;
 use signorini_kernel::solver::Status;
@@ -26,7 +28,7 @@ impl Default for Ending {
 impl Ending {
     /// The answer is as good as was asked for, or as rounding allows.
     pub fn is_success(self) -> bool {
-        matches!(self.of_solve(), Status::Converged | Status::RoundingLimit)
+        went_well(self.of_solve())
     }
 
     /// The iterate is no answer; one that a budget cut off is.
@@ -44,18 +46,23 @@ impl Ending {
         }
     }
 
-    /// The word for it in `summary.json` and `ticks.csv`.
+    /// The word for it in `summary.json` and `ticks.csv`: of a tick that of its code, `out-of-sweeps` for `OUT_OF_SWEEPS`.
     pub fn name(self) -> &'static str {
+        static WORDS: LazyLock<Vec<String>> = LazyLock::new(|| {
+            let words = Ended::CODES.iter().map(|code| code.word.to_string_lossy());
+            words.map(|word| word.to_lowercase().replace('_', "-")).collect()
+        });
         match self {
             Self::Solve(status) => status_name(status),
-            Self::Tick(Ended::Exact) => "exact",
-            Self::Tick(Ended::Accurate) => "accurate",
-            Self::Tick(Ended::Settled) => "settled",
-            Self::Tick(Ended::OutOfSweeps) => "out-of-sweeps",
-            Self::Tick(Ended::OutOfTime) => "out-of-time",
-            Self::Tick(Ended::NotFinite) => "not-finite",
+            // Codes count up from 0.
+            Self::Tick(ended) => WORDS.get(ended.code() as usize).map_or("unknown", String::as_str),
         }
     }
+}
+
+/// Whether the answer of a solve that ended so is as good as was asked for, or as rounding allows.
+pub fn went_well(status: Status) -> bool {
+    matches!(status, Status::Converged | Status::RoundingLimit)
 }
 
 /// The word for the status of a solve.
@@ -136,5 +143,27 @@ impl Solution {
 impl Serialize for Ran {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(self.name())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Scripts read these words.
+    #[test]
+    fn words_of_ticks_are_those_of_their_codes() {
+        let words = [
+            (Ended::Exact, "exact"),
+            (Ended::Accurate, "accurate"),
+            (Ended::Settled, "settled"),
+            (Ended::OutOfSweeps, "out-of-sweeps"),
+            (Ended::OutOfTime, "out-of-time"),
+            (Ended::NotFinite, "not-finite"),
+        ];
+        for (ended, word) in words {
+            assert_eq!(Ending::Tick(ended).name(), word);
+        }
+        assert_eq!(words.len(), Ended::CODES.len());
     }
 }

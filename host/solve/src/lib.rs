@@ -30,7 +30,7 @@ mod tuned;
 mod units;
 
 pub use auto::{SharedFactor, prefers_factor};
-pub use ending::{Ending, Ran, status_name};
+pub use ending::{Ending, Ran, status_name, went_well};
 pub use factored::Factored;
 pub use level::{FreeLevel, free_levels};
 pub use mixed::{Corrected, Mixed, mixed};

@@ -3,6 +3,7 @@
 mod answer;
 mod bake;
 mod bake_c;
+mod example;
 mod extremes;
 mod levels;
 mod picture;

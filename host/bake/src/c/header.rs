@@ -69,6 +69,7 @@ impl Header<'_> {
         let wrong = match self.on.word {
             "m4" => "!defined(__ARM_ARCH_7EM__) || !defined(__ARM_PCS_VFP)",
             "m4-soft" => "!defined(__ARM_ARCH_7EM__) || defined(__ARM_PCS_VFP)",
+            "m33" => "!defined(__ARM_ARCH_8M_MAIN__) || !defined(__ARM_PCS_VFP)",
             "m7" => "!defined(__ARM_ARCH_7EM__) || !defined(__ARM_PCS_VFP) || !(__ARM_FP & 8)",
             _ if cfg!(target_arch = "x86_64") => "!defined(__x86_64__) && !defined(_M_X64)",
             _ if cfg!(target_arch = "aarch64") => "!defined(__aarch64__) && !defined(_M_ARM64)",
@@ -189,36 +190,54 @@ fn enumeration(name: &str, doc: &str, codes: &[Code], meanings: &[&str]) -> Stri
 mod tests {
     use std::process::Command;
 
+    use super::super::names::{KEYWORDS_OF_C, KEYWORDS_OF_CPP, MACROS};
     use super::*;
     use crate::choice::{Choice, Wanted};
     use crate::emit::emit;
+    use crate::item::items;
     use crate::tests::standard;
     use signorini_image::library::MACHINES;
 
-    /// The header of a standard scene for this machine, with the sizes of a state and a report.
-    fn header(name: &str, state: usize, report: usize) -> String {
+    /// The header of a standard scene for this machine, with the sizes of a state and a report; `outputs` stand in it instead of
+    /// the scene's own, where there are any.
+    fn header_with(name: &str, state: usize, report: usize, outputs: &[&str]) -> String {
         let problem = standard(name, |_| ());
         let chosen = Choice::<f32>::new(&problem, Wanted::default()).expect("a model");
-        let chosen = emit(&problem, &chosen).chosen;
-        let (api, on) = (ModuleApi::new(&problem), &MACHINES[3]);
+        let mut chosen = emit(&problem, &chosen).chosen;
+        let (mut api, on) = (ModuleApi::new(&problem), &MACHINES[MACHINES.len() - 1]);
+        if !outputs.is_empty() {
+            let docs = outputs.iter().map(|_| "One of many.".to_owned());
+            api.outputs = items(outputs.iter().copied(), docs);
+            chosen.without_interval = vec![None; outputs.len()];
+        }
         let library = Library { archive: Vec::new(), state, report };
         Header { name, api: &api, chosen: &chosen, library: &library, on }.text()
     }
 
-    /// What the C compiler that Rust links with says of it.
+    fn header(name: &str, state: usize, report: usize) -> String {
+        header_with(name, state, report, &[])
+    }
+
     fn compiled(header: &str) -> Result<(), String> {
+        compiled_by("cc", "-std=c99", header)
+    }
+
+    /// What a compiler of the desk says of a text.
+    fn compiled_by(compiler: &str, age: &str, text: &str) -> Result<(), String> {
         let folder = tempfile::tempdir().expect("a folder");
-        std::fs::write(folder.path().join("scene.h"), header).expect("a file");
-        std::fs::write(folder.path().join("main.c"), "#include \"scene.h\"\n").expect("a file");
-        let said = Command::new("cc")
+        std::fs::write(folder.path().join("main"), text).expect("a file");
+        let language = if compiler == "c++" { "c++" } else { "c" };
+        let said = Command::new(compiler)
             .args([
-                "-std=c99",
+                age,
                 "-Wall",
                 "-Wextra",
                 "-Wpedantic",
                 "-Werror",
                 "-fsyntax-only",
-                "main.c",
+                "-x",
+                language,
+                "main",
             ])
             .current_dir(folder.path())
             .output()
@@ -226,6 +245,30 @@ mod tests {
         match said.status.success() {
             true => Ok(()),
             false => Err(String::from_utf8_lossy(&said.stderr).into_owned()),
+        }
+    }
+
+    /// The header behind all headers of C: no field is called as a keyword or a macro.
+    #[test]
+    fn it_holds_every_word_of_c_and_cpp() {
+        let words = [KEYWORDS_OF_C, KEYWORDS_OF_CPP, MACROS].map(str::split_whitespace);
+        let words: Vec<_> = words.into_iter().flatten().collect();
+        assert!(words.len() > 150 && words.contains(&"co_await"), "{words:?}");
+        // 12 numbers and words, and an interval for each output.
+        let text = header_with("levee", 624, 48 + 4 * words.len(), &words);
+        let before: String = [
+            "assert", "complex", "errno", "math", "signal", "stdalign", "stdio", "stdlib",
+            "threads", "time",
+        ]
+        .iter()
+        .map(|name| format!("#if __has_include(<{name}.h>)\n#include <{name}.h>\n#endif\n"))
+        .collect();
+        for age in ["-std=gnu99", "-std=gnu17", "-std=gnu2x"] {
+            assert_eq!(compiled_by("cc", age, &(before.clone() + &text)), Ok(()), "{age}");
+        }
+        let before = before.replace("complex.h", "iso646.h").replace("threads.h", "wchar.h");
+        for age in ["-std=gnu++11", "-std=gnu++20", "-std=gnu++23"] {
+            assert_eq!(compiled_by("c++", age, &(before.clone() + &text)), Ok(()), "{age}");
         }
     }
 

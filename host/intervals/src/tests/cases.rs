@@ -72,6 +72,67 @@ setting.element = "nonparametric"
     Ok(())
 }
 
+/// u = xy + 2x + 3y: contact below, which touches everywhere and meets a given u on the right, as a seepage face meets the tailwater.
+const TAILWATER: &str = r#"
+mesh = "grid"
+material.default.conductivity = "1"
+source.f = "0"
+boundary.contact = { kind = "contact", gap = "2*x", flux = "-5" }
+boundary.right = { kind = "dirichlet", value = "2 + 4*y" }
+boundary.left = { kind = "neumann", flux = "-2 - y" }
+boundary.dirichlet = { kind = "neumann", flux = "x + 3" }
+output.face = { kind = "flux", of = "contact" }
+output.weir = { kind = "flux", of = "right" }
+output.both = { kind = "flux", of = ["right", "contact"] }
+output.more = { kind = "flux", of = ["left", "contact", "right"] }
+output.given = { kind = "flux", of = ["left", "dirichlet"] }
+output.force = { kind = "force", of = ["contact"] }
+output.wet = { kind = "length", of = ["contact"] }
+"#;
+
+/// Where a boundary meets another one that takes flux too no energy tells one flux from the other: their sum has an interval, which
+/// data that are given beside them do not widen.
+#[test]
+fn a_sum_has_an_interval_where_its_parts_have_none() -> Result<()> {
+    use crate::weights::{Answers, weights};
+    for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
+        let mut widths = Vec::new();
+        for n in [4, 8] {
+            let (scene, problem) = on_grid(TAILWATER, grid(n, cells))?;
+            let solution = solve(&problem, &options())?;
+            let found = of_outputs(&problem, &solution);
+            let values = outputs(&problem, &solution)?;
+            for name in ["face", "weir", "force"] {
+                assert!(
+                    found[name].as_ref().is_err_and(|why| why.contains("from both sides")),
+                    "{name}"
+                );
+            }
+            // −∫(x + 3) below, ∫(y + 2) on the right, −∫(y + 2) on the left, ∫(x + 3) on top.
+            for (name, exact) in [("both", -3.5), ("more", -6.0), ("given", 3.5)] {
+                check(name, found[name].as_ref().expect("an interval"), exact);
+            }
+            let [face, weir, both] =
+                ["face", "weir", "both"].map(|name| values[name].expect("a value"));
+            assert!((face + weir - both).abs() < 1e-12 * both.abs(), "{face} {weir} {both}");
+            let width =
+                |name: &str| found[name].as_ref().map_or(f64::NAN, |found| found.plus_minus);
+            assert!((width("more") - width("both")).abs() < 1e-6, "{cells:?}: {found:?}");
+            assert!(width("given") < 1e-6);
+            assert_eq!(values["wet"], Some(2.0));
+            widths.push(width("both"));
+            let answers = Answers { open: &[], total: 0.0, are_balanced: true };
+            let own = weights(&problem, &answers);
+            for (output, weight) in scene.outputs.iter().zip(own) {
+                let has = ["both", "more"].contains(&output.name.value.as_str());
+                assert_eq!(weight.is_ok(), has, "{}: {weight:?}", output.name.value);
+            }
+        }
+        assert!(widths[1] < 0.5 * widths[0] || widths[1] < 1e-6, "{cells:?}: {widths:?}");
+    }
+    Ok(())
+}
+
 const ROOF: &str = r#"
 title = "an outlet below"
 mesh = "none.msh"

@@ -158,7 +158,10 @@ mod tests {
         // The first point is of no cell, and rotations leave noise.
         (arrays.points[0][2], arrays.points[4][2]) = (-70.0, 3.0 + 1e-12);
         let flat = square().points.iter().map(|&[x, y, _]| [x, y, 0.0]).collect();
-        assert_eq!(arrays.mesh().expect("a mesh"), Arrays { points: flat, ..square() }.mesh().expect("a mesh"));
+        assert_eq!(
+            arrays.mesh().expect("a mesh"),
+            Arrays { points: flat, ..square() }.mesh().expect("a mesh")
+        );
     }
 
     #[test]

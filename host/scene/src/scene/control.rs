@@ -90,22 +90,28 @@ const KINDS: [(&str, (&str, Quantity)); 7] = [
 pub(super) fn read_output(table: &Table, boundaries: &[Boundary]) -> Result<Output> {
     let (what, mut quantity) = table.require("kind")?.choice(&KINDS)?.value;
     let of = match &mut quantity {
-        Quantity::Bound => table.only(what, "kind, unit").map(|()| None)?,
+        Quantity::Bound => table.only(what, "kind, unit").map(|()| Vec::new())?,
         Quantity::Probe { at } => {
             table.only(what, "kind, at, unit")?;
             let [x, y] = table.require("at")?.pair("x, y")?;
             *at = [x.number()?, y.number()?];
-            None
+            Vec::new()
         }
-        Quantity::Flux | Quantity::Mean => {
+        Quantity::Mean => {
             table.only(what, "kind, of, unit")?;
             let of = table.require("of")?;
             find_boundary(&of, boundaries)?;
-            Some(of.text()?)
+            vec![of.text()?]
+        }
+        Quantity::Flux => {
+            table.only(what, "kind, of, unit")?;
+            let named = |of: &Entry| find_boundary(of, boundaries).and_then(|_| of.text());
+            one_or_more(&table.require("of")?, named)?
         }
         Quantity::Force | Quantity::Length | Quantity::Saturated => {
             table.only(what, "kind, of, unit")?;
-            table.get("of").map(|of| contact(&of, boundaries)).transpose()?
+            let of = table.get("of");
+            of.map_or(Ok(Vec::new()), |of| one_or_more(&of, |of| contact(of, boundaries)))?
         }
     };
     Ok(Output { name: table.name.clone(), quantity, of, unit: read_unit(table)? })
@@ -123,6 +129,27 @@ fn read_unit(table: &Table) -> Result<Option<String>> {
         return Err(error.hint("write one such as \"m2/s\" or \"°C\"").into());
     }
     Ok(Some(unit))
+}
+
+/// The names of one boundary or of a list of them, each once.
+fn one_or_more(
+    of: &Entry,
+    named: impl Fn(&Entry) -> Result<Located<String>>,
+) -> Result<Vec<Located<String>>> {
+    let Some(items) = of.array() else { return Ok(vec![named(of)?]) };
+    let mut names: Vec<Located<String>> = Vec::with_capacity(items.len());
+    for item in &items {
+        let name = named(item)?;
+        if names.iter().any(|known| known.value == name.value) {
+            let error = item.error(format_args!("`{}` comes twice", name.value));
+            return Err(error.hint("name each boundary once").into());
+        }
+        names.push(name);
+    }
+    match names.is_empty() {
+        true => Err(of.expected("a boundary, or a list of boundaries").into()),
+        false => Ok(names),
+    }
 }
 
 /// The name of a contact boundary.

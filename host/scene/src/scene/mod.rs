@@ -196,9 +196,9 @@ pub struct Output {
     pub name: Located<String>,
     /// The quantity that it measures.
     pub quantity: Quantity,
-    /// The boundary: always there for a flux; for force and length a contact boundary or, where
-    /// absent, all of them; otherwise absent.
-    pub of: Option<Located<String>>,
+    /// Its boundaries, whose parts of it are summed: at least one for a flux, one for a mean; for force and length contact
+    /// boundaries or, where there are none, all of them; otherwise none.
+    pub of: Vec<Located<String>>,
     /// The unit that its value is shown with.
     pub unit: Option<String>,
 }
@@ -232,6 +232,22 @@ pub struct Exact {
     pub u: Datum,
     /// ∂u/∂x, ∂u/∂y.
     pub gradient: [Datum; 2],
+}
+
+impl Output {
+    /// Whether it is about the boundary of this name.
+    pub fn is_of(&self, boundary: &str) -> bool {
+        self.of.iter().any(|of| of.value == boundary)
+    }
+
+    /// Its boundaries in words, each as `written`: `all` where it names none.
+    pub fn place(&self, all: &str, written: impl Fn(&str) -> String) -> String {
+        match &self.of.iter().map(|of| written(&of.value)).collect::<Vec<_>>()[..] {
+            [] => all.to_owned(),
+            [one] => one.clone(),
+            [most @ .., last] => format!("{} and {last}", most.join(", ")),
+        }
+    }
 }
 
 impl Scene {

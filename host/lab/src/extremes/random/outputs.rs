@@ -133,7 +133,7 @@ fn with_outputs(problem: &Problem, number: u32, probes: bool) -> Problem {
     for boundary in &scene.boundaries {
         let name = &boundary.name.value;
         let mut add = |word: &str, quantity: Quantity| {
-            let of = Some(named(name.clone()));
+            let of = vec![named(name.clone())];
             all.push(Output { name: named(format!("{word} of {name}")), quantity, of, unit: None });
         };
         add("mean", Quantity::Mean);
@@ -145,13 +145,13 @@ fn with_outputs(problem: &Problem, number: u32, probes: bool) -> Problem {
     all.push(Output {
         name: named("all".to_owned()),
         quantity: Quantity::Force,
-        of: None,
+        of: Vec::new(),
         unit: None,
     });
     if probes {
         let at = Cell::of(problem, number as usize % problem.cells()).middle();
         let (name, quantity) = (named("probe".to_owned()), Quantity::Probe { at });
-        all.push(Output { name, quantity, of: None, unit: None });
+        all.push(Output { name, quantity, of: Vec::new(), unit: None });
     }
     let first = number as usize % all.len();
     all.rotate_left(first);

@@ -67,7 +67,7 @@ fn compared(
 
 /// A note on solves that do not end well.
 fn ends(exact: &Cold, fast: &Cold) -> Option<String> {
-    let is_well = |cold: &Cold| matches!(cold.status, Status::Converged | Status::RoundingLimit);
+    let is_well = |cold: &Cold| signorini_solve::went_well(cold.status);
     let name = signorini_solve::status_name;
     let both = || format!("libm: {}, micromath: {}", name(exact.status), name(fast.status));
     (!(is_well(exact) && is_well(fast))).then(both)

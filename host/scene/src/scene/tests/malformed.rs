@@ -40,6 +40,12 @@ const CHANGES: &[(&str, &str, &str)] = &[
     ("\"x + t\"", "\"x +\"", "46: exact.u: expected a number, a name or `(`, found the end"),
     ("[\"1\", 0]", "\"1\"", "47: exact.gradient: expected an array of two: ∂u/∂x, ∂u/∂y, found the text \"1\""),
     // Inputs and outputs
+    ("of = \"face\"", "of = []", "35: output.seepage.of: expected a boundary, or a list of boundaries, found an array of 0"),
+    ("of = \"face\"", "of = [\"face\", \"roof\"]", "35: output.seepage.of: no boundary `roof` in the scene"),
+    ("of = \"face\"", "of = [\"face\", \"face\"]", "35: output.seepage.of: `face` comes twice"),
+    ("of = \"face\"", "of = [\"face\", [\"base\"]]", "35: output.seepage.of: expected a text, found an array of 1"),
+    ("\"flux\"\nof = \"face\"", "\"length\"\nof = [\"face\", \"air\"]", "35: output.seepage.of: expected a contact boundary, this one is robin"),
+    ("\"flux\"\nof = \"face\"", "\"mean\"\nof = [\"face\", \"air\"]", "35: output.seepage.of: expected a text, found an array of 2"),
     ("of = \"base\"", "of = \"roof\"", "29: input.rain.of: no boundary `roof` in the scene"),
     ("of = \"base\"", "of = \"source\"", "30: input.rain.field: the source has no field `flux`"),
     ("of = \"base\"", "of = \"air\"", "30: input.rain.field: a robin boundary has no field `flux`"),

@@ -5,7 +5,7 @@ mod setting;
 
 use std::path::{Path, PathBuf};
 
-use super::{Condition, Field, InputRange, Located, Quantity, Scene, Target, Time};
+use super::{Condition, Field, InputRange, Located, Output, Quantity, Scene, Target, Time};
 use crate::error::{Error, Result};
 use crate::expression::Expression;
 
@@ -90,7 +90,7 @@ fn inputs_and_outputs_are_read_and_inputs_set() {
     assert_eq!(rain.pattern.value.is_constant(), Some(1.0));
     let seepage = &scene.outputs[0];
     assert_eq!((seepage.name.value.as_str(), seepage.quantity), ("seepage", Quantity::Flux));
-    assert_eq!(seepage.of.as_ref().map(|of| of.value.as_str()), Some("face"));
+    assert_eq!(seepage.of.iter().map(|of| of.value.as_str()).collect::<Vec<_>>(), ["face"]);
 
     scene.set_input("rain=-0.3").expect("a known input");
     assert_eq!(scene.inputs[0].default, -0.3);
@@ -173,6 +173,19 @@ j = { of = 'face', field = 'flux', pattern = 1 }
     assert_eq!(fields, [Field::Source, Field::Value, Field::Gap, Field::Ambient, Field::Flux]);
     assert_eq!(scene.inputs[2].pattern.value.is_constant(), Some(16.0));
     assert_eq!((scene.inputs[0].default, scene.inputs[3].default), (0.0, 1000.0));
+}
+
+#[test]
+fn an_output_may_be_over_a_list() {
+    let listed = LEVEE.replace("of = \"face\"", "of = [\"face\", 'base', \"air\"]");
+    let seepage = &scene(&listed).outputs[0];
+    assert!(
+        ["face", "base", "air"].iter().all(|name| seepage.is_of(name)) && !seepage.is_of("river")
+    );
+    let place = |output: &Output| output.place("all contact", |name| format!("`{name}`"));
+    assert_eq!(place(seepage), "`face`, `base` and `air`");
+    assert_eq!(place(&scene(LEVEE).outputs[0]), "`face`");
+    assert_eq!(place(&Output { of: Vec::new(), ..seepage.clone() }), "all contact");
 }
 
 #[test]

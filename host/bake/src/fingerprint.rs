@@ -1,0 +1,45 @@
+//! FNV-1a: a number that other bytes hardly have, the same in every build.
+
+/// The number of no bytes.
+const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
+const PRIME: u64 = 0x0000_0100_0000_01b3;
+
+/// What bytes add to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Fingerprint(pub u64);
+
+impl Default for Fingerprint {
+    fn default() -> Self {
+        Self(OFFSET)
+    }
+}
+
+impl Fingerprint {
+    /// Adds more bytes.
+    pub fn take(&mut self, bytes: &[u8]) {
+        for &byte in bytes {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(PRIME);
+        }
+    }
+
+    /// That of these bytes alone.
+    pub fn of(bytes: &[u8]) -> Self {
+        let mut all = Self::default();
+        all.take(bytes);
+        all
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Test vectors of the draft that describes FNV (Fowler, Noll, Vo, Eastlake).
+    #[test]
+    fn it_is_fnv_1a() {
+        let known = [("", OFFSET), ("a", 0xaf63_dc4c_8601_ec8c), ("foobar", 0x8594_4171_f739_67e8)];
+        for (text, number) in known {
+            assert_eq!(Fingerprint::of(text.as_bytes()), Fingerprint(number), "{text}");
+        }
+    }
+}
