@@ -23,6 +23,7 @@ pub mod ends;
 pub mod energy;
 pub mod exact;
 pub mod forest;
+mod imbalance;
 pub mod metric;
 mod no_bound;
 pub mod oscillation;

@@ -10,6 +10,7 @@ use super::ends::Ends;
 use super::robin::RobinPoints;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Problem, spread};
+use signorini_scene::scene::Field;
 
 /// By how much a transfer coefficient may vary along an edge: where it nearly vanishes, ∫(τ·n)²/h is
 /// beyond 8 points, and infinite where it does.
@@ -142,6 +143,37 @@ impl NoBound {
             "contact alone holds the part of the mesh around {}, and nothing touches there: no edge can take what \
              its fluxes leave unbalanced",
             place(Cell::of(problem, cell).middle())
+        ))
+    }
+
+    /// A load that has no finite square integral near a point, or is not proved to have one.
+    pub(super) fn not_square(field: Field, at: [f64; 2], is_proved: bool) -> Self {
+        let name = match field {
+            Field::Flux => "the flux",
+            Field::Limit => "the limit",
+            _ => "f",
+        };
+        let place = place(at);
+        Self(match is_proved {
+            true => format!(
+                "{name} is not square integrable near {place}: what its means leave out has no finite norm"
+            ),
+            false => format!(
+                "{name} can't be enclosed near {place}: what its means leave out is not known"
+            ),
+        })
+    }
+
+    /// So much of the loads' integrals may be missed, and nothing can take it.
+    pub(super) fn unbalanced(missed: f64) -> Self {
+        let reason = match missed.is_finite() {
+            true => {
+                format!("up to {missed:.2e} of the integrals of f, flux and limit is not resolved")
+            }
+            false => "f, flux or limit can't be enclosed somewhere".to_owned(),
+        };
+        Self(format!(
+            "{reason}, and no dirichlet or robin edge can take it: a finer mesh may give a bound"
         ))
     }
 

@@ -115,7 +115,7 @@ impl TermData {
     }
 
     fn of(problem: Problem, data: Evaluated, spans: Vec<f64>) -> Self {
-        let Evaluated { ends, curved, transfer, oscillation, no_bound } = data;
+        let Evaluated { ends, curved, transfer, oscillation, no_bound, .. } = data;
         let (coefficient, span_varies) = (None, false);
         Self {
             problem,

@@ -18,6 +18,7 @@
 use signorini_kernel::flux_range::settled;
 
 use super::{Problem, Sum};
+use crate::quadrature::enclosed::Integral;
 use crate::quadrature::{gauss, on_panels};
 use signorini_scene::error::Result;
 use signorini_scene::scene::term::Term;
@@ -32,14 +33,18 @@ const CONSTANT: f64 = 1e-12;
 /// Terms that an end counts for where rounding is told from an empty range: an expression has many, and so has a mean.
 const TERMS: usize = 4500;
 
-/// The means of both ends of a contact edge's flux; an infinite end is its own mean.
-pub(super) fn ends(problem: &Problem, edge: usize, time: f64) -> Result<[f64; 2]> {
+/// The means of both ends of a contact edge's flux, and what is missed of them; an infinite end is its own mean.
+pub(super) fn ends(problem: &Problem, edge: usize, time: f64) -> Result<([f64; 2], f64)> {
     let mean = |field, unlimited: f64| {
-        let Some(end) = Sum::on_edge(problem, edge, field, time) else { return Ok(unlimited) };
+        let stated = |value| Integral { value, missed: 0.0 };
+        let Some(end) = Sum::on_edge(problem, edge, field, time) else {
+            return Ok(stated(unlimited));
+        };
         let infinite = end.constant().filter(|end| end.is_infinite());
-        infinite.map_or_else(|| end.mean(problem.segment(edge)), Ok)
+        infinite.map_or_else(|| end.mean_and_missed(problem.segment(edge)), |end| Ok(stated(end)))
     };
-    Ok([mean(Field::Flux, f64::NEG_INFINITY)?, mean(Field::Limit, f64::INFINITY)?])
+    let [least, most] = [mean(Field::Flux, f64::NEG_INFINITY)?, mean(Field::Limit, f64::INFINITY)?];
+    Ok(([least.value, most.value], least.missed.max(most.missed)))
 }
 
 /// Base and span of a contact edge from the means of its ends over a length of `length`.
@@ -153,7 +158,7 @@ impl Problem {
         let counts = self.topology.counts;
         let mut all = RangeTerm::default();
         for edge in counts.free..counts.unknowns() {
-            let ends = ends(&alone, edge, self.time)?;
+            let (ends, _) = ends(&alone, edge, self.time)?;
             let [base, span] = lower_and_span(ends, self.lengths[edge]);
             all.fluxes.push(base);
             all.spans.push(if term == 0 || span.is_finite() { span } else { 0.0 });

@@ -9,6 +9,7 @@ use signorini_kernel::mesh::edges::Edges;
 
 use super::{EdgeKind, Problem, Sum, limits};
 use crate::cell::Cell;
+use crate::quadrature::enclosed::Integral;
 use crate::quadrature::mean_on_edge;
 use crate::scalar::Scalar;
 use signorini_scene::error::Result;
@@ -35,6 +36,8 @@ pub struct Loads<R = f64> {
     pub gap: Vec<R>,
     /// Mean of u_D on each Dirichlet edge.
     pub dirichlet: Vec<R>,
+    /// What may be missed of ∫f, ∫g, ∫q and their limits in all: out of balance, and seen by no mean.
+    pub missed: f64,
 }
 
 impl<R: Scalar> Loads<R> {
@@ -79,9 +82,12 @@ impl Loads {
         let mut loads = Self::default();
         if !source.is_zero() {
             let triangles = problem.mesh.triangles.len();
-            let integral = |cell| source.over(Cell::of(problem, cell));
-            loads.triangles = (0..triangles).map(integral).collect::<Result<_>>()?;
-            loads.quads = (triangles..problem.cells()).map(integral).collect::<Result<_>>()?;
+            let cells: Vec<_> = (0..problem.cells()).map(|at| Cell::of(problem, at)).collect();
+            let all = source.over(&cells)?;
+            let values = |of: &[Integral]| of.iter().map(|integral| integral.value).collect();
+            loads.triangles = values(&all[..triangles]);
+            loads.quads = values(&all[triangles..]);
+            loads.missed = all.iter().map(|integral| integral.missed).sum();
         }
         for edge in 0..problem.ends.len() {
             if problem.kinds[edge] != EdgeKind::Interior {
@@ -117,6 +123,7 @@ impl Loads {
             span_excess: R::narrow(self.span_excess),
             gap: all(&self.gap),
             dirichlet: all(&self.dirichlet),
+            missed: self.missed,
         }
     }
 
@@ -136,7 +143,10 @@ impl Loads {
         match &boundary.condition {
             Condition::Dirichlet { value } => self.dirichlet.push(mean(Field::Value, value)?),
             Condition::Neumann { flux } => {
-                let flux = length * mean(Field::Flux, flux)?;
+                let flux = Sum::new(&problem.scene, name, Field::Flux, flux, time)
+                    .mean_and_missed(segment)?;
+                self.missed += length * flux.missed;
+                let flux = length * flux.value;
                 if flux != 0.0 {
                     self.neumann.push(Neumann { edge: index, flux });
                 }
@@ -156,8 +166,9 @@ impl Loads {
             }
             Condition::Contact { gap, .. } => {
                 self.gap.push(mean(Field::Gap, gap)?);
-                let ends = limits::ends(problem, edge, time)?;
+                let (ends, missed) = limits::ends(problem, edge, time)?;
                 let [base, span] = limits::base_and_span(ends, length);
+                self.missed += length * missed;
                 self.contact_flux.push(base);
                 self.spans.push(span);
             }

@@ -23,10 +23,10 @@ table! {
         "panels of 2⁻¹⁷ around it";
     BISECTED_KINK: "integral of a kink by bisection", 1e-9,
         "two levels agree to 1e-9";
-    BISECTED_LINE: "integral of a kink across cells by bisection", 1e-4,
-        "the number of cuts is limited";
-    GRADED: "integral of a jump beside a side by thin parts", 1e-4,
-        "the number of cuts is limited";
+    ENCLOSED: "what is missed of integrals over cells and edges, of sizes near 1", 3e-12,
+        "1e-13 of ∫|f| in each of some parts, and rounding";
+    ENCLOSED_LINE: "what is missed of a jump along a circle", 1e-4,
+        "the number of parts is limited";
     GUARANTEE: "how far the distance is above the bound on thin cells, relative", 1e-6,
         "quadrature of the norms";
     POINTS: "Robin data at the points of an edge", 1e-13,

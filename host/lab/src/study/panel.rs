@@ -43,7 +43,7 @@ pub fn panel(problem: &Problem, solution: &Solution, case: &KnownScene) -> Scene
 }
 
 fn terms(bound: ErrorBound) -> BoundTerms {
-    let ErrorBound { total, of_u, duality_gap: gap, algebraic, oscillation, rounding } = bound;
+    let ErrorBound { total, of_u, duality_gap: gap, algebraic, oscillation, rounding, .. } = bound;
     BoundTerms { total, of_u, gap, algebraic, oscillation, rounding }
 }
 

@@ -15,20 +15,24 @@
 //! Where it has values in a part of the region only, the form encloses these, and says that it is not [`Form::is_finite`].
 
 mod continuation;
+mod cut;
 mod degree;
 mod derivatives;
 mod form;
 mod function;
+mod growth;
 mod interval;
 mod numbers;
 mod parts;
 mod polynomial;
+mod power;
 mod region;
 mod slope;
 #[cfg(test)]
 mod tests;
 
 pub use form::Form;
+pub use growth::{Growth, Place};
 pub use interval::Interval;
 pub use polynomial::Shape;
 pub use region::Region;
@@ -36,7 +40,9 @@ pub use region::Region;
 use super::Expression;
 use super::program::Numbers;
 use continuation::Discs;
+use cut::Switches;
 use degree::{Degree, Degrees};
+use growth::Grows;
 use numbers::Forms;
 use slope::{Slope, Slopes};
 
@@ -61,6 +67,21 @@ impl Expression {
     pub fn modulus(&self, region: &Region, rho: f64, t: f64) -> f64 {
         let [x, y] = region.neighbourhood(rho);
         self.program.run(&Discs, [x, y, Discs.constant(t)]).modulus()
+    }
+
+    /// The first argument of a kink or a jump whose sign is not known in a region, see [`Region::cut`].
+    pub fn switch(&self, region: &Region, t: f64) -> Option<Form> {
+        let switches = Switches { forms: Forms(region.shape()), found: None.into() };
+        let [x, y] = region.coordinates();
+        self.program.run(&switches, [x, y, switches.constant(t)]);
+        switches.found.get()
+    }
+
+    /// How it grows in a region where it is not bounded, if that is known.
+    pub fn growth(&self, region: &Region, t: f64) -> Option<Growth> {
+        let grows = Grows(region);
+        let [x, y] = region.coordinates().map(|form| grows.seen(form, None));
+        self.program.run(&grows, [x, y, grows.constant(t)]).growth
     }
 
     /// Its degree as a polynomial in x and y at the time t, infinite where it may be none.

@@ -187,6 +187,13 @@ impl Region {
         )
     }
 
+    /// Points and weights of a segment under a rule on \[0, 1\].
+    pub fn along(&self, rule: &[[f64; 2]]) -> Vec<([f64; 2], f64)> {
+        let length = self.measure();
+        let point = |&[t, weight]: &[f64; 2]| (self.place([2.0 * t - 1.0, 0.0]), length * weight);
+        rule.iter().map(point).collect()
+    }
+
     /// x and y as forms.
     pub(super) fn coordinates(&self) -> [Form; 2] {
         [0, 1].map(|k| {
@@ -249,7 +256,7 @@ pub(super) fn centroid([a, b, c]: [[f64; 2]; 3]) -> [f64; 2] {
     [0, 1].map(|k| (a[k] + b[k] + c[k]) / 3.0)
 }
 
-fn from(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+pub(super) fn from(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [0, 1].map(|k| b[k] - a[k])
 }
 

@@ -116,3 +116,32 @@ fn degrees_are_those_of_polynomials_alone() {
         assert_eq!(parse(text).degree(T), degree, "{text}");
     }
 }
+
+/// Along an affine zero nothing is left but rounding; along a circle each level of strips leaves a quarter.
+#[test]
+fn jumps_are_cut_along_their_zero() {
+    let one = Region::triangle([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+    let open = |expression: &Expression, levels: usize| {
+        let mut parts = vec![one];
+        for _ in 0..levels {
+            let cut = |part: &Region| match expression.switch(part, T) {
+                Some(argument) => part.cut(&argument).unwrap_or_else(|| part.parts()),
+                None => vec![*part],
+            };
+            parts = parts.iter().flat_map(cut).collect();
+        }
+        let area: f64 = parts.iter().map(Region::measure).sum();
+        ENCLOSED.check("the area of all parts", area - 0.5);
+        let is_open = |part: &&Region| expression.switch(part, T).is_some();
+        parts.iter().filter(is_open).map(Region::measure).sum::<f64>()
+    };
+    let line = parse("sign(3*x + 2*y - 1.7)*exp(x)");
+    assert!(open(&line, 1) < 1e-13);
+    let mut parts = one.cut(&line.switch(&one, T).expect("a jump")).expect("a cut");
+    parts.retain(|part| line.switch(part, T).is_none());
+    let sum = parts.iter().map(|part| part.integral(&line.enclose(part, T)));
+    assert!(sum.fold(Interval::ZERO, |sum, part| sum + part).is_finite());
+    let circle = parse("max(x^2 + y^2 - 0.3, 0)");
+    let [coarse, fine] = [5, 9].map(|levels| open(&circle, levels));
+    assert!(fine < 0.1 * coarse && fine < 2e-3, "{coarse} {fine}");
+}

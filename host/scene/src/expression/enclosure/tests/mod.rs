@@ -1,6 +1,7 @@
 //! Enclosures hold what they promise: every operation, random trees, random regions and points; and a planted error is found.
 
 mod exact;
+mod powers;
 mod random;
 mod rules;
 
