@@ -149,7 +149,8 @@ fn a_budget_cuts_off_and_is_carried_on() {
 #[test]
 fn a_log_replays_what_inputs_say() {
     let folder = Folder::new();
-    let log = &*folder.write("inputs.csv", "t,rain,river\n-1,2,0.5\n0.25, 2, 0.5\n");
+    // As an editor may have left it, with a byte order mark.
+    let log = &*folder.write("inputs.csv", "\u{feff}t,rain,river\n-1,2,0.5\n0.25, 2, 0.5\n");
     let replayed = played(LEVEE, &["--log", log]);
     let set = played(LEVEE, &["--ticks", "1", "--input", "rain=2", "--input", "river=0.5"]);
     assert_eq!(replayed.column("t"), ["-1.0", "0.25"]);

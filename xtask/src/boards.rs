@@ -12,7 +12,7 @@ use crate::replay;
 use crate::setup;
 use crate::snapshot::snapshot;
 use crate::steps::Steps;
-use signorini_image::board::{Board, Build, M4, M4F, M4F_192K, M7};
+use signorini_image::board::{Board, Build, M4, M4F, M4F_192K, M7, M33};
 use signorini_image::cargo::{cargo, root, run as run_cargo, target_dir};
 use signorini_image::toolchain::output;
 
@@ -46,6 +46,7 @@ pub fn run(steps: &mut Steps) {
     on_board(steps, &M4F, &[FLUSHED]);
     if steps.is_whole() {
         on_board(steps, &M7, &[FLUSHED]);
+        on_board(steps, &M33, &STAGES);
     }
     on_board(steps, &M4F_192K, &TICKS);
     steps.check("the cost image fits a part with 192 KiB", || {

@@ -1,4 +1,4 @@
-/* QEMU's mps2 boards: a Cortex-M at 25 MHz, CMSDK timer and watchdog, and the debugger's console. */
+/* QEMU's @machine@: a Cortex-M at @megahertz@ MHz, CMSDK timer and watchdog, and the debugger's console. */
 #include "board.h"
 
 #include <stddef.h>
@@ -15,13 +15,13 @@ struct timer {
 struct watchdog {
     uint32_t load, value, control, clear;
 };
-#define TIMER ((volatile struct timer *)0x40000000)
-#define WATCHDOG ((volatile struct watchdog *)0x40008000)
-#define WATCHDOG_LOCK (*(volatile uint32_t *)0x40008C00)
+#define TIMER ((volatile struct timer *)@timer@)
+#define WATCHDOG ((volatile struct watchdog *)@watchdog@)
+#define WATCHDOG_LOCK (*(volatile uint32_t *)(@watchdog@ + 0xC00))
 #define ENABLE_INTERRUPTS (*(volatile uint32_t *)0xE000E100)
 #define COPROCESSORS (*(volatile uint32_t *)0xE000ED88)
 
-enum { PER_MICROSECOND = 25, TIMER_INTERRUPT = 8 };
+enum { PER_MICROSECOND = @megahertz@, TIMER_INTERRUPT = @timer-interrupt@ };
 
 static void reset_handler(void) {
     /* The floating-point unit, where there is one: coprocessors 10 and 11. */

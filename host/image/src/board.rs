@@ -9,8 +9,9 @@ use std::time::{Duration, Instant};
 use crate::cargo::{root, target_dir};
 use crate::toolchain::{Toolchain, first_words, output};
 
-/// The targets: without and with a floating-point unit.
-pub const TRIPLES: [&str; 2] = ["thumbv7em-none-eabi", "thumbv7em-none-eabihf"];
+/// The targets: ARMv7E-M without and with a floating-point unit, and ARMv8-M with one.
+pub const TRIPLES: [&str; 3] =
+    ["thumbv7em-none-eabi", "thumbv7em-none-eabihf", "thumbv8m.main-none-eabihf"];
 
 /// A board.
 #[derive(Debug, Clone, Copy)]
@@ -19,7 +20,8 @@ pub struct Board {
     pub name: &'static str,
     /// Its name for `cargo xtask firmware --board`.
     pub word: &'static str,
-    triple: &'static str,
+    /// Its target.
+    pub triple: &'static str,
     /// Where code for this very core is asked for.
     cpu_flag: Option<&'static str>,
     /// Its name for QEMU.
@@ -57,6 +59,17 @@ pub const M7: Board = Board {
     cpu_flag: Some("-Ctarget-cpu=cortex-m7"),
     machine: "mps2-an500",
     cpu: "cortex-m7",
+    ..M4F
+};
+
+/// Cortex-M33 with a unit for f32, as in the RP2350, STM32U5 and nRF5340: ARMv8-M, in its secure state.
+pub const M33: Board = Board {
+    name: "M33",
+    word: "m33",
+    triple: TRIPLES[2],
+    machine: "mps2-an505",
+    cpu: "cortex-m33",
+    memory: "mps2-an505",
     ..M4F
 };
 
@@ -118,7 +131,7 @@ impl Board {
         command.env("SIGNORINI_BOARD", self.memory).env("SIGNORINI_SCENES", build.scenes);
         if let Some(flag) = self.cpu_flag {
             // Joined with the linker's flags of `.cargo/config.toml`, which RUSTFLAGS would replace.
-            let name = self.triple.replace('-', "_").to_uppercase();
+            let name = self.triple.replace(['-', '.'], "_").to_uppercase();
             command.env(format!("CARGO_TARGET_{name}_RUSTFLAGS"), flag);
         }
         Ok((command, folder.join(self.triple).join("release")))
@@ -208,6 +221,7 @@ mod tests {
         let kib = |board: Board| format!("0x20000000, LENGTH = {}", board.ram >> 10);
         assert!(maps.contains(&format!("{}K\"", kib(M4F_192K))));
         assert!(maps.contains("0x20000000, LENGTH = 4M\"") && M4F.ram == 4 << 20);
+        assert!(maps.contains("0x38000000, LENGTH = 4M\"") && M33.ram == 4 << 20);
     }
 
     #[test]

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::binutils::Binutils;
-use crate::board::{Board, Build, M4, M4F, M7};
+use crate::board::{Board, Build, M4, M4F, M7, M33};
 use crate::cargo::{build, cargo, root, target_dir};
 use crate::lock;
 use crate::objects::ARM;
@@ -32,7 +32,7 @@ pub struct Machine {
 }
 
 /// All machines.
-pub const MACHINES: [Machine; 4] = [
+pub const MACHINES: [Machine; 5] = [
     Machine {
         word: "m4",
         board: Some(M4F),
@@ -47,6 +47,11 @@ pub const MACHINES: [Machine; 4] = [
         word: "m7",
         board: Some(M7),
         flags: &["-mcpu=cortex-m7", "-mthumb", "-mfpu=fpv5-d16", "-mfloat-abi=hard"],
+    },
+    Machine {
+        word: "m33",
+        board: Some(M33),
+        flags: &["-mcpu=cortex-m33", "-mthumb", "-mfpu=fpv5-sp-d16", "-mfloat-abi=hard"],
     },
     Machine { word: "host", board: None, flags: &[] },
 ];
@@ -136,8 +141,8 @@ impl<'a> Bench<'a> {
         name: &'a str,
         on: &'a Machine,
     ) -> Result<Self, String> {
-        if on.board.is_some() {
-            tools::ensure()?;
+        if let Some(board) = on.board {
+            tools::ensure(&[board.triple])?;
         }
         let folder = target_dir("c").join(on.word);
         let turn = lock::hold(&folder.join("lock"))?;

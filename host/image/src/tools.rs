@@ -27,7 +27,7 @@ const C_PROGRAMS: [&str; 6] =
 /// # Errors
 /// What is missing, and what to do about it.
 pub fn ensure_for_c() -> Result<(), String> {
-    ensure()?;
+    ensure(&TRIPLES)?;
     ensured(&C_PACKAGES, || {
         answer(&C_PROGRAMS)?;
         // GCC says where a file of the C library is, or just its name.
@@ -39,13 +39,13 @@ pub fn ensure_for_c() -> Result<(), String> {
     })
 }
 
-/// `Ok` where all tools are there, installed just now where need be and possible.
+/// `Ok` where all tools for boards of these targets are there, installed just now where need be and possible.
 ///
 /// # Errors
 /// What is missing, and what to do about it.
-pub fn ensure() -> Result<(), String> {
+pub fn ensure(triples: &[&str]) -> Result<(), String> {
     ensured(&PACKAGES, || {
-        TRIPLES.iter().try_for_each(|triple| Toolchain::find(triple).map(drop))?;
+        triples.iter().try_for_each(|triple| Toolchain::find(triple).map(drop))?;
         answer(&PROGRAMS)
     })
 }

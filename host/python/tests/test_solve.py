@@ -20,6 +20,8 @@ BAR = {
     },
 }
 SQUARE = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+# The same square, 3 above the plane of the scene.
+RAISED = np.column_stack([SQUARE, np.full(4, 3.0)])
 CURVES = {"cold": [[3, 0]], "heater": [[1, 2]]}
 
 
@@ -176,13 +178,55 @@ def test_wrong_scenes_and_meshes(scene, mesh, said):
         ((SQUARE, {"quad": [[0, 1, 2, -1]]}, CURVES), "from 0 on"),
         ((SQUARE, {"hexahedron": []}, CURVES), "hexahedron"),
         ((SQUARE, {"quad": [[0.0, 1.0, 2.0, 3.0]]}, CURVES), "expected integers"),
-        ((np.ones((4, 3)), {"quad": [[0, 1, 2, 3]]}, CURVES), "third coordinate"),
+        ((np.ones((4, 4)), {"quad": [[0, 1, 2, 3]]}, CURVES), "n × 2 or n × 3"),
+        ((RAISED + [[0, 0, 1]] * np.eye(4)[:, :1], {"quad": [[0, 1, 2, 3]]}, CURVES), "plane z = constant"),
         ((SQUARE,), "expected a path"),
     ],
 )
 def test_arrays_of_another_shape(mesh, said):
     with pytest.raises((ValueError, TypeError), match=said):
         signorini.solve(BAR, mesh)
+
+
+def test_a_plane_may_lie_anywhere():
+    flat = signorini.solve(BAR, (SQUARE, {"quad": [[0, 1, 2, 3]]}, CURVES))
+    # A point that no cell has may lie in another one.
+    points = np.vstack([RAISED, [[7.0, 7.0, -1.0]]])
+    raised = signorini.solve(BAR, (points, {"quad": [[0, 1, 2, 3]]}, CURVES))
+    cells = [("quad", [[0, 1, 2, 3]]), ("line", [[3, 0], [1, 2]])]
+    sets = {"cold": [np.array([], int), np.array([0])], "heater": [np.array([], int), np.array([1])]}
+    mesh = signorini.solve(BAR, meshio.Mesh(RAISED, cells, cell_sets=sets))
+    for other in (raised, mesh):
+        assert np.array_equal(other.u, flat.u) and np.array_equal(other.points, flat.points)
+
+
+@pytest.mark.parametrize(
+    "arguments, named",
+    [
+        ({"scene": b"levee.toml"}, "scene is b'levee.toml'"),
+        ({"scene": "levee\ud800.toml"}, "scene is 'levee"),
+        ({"scene": 7}, "scene is 7"),
+        ({"mesh": b"levee.msh"}, "mesh is b'levee.msh'"),
+        ({"mesh": "levee\ud800.msh"}, "mesh is 'levee"),
+        ({"scalar": np.float32}, "scalar is <class 'numpy.float32'>, expected f32 or f64"),
+        ({"scalar": "\ud800"}, "scalar is"),
+        ({"solver": 1}, "solver is 1"),
+        ({"tolerance": "small"}, "tolerance is 'small'"),
+        ({"max_sweeps": 1.5}, "max_sweeps is 1.5"),
+        ({"max_error": [5]}, r"max_error is \[5\]"),
+        ({"inputs": {"rain": "much"}}, r"inputs\['rain'\] is 'much'"),
+        ({"inputs": {"\udfff": 1}}, "is no character"),
+        ({"scene": {**BAR, "title": "a\ud800"}}, "title: "),
+        ({"scene": {**BAR, "\ud800": {}}}, "is no character"),
+        ({"mesh": (SQUARE, {"quad": [[0, 1, 2, 3]]}, {"\ud800": [[3, 0]]})}, "curve is"),
+        ({"out": b"out"}, "out is b'out'"),
+    ],
+)
+def test_what_is_no_argument_is_refused_in_plain_words(scenes, arguments, named):
+    arguments = {"scene": scenes / "levee.toml", **arguments}
+    with pytest.raises((TypeError, ValueError), match=named) as raised:
+        signorini.solve(**arguments)
+    assert "failed to extract" not in str(raised.value)
 
 
 def test_a_missing_file_is_named():

@@ -71,6 +71,17 @@ def test_a_module_is_that_of_the_command_line(scenes, command, tmp_path):
     assert baked.chosen["model"] == "condensed"
     baked.save(tmp_path / "again.rs")
     assert (tmp_path / "again.rs").read_text() == baked.source
+    missing = tmp_path / "missing" / "levee.rs"
+    with pytest.raises(FileNotFoundError) as raised:
+        baked.save(missing)
+    assert raised.value.filename == str(missing) and not (tmp_path / "missing").exists()
+    with pytest.raises(OSError) as raised:
+        baked.save(tmp_path)
+    assert raised.value.filename == str(tmp_path) and not list(tmp_path.parent.glob(f"{tmp_path.name}.*"))
+    with pytest.raises(TypeError, match="scalar is <class 'numpy.float32'>"):
+        signorini.bake(scenes / "levee.toml", scalar=np.float32)
+    with pytest.raises(TypeError, match="scalar is <class 'numpy.float32'>"):
+        signorini.Controller(scenes / "levee.toml", scalar=np.float32)
     assert signorini.bake(scenes / "levee.toml", model="full", scalar="f64").chosen["model"] == "full"
     with pytest.raises(ValueError, match="full or condensed"):
         signorini.bake(scenes / "levee.toml", model="half")

@@ -54,7 +54,7 @@ there is no more than that, since a deadline cuts it off. The error bound is nev
 to make room, but by certificate = false in [setting].
 
 --c builds the controller as a library for C, in a checkout of the sources: m4 and m7 pass numbers in \
-floating-point registers, m4-soft in the others, host is this machine. The header says what each \
+floating-point registers, m4-soft in the others; m33 is a Cortex-M33 with its unit for f32, host this machine. The header says what each \
 function does; the example is a program with a timer, a watchdog and a state that outlives a reset:
   cmake -S out/levee/example -B out/levee/build
   cmake --build out/levee/build --target run
@@ -107,7 +107,7 @@ pub struct Arguments {
 }
 
 /// The words that `--board` knows.
-fn known_machines() -> [&'static str; 4] {
+fn known_machines() -> [&'static str; MACHINES.len()] {
     MACHINES.map(|machine| machine.word)
 }
 

@@ -10,6 +10,10 @@ fn memory(board: &str) -> Option<&'static str> {
         "mps2" => {
             Some("FLASH : ORIGIN = 0x00000000, LENGTH = 4M\nRAM : ORIGIN = 0x20000000, LENGTH = 4M")
         }
+        // QEMU's mps2-an505 (Cortex-M33), by the addresses of its secure state.
+        "mps2-an505" => {
+            Some("FLASH : ORIGIN = 0x10000000, LENGTH = 4M\nRAM : ORIGIN = 0x38000000, LENGTH = 4M")
+        }
         // QEMU's netduinoplus2 and any STM32F405/407: 128 KiB of its 192 are contiguous.
         "netduinoplus2" | "stm32f407" => Some(
             "FLASH : ORIGIN = 0x08000000, LENGTH = 1M\nRAM : ORIGIN = 0x20000000, LENGTH = 128K",

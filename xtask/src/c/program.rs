@@ -42,9 +42,9 @@ pub fn played(
 ) -> Result<Ticks, String> {
     let is_counted = board.machine == M4F_192K.machine;
     let peers = root().join("tests/firmware/peers");
-    let memory = match is_counted {
-        true => sources().join("netduinoplus2.ld"),
-        false => peers.join("board.ld"),
+    let memory = match sources().join(format!("{}.ld", board.machine)) {
+        own if own.is_file() => own,
+        _ => peers.join("board.ld"),
     };
     let made = package.folder.join(format!("play{}.elf", defines.concat()));
     let support = folder().join(format!("board-{}.o", package.machine.word));

@@ -83,7 +83,7 @@ pub fn check_worst(steps: &mut Steps) {
 
 /// Bakes, builds, runs, compares; writes and prints what came of it.
 fn measure(options: &Options) -> Result<(Firmware, Chosen), Failure> {
-    ensure()?;
+    ensure(&[options.board.triple])?;
     let module = options.recipe.bake()?;
     let mut firmware = Firmware::measure(&module, &options.board)?;
     if options.worst {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::baked::Recipe;
-use signorini_image::board::{Board, M4F, M4F_192K, M7};
+use signorini_image::board::{Board, M4F, M4F_192K, M7, M33};
 
 /// What to put on which board.
 #[derive(Debug, Clone)]
@@ -18,7 +18,7 @@ pub struct Options {
     pub worst: bool,
 }
 
-const BOARDS: [Board; 3] = [M4F, M4F_192K, M7];
+const BOARDS: [Board; 4] = [M4F, M4F_192K, M7, M33];
 
 pub const HELP: &str = "\
 Usage: cargo xtask firmware SCENE.toml [OPTIONS]
@@ -29,7 +29,8 @@ from its range, two of four ticks at a corner of all ranges; without a range fro
 (±0.1 where that is 0). They are the same on both.
 
 Options:
-  --board m4|m4-192k|m7    mps2-an386, netduinoplus2 (an STM32F405), mps2-an500 [m4]
+  --board m4|m4-192k|m7|m33
+                           mps2-an386, netduinoplus2 (an STM32F405), mps2-an500, mps2-an505 [m4]
   --scalar f32|f64         [the scene's setting.scalar, else f32]
   --full, --condensed      forces a model, whatever the scene's setting says
   --full-edges             keeps contact edges that never change sides
@@ -48,7 +49,7 @@ ranges leave open, touching or free to change (ranges), what no tick exceeds, an
 (worst_case), and the inputs that have no range.
 
 Instructions are those of one call of Controller::tick over all ticks: to the instruction on m4-192k, to 40
-either way on the others, whose timer counts no finer. RAM is all statics (.data, .bss, .uninit) and the
+or 50 either way on the others, whose timer counts no finer. RAM is all statics (.data, .bss, .uninit) and the
 stack; stack is the deepest of all ticks, and part of RAM; flash is .vector_table, .text, .rodata and .data.
 All are of the whole image, with its start-up and console.
 
@@ -95,7 +96,7 @@ impl Options {
 
 fn known(word: &str) -> Result<Board, String> {
     let found = BOARDS.into_iter().find(|board| board.word == word);
-    found.ok_or_else(|| format!("--board is m4, m4-192k or m7, not `{word}`"))
+    found.ok_or_else(|| format!("--board is m4, m4-192k, m7 or m33, not `{word}`"))
 }
 
 #[cfg(test)]
@@ -122,7 +123,9 @@ mod tests {
         let why = |words: &[&str]| Options::parse(words).map(drop).unwrap_err();
         assert!(why(&[]).contains("no scene"));
         assert!(why(&["a.toml", "b.toml"]).contains("`b.toml`"));
-        assert!(why(&["a.toml", "--board", "m3"]).contains("`m3`"));
+        assert!(why(&["a.toml", "--board", "m3"]).contains("m7 or m33, not `m3`"));
+        let m33 = Options::parse(&["a.toml", "--board", "m33"]).unwrap().board;
+        assert_eq!((m33.machine, m33.cpu), ("mps2-an505", "cortex-m33"));
         assert!(why(&["a.toml", "--scalar"]).contains("--scalar"));
         assert!(why(&["a.toml", "--full", "--condensed"]).contains("--full"));
         assert!(why(&["a.toml", "--fast"]).contains("`--fast`"));

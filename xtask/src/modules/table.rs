@@ -23,7 +23,7 @@ const CONDENSED: Row = Row {
 const FULL: Row = Row { model: "--full", ..CONDENSED };
 
 const ON_M4: Machines = Machines::of(&["m4"]);
-const BOARDS: Machines = Machines::of(&["m4", "m4-soft", "m7"]);
+const BOARDS: Machines = Machines::and(&["m4", "m4-soft", "m7"], &["m33"]);
 /// One board, and the others in a whole run.
 const M4_FIRST: Machines = Machines::and(&["m4"], &["m4-soft", "m7"]);
 const M7_FIRST: Machines = Machines::and(&["m7"], &["m4", "m4-soft"]);
@@ -31,7 +31,7 @@ const M7_FIRST: Machines = Machines::and(&["m7"], &["m4", "m4-soft"]);
 const M4_AT_LENGTH: Machines = Machines::and(&[], &["m4"]);
 const M7_AT_LENGTH: Machines = Machines::and(&[], &["m7", "m4", "m4-soft"]);
 /// Boards, and the machine at hand.
-const ALL: Machines = Machines::of(&["m4", "m4-soft", "m7", "host"]);
+const ALL: Machines = Machines::and(&["m4", "m4-soft", "m7", "host"], &["m33"]);
 /// For the program with six controllers.
 const STATES: Machines = Machines::and(&["m4"], &["host"]);
 

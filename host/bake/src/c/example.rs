@@ -15,6 +15,28 @@ const TOOLCHAIN: &str = include_str!("../../../c/example/toolchain.cmake");
 const BOARD_HOST: &str = include_str!("../../../c/example/board_host.c");
 const CMAKE_HOST: &str = include_str!("../../../c/example/host.cmake");
 
+/// What the example's board has where, by the tokens of its files: memories, timer and watchdog of CMSDK, and megahertz.
+const MPS2: [(&str, &str); 7] = [
+    ("@flash@", "0x00000000"),
+    ("@retained-ram@", "0x20000000"),
+    ("@ram@", "0x20100000"),
+    ("@timer@", "0x40000000"),
+    ("@timer-interrupt@", "8"),
+    ("@watchdog@", "0x40008000"),
+    ("@megahertz@", "25"),
+];
+
+/// The same of the mps2-an505, by the addresses of its secure state.
+const AN505: [(&str, &str); 7] = [
+    ("@flash@", "0x10000000"),
+    ("@retained-ram@", "0x38000000"),
+    ("@ram@", "0x38100000"),
+    ("@timer@", "0x50000000"),
+    ("@timer-interrupt@", "3"),
+    ("@watchdog@", "0x50081000"),
+    ("@megahertz@", "20"),
+];
+
 /// Its files.
 pub(super) fn files(name: &str, api: &ModuleApi, on: &Machine) -> Vec<(String, String)> {
     let templates: &[(&str, &str)] = match on.board {
@@ -35,9 +57,12 @@ pub(super) fn files(name: &str, api: &ModuleApi, on: &Machine) -> Vec<(String, S
     };
     let [machine, cpu] = on.board.map_or([""; 2], |board| [board.machine, board.cpu]);
     let retained = if on.board.is_some() { "__attribute__((section(\".retained\")))" } else { "" };
+    let places = if machine == "mps2-an505" { AN505 } else { MPS2 };
     let filled = |text: &str| {
-        let text =
-            text.replace("@sensors@", &sensors(name, api)).replace("@actuators@", &actuators(api));
+        let placed = places.iter().fold(text.to_owned(), |text, (of, is)| text.replace(of, is));
+        let text = placed
+            .replace("@sensors@", &sensors(name, api))
+            .replace("@actuators@", &actuators(api));
         let text = text
             .replace("@machine@", machine)
             .replace("@cpu@", cpu)

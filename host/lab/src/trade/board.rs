@@ -7,7 +7,7 @@ use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::emit::{Emitted, emit};
 use signorini_bake::setting;
 use signorini_files::atomic::write_atomically;
-use signorini_image::board::Board;
+use signorini_image::board::{Board, M4F};
 use signorini_image::firmware::Firmware;
 use signorini_image::module::Module;
 use signorini_image::room::NoResult;
@@ -39,7 +39,7 @@ pub fn measure(
 /// # Errors
 /// What is missing, and what to do about it.
 pub fn ready() -> Result<()> {
-    tools::ensure().map_err(Error::Check)
+    tools::ensure(&[M4F.triple]).map_err(Error::Check)
 }
 
 fn module(problem: &Problem, name: &str) -> Result<Module> {

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 
-from . import _native
+from . import _native, arguments
 from .scenes import Mesh, Scene, given
 
 
@@ -23,9 +23,15 @@ class Baked:
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes the source to a file, whole or not at all."""
-        fresh = Path(f"{os.fspath(path)}.{os.getpid()}")
-        fresh.write_text(self.source, encoding="utf-8")
-        fresh.replace(path)
+        place = arguments.path("path", path)
+        fresh = Path(f"{place}.{os.getpid()}")
+        try:
+            fresh.write_text(self.source, encoding="utf-8")
+            fresh.replace(place)
+        except OSError as error:
+            fresh.unlink(missing_ok=True)
+            # Nobody has named the file that is written first.
+            raise OSError(error.errno, error.strerror, place) from None
 
 
 def bake(
@@ -38,6 +44,8 @@ def bake(
     scalar : "f32" or "f64" [the scene's setting, else f32].
     model : "full" or "condensed" [what is smaller and fits].
     """
+    scalar = arguments.text("scalar", scalar, "f32 or f64")
+    model = arguments.text("model", model, "full or condensed")
     source, chosen = _native.bake(given(scene, mesh, None), scalar, model)
     return Baked(source, json.loads(chosen))
 
@@ -81,6 +89,7 @@ class Controller:
         inputs: Optional[Mapping[str, float]] = None,
         scalar: Optional[str] = None,
     ) -> None:
+        scalar = arguments.text("scalar", scalar, "f32 or f64")
         self._native = _native.Controller(given(scene, mesh, inputs), scalar)
         self.defaults: Dict[str, float] = {name: default for name, default, _ in self._native.inputs}
         """The inputs with the values of the scene."""
@@ -97,7 +106,7 @@ class Controller:
         if unknown:
             names = ", ".join(self.defaults) or "none"
             raise TypeError(f"no input {', '.join(sorted(unknown))}; inputs of the scene: {names}")
-        values = [float(inputs.get(name, default)) for name, default in self.defaults.items()]
+        values = [arguments.number(name, inputs.get(name, default)) for name, default in self.defaults.items()]
         ended, outputs, plus_minus, bound, sweeps, (force, length) = self._native.tick(values)
         return ControllerAnswer(
             outputs=dict(zip(self.outputs, outputs)),

@@ -10,6 +10,7 @@ from typing import Any, Mapping, Optional, Sequence, Union
 import numpy as np
 import tomli_w
 
+from . import arguments
 from ._native import SceneError
 
 Scene = Union[str, "os.PathLike[str]", Mapping[str, Any]]
@@ -18,7 +19,7 @@ Scene = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 Mesh = Union[str, "os.PathLike[str]", Sequence[Any], Any]
 """A Gmsh file; (points, cells, curves) with an optional fourth entry, surfaces; or a `meshio.Mesh`.
 
-A mesh that is given wins over the one that the scene names. points: n × 2 (a third column must be 0). cells: {"triangle": n × 3, "quad": n × 4}, positions in points. curves: {name: n × 2}, the
+A mesh that is given wins over the one that the scene names. points: n × 2, or n × 3 with the same z everywhere. cells: {"triangle": n × 3, "quad": n × 4}, positions in points. curves: {name: n × 2}, the
 edges of each named boundary. surfaces: {name: numbers of cells, triangles first}.
 """
 
@@ -38,11 +39,14 @@ class GivenScene:
 
 def given(scene: Scene, mesh: Optional[Mesh], inputs: Optional[Mapping[str, float]]) -> GivenScene:
     """The scene as the native part reads it."""
-    values = [(str(name), float(value)) for name, value in (inputs or {}).items()]
-    mesh_file = os.fspath(mesh) if isinstance(mesh, (str, os.PathLike)) else None
+    values = [
+        (arguments.text("inputs", str(name)), arguments.number(f"inputs[{name!r}]", value))
+        for name, value in (inputs or {}).items()
+    ]
+    mesh_file = arguments.path("mesh", mesh) if isinstance(mesh, (str, bytes, os.PathLike)) else None
     arrays = None if mesh is None or mesh_file is not None else mesh_arrays(mesh)
     if not isinstance(scene, Mapping):
-        return GivenScene(os.fspath(scene), None, mesh_file, arrays, values)
+        return GivenScene(arguments.path("scene", scene), None, mesh_file, arrays, values)
     tables = plain(scene)
     if mesh is not None:
         tables.setdefault("mesh", mesh_file or _NO_FILE)
@@ -56,6 +60,10 @@ def plain(value: Any, key: str = "") -> Any:
     """Numbers of numpy and paths as TOML has them; `key` is where it stands."""
     if isinstance(value, Mapping):
         inner = f"{key}." if key else ""
+        for name in map(str, value):
+            why = arguments.unwritable(name)
+            if why:
+                raise refused(f"{inner}{name!a}", why)
         return {str(name): plain(of, f"{inner}{name}") for name, of in value.items()}
     if isinstance(value, np.generic) or isinstance(value, np.ndarray) and value.ndim == 0:
         value = value.item()
@@ -65,6 +73,9 @@ def plain(value: Any, key: str = "") -> Any:
         return os.fspath(value)
     if not isinstance(value, (str, bool, int, float)):
         raise refused(key, f"{value!r} is no text, number or list")
+    why = arguments.unwritable(value) if isinstance(value, str) else None
+    if why:
+        raise refused(key, f"{value!a}: {why}")
     return value
 
 
@@ -92,22 +103,22 @@ def mesh_arrays(mesh: Any) -> tuple:
     surfaces = rest[0] if rest else {}
     triangles = indices(cells.get("triangle", ()), 3, "triangle")
     quads = indices(cells.get("quad", ()), 4, "quad")
-    edges = [(str(name), indices(of, 2, f"curve {name!r}")) for name, of in curves.items()]
+    edges = [(arguments.text("curve", str(name)), indices(of, 2, f"curve {name!r}")) for name, of in curves.items()]
     inside = [
-        (str(name), indices(np.asarray(of).reshape(-1, 1), 1, f"surface {name!r}").ravel().tolist())
+        (arguments.text("surface", str(name)), indices(np.asarray(of).reshape(-1, 1), 1, f"surface {name!r}").ravel().tolist())
         for name, of in surfaces.items()
     ]
-    return (plane(points), triangles, quads, edges, inside)
+    return (in_space(points), triangles, quads, edges, inside)
 
 
-def plane(points: Any) -> np.ndarray:
-    """Coordinates in the plane."""
+def in_space(points: Any) -> np.ndarray:
+    """Coordinates, n × 3: whether they lie in a plane, the native part sees."""
     points = np.asarray(points, dtype=np.float64)
     if points.ndim != 2 or points.shape[1] not in (2, 3):
-        raise ValueError(f"mesh: points have the shape {points.shape}, expected n × 2")
-    if points.shape[1] == 3 and np.any(points[:, 2] != 0):
-        raise ValueError("mesh: points have a third coordinate that is not 0")
-    return np.ascontiguousarray(points[:, :2])
+        raise ValueError(f"mesh: points have the shape {points.shape}, expected n × 2 or n × 3")
+    if points.shape[1] == 2:
+        points = np.column_stack([points, np.zeros(len(points))])
+    return np.ascontiguousarray(points)
 
 
 def indices(of: Any, width: int, what: str) -> np.ndarray:

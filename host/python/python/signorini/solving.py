@@ -6,11 +6,11 @@ import json
 import os
 import warnings
 from dataclasses import dataclass
-from typing import Any, Mapping, Optional, Union
+from typing import Mapping, Optional, Union
 
 import numpy as np
 
-from . import _native
+from . import _native, arguments
 from .results import Result, SolveWarning, outputs_of
 from .scenes import Mesh, Scene, given
 
@@ -75,13 +75,20 @@ def solve(
     >>> round(signorini.solve(bar, mesh).summary["contact_force"], 9)
     6.0
     """
-    check("tolerance", tolerance, lambda of: of >= 0 and np.isfinite(of), "a number ≥ 0")
-    check("max_sweeps", max_sweeps, lambda of: 0 <= of < 2**32, "a count")
-    check("max_unknowns", max_unknowns, lambda of: of > 0, "a count above 0")
+    tolerance = arguments.number("tolerance", tolerance)
+    if tolerance is not None and not 0 <= tolerance < np.inf:
+        raise ValueError(f"tolerance is {tolerance}, expected a number ≥ 0")
     if max_error is not None and not isinstance(max_error, str):
-        max_error = repr(float(max_error))
-    how = _How(scalar, solver, tolerance, max_sweeps, max_error, max_unknowns)
-    found = _native.solve(given(scene, mesh, inputs), how, None if out is None else os.fspath(out))
+        max_error = repr(arguments.number("max_error", max_error))
+    how = _How(
+        arguments.text("scalar", scalar, "f32 or f64"),
+        arguments.text("solver", solver, "auto, kernel or direct"),
+        tolerance,
+        arguments.count("max_sweeps", max_sweeps),
+        arguments.text("max_error", max_error),
+        arguments.count("max_unknowns", max_unknowns, least=1, bits=63),
+    )
+    found = _native.solve(given(scene, mesh, inputs), how, None if out is None else arguments.path("out", out))
     summary = json.loads(found["summary"])
     boundaries = np.array([*found["boundaries"], ""])
     edges = found["edges"]
@@ -113,9 +120,3 @@ def solve(
         converged=found["converged"],
         outputs=outputs_of(summary),
     )
-
-
-def check(name: str, value: Any, is_right: Any, expected: str) -> None:
-    """Refuses a value."""
-    if value is not None and not is_right(value):
-        raise ValueError(f"{name} is {value!r}, expected {expected}")

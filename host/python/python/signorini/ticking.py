@@ -9,7 +9,7 @@ from typing import Any, Dict, List, Mapping, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _native
+from . import _native, arguments
 from .scenes import Mesh, Scene, given
 
 
@@ -71,21 +71,30 @@ def tick(
     """
     if sum(of is not None for of in (ticks, times, log)) > 1:
         raise ValueError("give one of ticks, times and log")
-    moments = None if times is None else [float(time) for time in np.asarray(times).ravel()]
+    moments = None if times is None else [arguments.number("times", time) for time in np.asarray(times).ravel()]
     constant: Dict[str, float] = {}
     varying = []
     for name, values in (inputs or {}).items():
         if np.ndim(values) == 0:
-            constant[name] = float(values)
+            constant[name] = values
         elif moments is None or len(values) != len(moments):
             raise ValueError(f"inputs[{name!r}]: expected a number, or one for each of times")
         else:
-            varying.append((str(name), [float(value) for value in values]))
+            name = arguments.text("inputs", str(name))
+            varying.append((name, [arguments.number(f"inputs[{name!r}]", value) for value in values]))
     if moments is not None and any(b <= a for a, b in zip(moments, moments[1:])):
         raise ValueError("times: expected each to come after the one before")
     found = _native.tick(
         given(scene, mesh, constant),
-        _Ticks(ticks, None if log is None else os.fspath(log), moments, varying, baked, budget_sweeps, intervals),
+        _Ticks(
+            arguments.count("ticks", ticks),
+            None if log is None else arguments.path("log", log),
+            moments,
+            varying,
+            bool(baked),
+            arguments.count("budget_sweeps", budget_sweeps),
+            bool(intervals),
+        ),
     )
     found["status"] = np.array(found["status"])
     return Ticks(**found)

@@ -1,7 +1,7 @@
 //! Counts what a piece of work costs: instructions in the emulator, cycles on a real board.
 //!
 //! With `-icount shift=0` QEMU lets a nanosecond pass with each instruction, and runs SysTick of the
-//! mps2 boards at 25 MHz: a count is 40 instructions, exactly and every time. The netduinoplus2 has a timer
+//! mps2 boards at 25 or 20 MHz: a count is 40 or 50 instructions, exactly and every time. The netduinoplus2 has a timer
 //! with a count an instruction. The cycle counter of the core (DWT) is not emulated; the feature `dwt` takes
 //! it instead, for hardware.
 

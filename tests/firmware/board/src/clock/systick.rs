@@ -1,10 +1,10 @@
-//! SysTick of the mps2 boards: 25 MHz, or 40 instructions a count.
+//! SysTick of the mps2 boards: 25 MHz, or 40 instructions a count; of the mps2-an505 20 MHz, or 50.
 
 use cortex_m::Peripherals;
 use cortex_m::peripheral::SYST;
 use cortex_m::peripheral::syst::SystClkSource;
 
-pub const UNIT: u32 = 40;
+pub const UNIT: u32 = if cfg!(board = "mps2-an505") { 50 } else { 40 };
 pub const BITS: u32 = 0x00ff_ffff;
 
 pub fn start(peripherals: &mut Peripherals) {
