@@ -190,10 +190,12 @@ impl<R: Real> FluxRange<R> {
         flux.or_larger(least).or_smaller(most)
     }
 
-    /// The end that is nearest to a flux.
-    pub fn nearest_end(self, flux: R) -> R {
-        let [least, most] = self.ends();
-        if (flux - least).magnitude() <= (most - flux).magnitude() { least } else { most }
+    /// What a mean `distance` of a flux from an end may lack somewhere along the edge, where |E| (hi − lo) is at most `excess`
+    /// above its integral: the flux is lo + θ (hi − lo) there, and from either end by its share of the range.
+    #[inline(always)]
+    pub fn unseen(self, distance: R, excess: R) -> R {
+        let width = self.span.length().magnitude();
+        if excess > R::ZERO && width > R::ZERO { excess * (distance / width) } else { R::ZERO }
     }
 
     /// λ ≥ 0 of an admissible flux: ∫_E (τ·n − lo), or ∫_E (hi − τ·n) where lo = −∞.

@@ -9,7 +9,7 @@
 //!   osc_E² = (|E| h_K²/|K|)(1/π² + 1/π) ‖g − ḡ‖²_E / α_T
 //! ```
 //! with the diameters h and the smallest eigenvalue α_T of A on T. q counts like g; of u_ext what 8 points do not see
-//! ([`super::robin`]).
+//! ([`super::robin`]). Where a cell is stretched, or A is, fluxes inside it bound both closer ([`super::stretched`]).
 
 use std::f64::consts::PI;
 
@@ -17,10 +17,13 @@ use signorini_kernel::mesh::geometry::triangle_area;
 
 use super::cell::Cell;
 use super::conductivity::{Conductivity, smallest_eigenvalue};
+use super::profile::NO_SIDES;
 use super::robin::missed;
+use super::stretch::is_even;
+use super::stretched;
 use signorini_problem::quadrature::enclosed::{self, Integral, pole};
 use signorini_problem::quadrature::refined::{Part, refined};
-use signorini_problem::quadrature::{gauss, on_panels};
+use signorini_problem::quadrature::{Point, gauss, on_panels};
 use signorini_problem::threads::in_portions;
 use signorini_problem::{EdgeKind, Problem, Sum};
 use signorini_scene::error::Result;
@@ -29,11 +32,11 @@ use signorini_scene::mesh::shape::edge_length;
 use signorini_scene::scene::Field;
 
 /// Gauss points a direction on a cell, and a panel on an edge.
-const POINTS: usize = 16;
+pub(super) const POINTS: usize = 16;
 /// Panels on an edge.
-const PANELS: u32 = 4;
+pub(super) const PANELS: u32 = 4;
 /// Ellipses in which continuations are looked at.
-const ELLIPSES: [f64; 3] = [4.0, 2.0, 8.0];
+pub(super) const ELLIPSES: [f64; 3] = [4.0, 2.0, 8.0];
 /// Part of ‖f − f̄‖² up to which the rule is right.
 const RESOLVED: f64 = 1e-13;
 /// Part of Σ osc² that may be left on parts: 5 % of the oscillation.
@@ -60,6 +63,7 @@ pub struct Oscillation {
 /// Data that are not finite.
 pub fn oscillation(problem: &Problem) -> Result<Oscillation> {
     let mut all = of_source(problem)?;
+    let mut through_sides = stretched::through_sides(problem, &all)?;
     for edge in 0..problem.kinds.len() {
         let (at, _) = problem.topology.first_side(edge);
         let [known, missed] = match problem.kinds[edge] {
@@ -69,9 +73,15 @@ pub fn oscillation(problem: &Problem) -> Result<Oscillation> {
         };
         all.of_cells[at] += known + missed;
         all.unresolved[at] += missed;
+        through_sides.get_mut(at).into_iter().for_each(|osc| *osc += known + missed);
         if !missed.is_finite() && all.pole.is_none() {
             all.pole = pole_on_edge(problem, edge);
         }
+    }
+    // Fluxes through sides are there in all cells, or in none.
+    let square = |cells: &[f64]| cells.iter().map(|osc| osc * osc).sum::<f64>();
+    if !through_sides.is_empty() && square(&through_sides) < square(&all.of_cells) {
+        all.of_cells = through_sides;
     }
     Ok(all)
 }
@@ -103,6 +113,10 @@ fn of_source(problem: &Problem) -> Result<Oscillation> {
     for (at, square) in squares(problem, &f, &weights)?.into_iter().enumerate() {
         let root = |square: f64| weights[at] * square.sqrt();
         all.of_cells[at] = root(square.value + square.missed);
+        if square.missed == 0.0 && !is_even(problem, at) {
+            let closed = stretched::closed(problem, at, &f, &NO_SIDES)?;
+            all.of_cells[at] = all.of_cells[at].min(closed);
+        }
         all.unresolved[at] = all.of_cells[at] - root(square.value);
         if !square.missed.is_finite() && all.pole.is_none() {
             let found = pole(&f, &enclosed::region(Cell::of(problem, at)), 2.0);
@@ -150,17 +164,26 @@ fn of_rule(problem: &Problem, at: usize, f: &Sum) -> Result<(Integral, bool)> {
         return Ok((Integral { value: of_bend(&cell, f), missed: 0.0 }, true));
     }
     let load = problem.loads.of_cell(at);
-    // Squares of f may vanish or overflow where lengths are huge or tiny; those of f times a length do not.
-    let unit = cell.diameter().log2().round().exp2();
-    let (mut square, points) = (0.0, cell.points(&gauss(POINTS)));
-    let values = f.at_all(&points.iter().map(|point| point.x).collect::<Vec<_>>());
-    for (point, value) in points.iter().zip(values) {
-        let mean = cell.spread(load, cell.local(point.reference).determinant);
-        let difference = unit * (value - mean);
-        square += point.weight / unit / unit * difference.powi(2);
-    }
+    let (unit, differences) = differences(&cell, f, load);
+    let square: f64 = differences
+        .iter()
+        .map(|(point, difference)| point.weight / unit / unit * difference.powi(2))
+        .sum();
     let value = f.finite(square, cell.corners()[0])?;
     Ok((Integral { value, missed: 0.0 }, is_resolved(f, &cell, load, value)))
+}
+
+/// f − f̄ at the points of the rule, times a unit: squares of f may vanish or overflow where lengths are huge or tiny, those of f times
+/// a length do not.
+pub(super) fn differences(cell: &Cell, f: &Sum, load: f64) -> (f64, Vec<(Point, f64)>) {
+    let unit = cell.diameter().log2().round().exp2();
+    let points = cell.points(&gauss(POINTS));
+    let values = f.at_all(&points.iter().map(|point| point.x).collect::<Vec<_>>());
+    let difference = |(point, value): (Point, f64)| {
+        let mean = cell.spread(load, cell.local(point.reference).determinant);
+        (point, unit * (value - mean))
+    };
+    (unit, points.into_iter().zip(values).map(difference).collect())
 }
 
 /// Whether the rule misses of ‖f − f̄‖² no more than rounding does.
@@ -223,8 +246,9 @@ fn of_bend(cell: &Cell, f: f64) -> f64 {
     difference.powi(2) * area
 }
 
-/// osc_E, and what may be missed of it; g and q are both the `flux` of their boundary. Where hi − lo varies too, either may be what is moved
-/// to its mean.
+/// osc_E, and what may be missed of it; g and q are both the `flux` of their boundary. Between two finite ends τ·n = lo + θ (hi − lo) all
+/// along the edge, where θ is that of its mean. What the mean leaves out of it, (1 − θ) that of lo and θ that of hi, is at most the larger
+/// one of both.
 fn of_flux(problem: &Problem, edge: usize) -> Result<[f64; 2]> {
     let least = of_end(problem, edge, Field::Flux)?;
     let most = of_end(problem, edge, Field::Limit)?;
@@ -244,8 +268,12 @@ fn of_end(problem: &Problem, edge: usize, field: Field) -> Result<[f64; 2]> {
     let diameter = length.max(edge_length([a, apex])).max(edge_length([b, apex]));
     let shape = length * diameter * diameter / triangle_area([a, b, apex]);
     let trace = 1.0 / (PI * PI) + 1.0 / PI;
-    let root = |square: f64| (shape * trace * square / alpha(problem, at)).sqrt();
-    Ok([root(square.value), root(square.value + square.missed) - root(square.value)])
+    let by_trace = |square: f64| (shape * trace * square / alpha(problem, at)).sqrt();
+    let known = by_trace(square.value);
+    if square.missed == 0.0 && !is_even(problem, at) {
+        return Ok([known.min(stretched::along_edge(problem, edge, &g, mean.value, by_trace)), 0.0]);
+    }
+    Ok([known, by_trace(square.value + square.missed) - known])
 }
 
 /// ‖g − ḡ‖² on an edge. What is missed of the mean counts with it.

@@ -45,9 +45,6 @@ pub struct TermData {
     /// What the term adds to the spans of contact fluxes, with an entry for each contact edge; of the base, nothing where all
     /// are ∞.
     pub spans: Vec<f64>,
-    /// Whether inputs change an end of a flux, and hi − lo varies along an edge: which share of the mean it keeps there
-    /// depends on the inputs then.
-    pub span_varies: bool,
 }
 
 /// The terms of a full model: the base and one for each input, in their order.
@@ -111,23 +108,14 @@ impl TermData {
         }
         let range = problem.range_term(term)?;
         alone.loads.contact_flux = range.fluxes;
-        Ok(Self { span_varies: range.varies, ..Self::of(alone, data, range.spans) })
+        let of_ranges = || NoBound::of_ranges(problem).filter(|_| term == 0);
+        let no_bound = data.no_bound.clone().or_else(of_ranges);
+        Ok(Self { no_bound, ..Self::of(alone, data, range.spans) })
     }
 
     fn of(problem: Problem, data: Evaluated, spans: Vec<f64>) -> Self {
         let Evaluated { ends, curved, transfer, oscillation, no_bound, .. } = data;
-        let (coefficient, span_varies) = (None, false);
-        Self {
-            problem,
-            ends,
-            curved,
-            transfer,
-            oscillation,
-            no_bound,
-            coefficient,
-            spans,
-            span_varies,
-        }
+        Self { problem, ends, curved, transfer, oscillation, no_bound, coefficient: None, spans }
     }
 
     /// Integrals and means.
@@ -137,7 +125,7 @@ impl TermData {
 
     /// Whether a full model with these data has a bound.
     pub fn has_bound(&self) -> bool {
-        self.no_bound.is_none() && !self.span_varies
+        self.no_bound.is_none()
     }
 
     /// Whether h and u_ext are constant along every edge.

@@ -9,7 +9,7 @@
 use super::CondensedModel;
 use signorini_certify::TermData;
 use signorini_kernel::flux_range::settled;
-use signorini_problem::{Problem, spread};
+use signorini_problem::{Problem, excess_within_ranges};
 use signorini_reference::ReferenceError;
 
 impl CondensedModel {
@@ -124,28 +124,12 @@ pub(super) fn in_unknowns(
     columns
 }
 
-/// Why a model whose ends inputs change has no bound: hi − lo varies along an edge.
-pub(super) fn varies(problem: &Problem, patterns: &[TermData]) -> Option<String> {
-    let input = problem.scene.limit_input()?;
-    let counts = problem.topology.counts;
-    let varies = |edge: usize| {
-        patterns.iter().any(|pattern| spread(&pattern.problem, edge, problem.time).is_some())
-    };
-    let edge = (counts.free..counts.unknowns()).find(|&edge| varies(edge))?;
-    let [a, b] = problem.segment(edge);
-    let [x, y] = [0, 1].map(|k| 0.5 * (a[k] + b[k]));
-    Some(format!(
-        "limit − flux varies along the edge around ({x}, {y}), and input.{} changes an end of a flux: what the bound misses \
-         there is not known for all inputs",
-        input.name.value
-    ))
-}
-
-/// By how much |E| (hi − lo) exceeds its mean somewhere on an edge, times the d of its unknown, at most.
+/// By how much |E| (hi − lo) exceeds its mean somewhere on an edge, whatever inputs are within their ranges, times the d of its
+/// unknown, at most.
 pub(super) fn excess(problem: &Problem, edges: &[usize], openings: &[f64]) -> f64 {
     let free = problem.topology.counts.free;
     let of_edge = |(edge, opening): (&usize, &f64)| {
-        spread(problem, free + edge, problem.time).map_or(0.0, |spread| spread.excess * opening)
+        excess_within_ranges(problem, free + edge).map_or(0.0, |excess| excess * opening)
     };
     edges.iter().zip(openings).map(of_edge).fold(0.0, f64::max)
 }

@@ -15,7 +15,7 @@ use super::answer::Answered;
 use signorini_certify::curved::peak;
 use signorini_certify::deviation::Deviations;
 use signorini_certify::ends::Ends;
-use signorini_problem::{Problem, spread};
+use signorini_problem::{Problem, excess};
 use signorini_scene::error::Result;
 
 /// Roundings of its scalar up to which a number is taken for another one; what that drops is counted.
@@ -167,8 +167,10 @@ impl ContactEdge {
         if least == most {
             return Self { clear: [f64::INFINITY; 2], left: [0.0; 2], ..none };
         }
-        if spread(problem, edge, problem.time).is_some() {
-            return none;
+        if let Some(excess) = excess(problem, edge, problem.time) {
+            // σ·n and τ·n = lo + θ (hi − lo) may both be where hi − lo is widest.
+            let widest = if most > least { 1.0 + excess / (most - least) } else { 1.0 };
+            return Self { left: left.map(|left| widest * left), ..none };
         }
         if above.is_zero() {
             let room = (-left[0]).min(left[1]).max(0.0);

@@ -38,18 +38,20 @@ pub mod threads;
 mod topology;
 mod transfer;
 mod warnings;
+mod widths;
 
 pub use assembled::Assembled;
 pub use binding::Binding;
 pub use integrals::{Coefficients, QuadCoefficient};
 pub use lacks::{Approach, Lack};
-pub use limits::{RangeTerm, Spread, spread};
+pub use limits::RangeTerm;
 pub use loads::Loads;
 pub use property::Property;
 pub use solvability::Parts;
 pub use sum::Sum;
 pub use topology::{EdgeKind, Topology};
 pub use transfer::TransferPattern;
+pub use widths::{excess, excess_within_ranges};
 
 use std::sync::Arc;
 

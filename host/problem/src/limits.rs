@@ -19,16 +19,12 @@ use signorini_kernel::flux_range::settled;
 
 use super::{Problem, Sum};
 use crate::quadrature::enclosed::Integral;
-use crate::quadrature::{gauss, on_panels};
 use signorini_scene::error::Result;
 use signorini_scene::scene::term::Term;
 use signorini_scene::scene::{Boundary, Condition, Field};
 
-/// Gauss points a panel, and panels on an edge, at which the least and the largest span are looked for.
-const POINTS: usize = 8;
-const PANELS: u32 = 4;
-/// Part of a constant difference that rounding may leave.
-const CONSTANT: f64 = 1e-12;
+/// Fields of either end.
+pub(super) const ENDS: [Field; 2] = [Field::Flux, Field::Limit];
 
 /// Terms that an end counts for where rounding is told from an empty range: an expression has many, and so has a mean.
 const TERMS: usize = 4500;
@@ -55,38 +51,6 @@ pub(super) fn base_and_span([least, most]: [f64; 2], length: f64) -> [f64; 2] {
         true => [length * most, -span],
         false => [length * least, span],
     }
-}
-
-/// hi − lo along an edge on which it varies, times the length of the edge.
-pub struct Spread {
-    /// By how much its largest value exceeds the mean.
-    pub excess: f64,
-    /// Its least value, as a part of the mean.
-    pub least: f64,
-}
-
-/// Spread of a contact edge; `None` where both ends are finite on no side, or hi − lo is constant along the edge.
-pub fn spread(problem: &Problem, edge: usize, time: f64) -> Option<Spread> {
-    let least = Sum::on_edge(problem, edge, Field::Flux, time)?;
-    let most = Sum::on_edge(problem, edge, Field::Limit, time)?;
-    let is_infinite = |sum: &Sum| sum.constant().is_some_and(f64::is_infinite);
-    let are_constant = least.constant().is_some() && most.constant().is_some();
-    if are_constant || is_infinite(&least) || is_infinite(&most) {
-        return None;
-    }
-    let inside = on_panels(PANELS, &gauss(POINTS));
-    let along = inside.iter().map(|&[t, weight]| (t, weight)).chain([(0.0, 0.0), (1.0, 0.0)]);
-    let (mut low, mut high, mut mean) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
-    let mut terms: f64 = 0.0;
-    for (t, weight) in along {
-        let [x, y] = problem.along(edge, t);
-        let span = most.at(x, y) - least.at(x, y);
-        (low, high, mean) = (low.min(span), high.max(span), mean + weight * span);
-        terms = terms.max(least.terms_at(x, y) + most.terms_at(x, y));
-    }
-    // Of ends that are equal rounding leaves a part of themselves.
-    let varies = high - low > (CONSTANT * mean).max(64.0 * f64::EPSILON * terms);
-    varies.then(|| Spread { excess: problem.lengths[edge] * (high - mean), least: low / mean })
 }
 
 /// Refuses a lower end above the upper one.
@@ -119,9 +83,6 @@ fn check_edge(problem: &Problem, edge: usize) -> Result<()> {
     Ok(())
 }
 
-/// Fields of either end.
-const ENDS: [Field; 2] = [Field::Flux, Field::Limit];
-
 /// Contribution of one term of the loads to the ranges, with an entry for each contact edge.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RangeTerm {
@@ -129,8 +90,6 @@ pub struct RangeTerm {
     pub fluxes: Vec<f64>,
     /// To ∫(hi − lo), which has either sign; ±∞ stands in the first term alone.
     pub spans: Vec<f64>,
-    /// Whether hi − lo varies along an edge.
-    pub varies: bool,
 }
 
 impl Problem {
@@ -162,7 +121,6 @@ impl Problem {
             let [base, span] = lower_and_span(ends, self.lengths[edge]);
             all.fluxes.push(base);
             all.spans.push(if term == 0 || span.is_finite() { span } else { 0.0 });
-            all.varies |= spread(&alone, edge, self.time).is_some();
         }
         Ok(all)
     }
@@ -252,7 +210,6 @@ input.leak = { of = \"contact\", field = \"flux\", pattern = \"-2\" }
                 RANGE_TERMS.check(format_args!("hi, {at}"), base + span - most);
             }
         }
-        assert_eq!([0, 1, 2].map(|term: usize| terms[term].varies), [true, true, false]);
         Ok(())
     }
 }

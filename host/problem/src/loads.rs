@@ -7,7 +7,7 @@ use signorini_kernel::law::Law;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::mesh::edges::Edges;
 
-use super::{EdgeKind, Problem, Sum, limits};
+use super::{EdgeKind, Problem, Sum, limits, widths};
 use crate::cell::Cell;
 use crate::quadrature::enclosed::Integral;
 use crate::quadrature::mean_on_edge;
@@ -97,10 +97,10 @@ impl Loads {
         if loads.spans.iter().all(|&span| span == f64::INFINITY) {
             loads.spans.clear();
         }
-        let spread = |edge| limits::spread(problem, edge, time).map_or(0.0, |spread| spread.excess);
         let contact = 0..loads.spans.len();
         let free = problem.topology.counts.free;
-        loads.span_excess = contact.map(|at| spread(free + at)).fold(0.0, f64::max);
+        let excess = contact.filter_map(|at| widths::excess(problem, free + at, time));
+        loads.span_excess = excess.fold(0.0, f64::max);
         Ok(loads)
     }
 

@@ -98,8 +98,16 @@ impl Topology {
     /// The cell (triangles first) and the side of it that an edge is directed along; its normal
     /// points out of that cell.
     pub fn first_side(&self, edge: usize) -> (usize, usize) {
-        let triangles = self.of_triangles.len();
-        let half = self.half_edges[edge][0] as usize;
+        self.place(self.half_edges[edge][0])
+    }
+
+    /// The cells of an inner edge, triangles first.
+    pub fn cells_of(&self, edge: usize) -> [usize; 2] {
+        self.half_edges[edge].map(|half| self.place(half).0)
+    }
+
+    fn place(&self, half: u32) -> (usize, usize) {
+        let (triangles, half) = (self.of_triangles.len(), half as usize);
         match half.checked_sub(3 * triangles) {
             None => (half / 3, half % 3),
             Some(rest) => (triangles + rest / 4, rest % 4),

@@ -235,13 +235,14 @@ impl Drawn {
                 x if x > 0.0 => least,
                 _ => most,
             };
-            let is_lower = (tau - least).abs() <= (most - tau).abs();
-            let unseen = |is_nearest: bool| if is_nearest { 0.0 } else { self.span_excess };
+            // τ·n = least + θ (most − least) all along the edge, whose range is nowhere wider than this.
+            let width = most - least;
+            let widest = if width > 0.0 { 1.0 + self.span_excess / width } else { 1.0 };
             if least.is_finite() {
-                sum += 2.0 * mean(1.0) * (tau - least + unseen(is_lower));
+                sum += 2.0 * mean(1.0) * (tau - least) * widest;
             }
             if most.is_finite() {
-                sum += 2.0 * mean(-1.0) * (most - tau + unseen(!is_lower));
+                sum += 2.0 * mean(-1.0) * (most - tau) * widest;
             }
         }
         Some(sum)

@@ -59,6 +59,8 @@ table! {
         "linear functions on few cells";
     OSCILLATION: "oscillation of a cell against integrals on paper", 1e-14,
         "exact rules for polynomials";
+    LOCAL_FLUX: "fluxes inside a cell against their definition", 1e-11,
+        "sums of 64 polynomials of degree 8, whose values are below 100";
     AGREEMENT: "u of mixed precision and of the factor against other solvers, over the largest", 1e-10,
         "as good as the solves, of condition up to 10⁵";
     FACTOR_NARROW: "u of the factor in f32 against f64, over the largest", 2e-6,

@@ -11,8 +11,8 @@ use super::pattern::{Pattern, fluxes};
 use crate::narrow::{narrow, pairs};
 use crate::range::wider;
 use signorini_certify::TermData;
-use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
+use signorini_problem::{Problem, excess_within_ranges};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Field, Scene};
 
@@ -60,7 +60,7 @@ impl<R: Scalar> Data<R> {
             robin: base.loads().robin.iter().map(robin).collect(),
             contact_flux: narrow(&base.loads().contact_flux),
             spans: narrow(&base.spans),
-            span_excess: R::narrow(base.loads().span_excess),
+            span_excess: R::narrow(span_excess(problem)),
             gap: narrow(&base.loads().gap),
             gap_ends: pairs(&base.ends.gap),
             dirichlet: narrow(&base.loads().dirichlet),
@@ -139,6 +139,13 @@ pub(super) fn refuse_faint<R: Scalar>(scene: &Scene, data: &Data<R>) -> Result<(
 fn robin<R: Scalar>(law: &Robin<f64, u32>) -> Robin<R, u32> {
     let (coefficient, ambient) = (R::narrow(law.coefficient), R::narrow(law.ambient));
     Robin { edge: law.edge, coefficient, ambient }
+}
+
+/// The largest excess of a contact edge, see [`excess_within_ranges`]; what is infinite leaves no bound.
+fn span_excess(problem: &Problem) -> f64 {
+    let counts = problem.topology.counts;
+    let edges = (counts.free..counts.unknowns()).filter_map(|at| excess_within_ranges(problem, at));
+    edges.filter(|excess| excess.is_finite()).fold(0.0, f64::max)
 }
 
 /// The Neumann edges on which some part of the data has a flux, ascending.

@@ -7,6 +7,7 @@ mod level;
 mod limits;
 mod meshes;
 mod stops;
+mod stretched;
 mod transfer;
 
 use signorini_tolerances::solve::AGREEMENT;
