@@ -39,6 +39,14 @@ impl<'p> Part<'p> {
         self.edges().map(|edge| self.problem.lengths[edge]).sum()
     }
 
+    /// Whether no flux passes but through it and N: the loads give it then. No energy weighs it, and what a tick rounds stays.
+    pub fn takes_all(&self) -> bool {
+        let kinds = self.problem.kinds.iter().enumerate();
+        kinds
+            .filter(|(_, kind)| !matches!(kind, EdgeKind::Interior | EdgeKind::Neumann))
+            .all(|(edge, _)| self.has(edge))
+    }
+
     /// Whether it has edges, and this condition holds on all of them.
     pub fn is_all(&self, kind: EdgeKind) -> bool {
         self.edges().next().is_some() && self.edges().all(|edge| self.problem.kinds[edge] == kind)

@@ -120,7 +120,7 @@ impl Weighing<'_> {
         let part = Part::new(self.problem, output);
         match output.quantity {
             Quantity::Mean if part.is_all(EdgeKind::Dirichlet) => none(GIVEN),
-            Quantity::Flux if part.is_all(EdgeKind::Neumann) => none(GIVEN),
+            Quantity::Flux if part.is_all(EdgeKind::Neumann) || part.takes_all() => none(GIVEN),
             Quantity::Mean => self.mean(&goal, part.is_all(EdgeKind::Contact)),
             _ => self.flux(&goal, &part),
         }

@@ -13,7 +13,7 @@ const HEAD: &str = "\
 # Modules
 
 Each file says in its first line what it holds. `cargo xtask house --bless` writes this page from these lines, a table per crate in
-the order in which they depend on each other. A folder stands with the line of its `mod.rs`.
+the order in which they depend on each other. A folder stands with the line of its `mod.rs`, and what is in it below.
 ";
 /// Each crate after those that it depends on.
 const CRATES: [&str; 18] = [
@@ -46,7 +46,7 @@ pub fn run(steps: &mut Steps) {
 fn page() -> Result<String, String> {
     let mut text = HEAD.to_owned();
     for of in CRATES {
-        let mut rows: Vec<_> = modules(&root().join(of).join("src"))?;
+        let mut rows = modules(&root().join(of).join("src"), "")?;
         rows.sort();
         let _ = write!(text, "\n## `{of}`\n\n| module | what it holds |\n|---|---|\n");
         for (name, path) in rows {
@@ -56,18 +56,20 @@ fn page() -> Result<String, String> {
     Ok(text)
 }
 
-/// The modules at the root of a crate, and those of its folders: names as paths, with their files.
-fn modules(of: &Path) -> Result<Vec<(String, PathBuf)>, String> {
+/// The modules in a folder and in those within it: names as paths, which begin with `above`, and files.
+fn modules(of: &Path, above: &str) -> Result<Vec<(String, PathBuf)>, String> {
     let mut found = Vec::new();
     let entries = fs::read_dir(of).map_err(|error| format!("{}: {error}", of.display()))?;
     for path in entries.flatten().map(|entry| entry.path()) {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let own = path.join("mod.rs");
-        if ["lib", "main", "tests"].contains(&&*name) {
+        if ["lib", "main", "mod", "tests", "bin"].contains(&&*name) {
             continue;
         }
-        if own.is_file() {
-            found.push((name, own));
+        let name = format!("{above}{name}");
+        if path.is_dir() {
+            let own = path.join("mod.rs");
+            found.extend(modules(&path, &format!("{name}::"))?);
+            found.extend(own.is_file().then_some((name, own)));
         } else if path.extension().is_some_and(|kind| kind == "rs") {
             found.push((name, path));
         }

@@ -72,20 +72,21 @@ setting.element = "nonparametric"
     Ok(())
 }
 
-/// u = xy + 2x + 3y: contact below, which touches everywhere and meets a given u on the right, as a seepage face meets the tailwater.
+/// u = xy + 2x + 3y: contact below, which touches everywhere and meets a given u on the right, as a seepage face meets the tailwater;
+/// a law of transfer on the left.
 const TAILWATER: &str = r#"
 mesh = "grid"
 material.default.conductivity = "1"
 source.f = "0"
 boundary.contact = { kind = "contact", gap = "2*x", flux = "-5" }
 boundary.right = { kind = "dirichlet", value = "2 + 4*y" }
-boundary.left = { kind = "neumann", flux = "-2 - y" }
+boundary.left = { kind = "robin", coefficient = "2 + y", ambient = "2*y - 3" }
 boundary.dirichlet = { kind = "neumann", flux = "x + 3" }
 output.face = { kind = "flux", of = "contact" }
 output.weir = { kind = "flux", of = "right" }
 output.both = { kind = "flux", of = ["right", "contact"] }
-output.more = { kind = "flux", of = ["left", "contact", "right"] }
-output.given = { kind = "flux", of = ["left", "dirichlet"] }
+output.more = { kind = "flux", of = ["dirichlet", "contact", "right"] }
+output.all = { kind = "flux", of = ["left", "contact", "right"] }
 output.force = { kind = "force", of = ["contact"] }
 output.wet = { kind = "length", of = ["contact"] }
 "#;
@@ -109,7 +110,7 @@ fn a_sum_has_an_interval_where_its_parts_have_none() -> Result<()> {
                 );
             }
             // −∫(x + 3) below, ∫(y + 2) on the right, −∫(y + 2) on the left, ∫(x + 3) on top.
-            for (name, exact) in [("both", -3.5), ("more", -6.0), ("given", 3.5)] {
+            for (name, exact) in [("both", -3.5), ("more", 2.5), ("all", -6.0)] {
                 check(name, found[name].as_ref().expect("an interval"), exact);
             }
             let [face, weir, both] =
@@ -118,7 +119,7 @@ fn a_sum_has_an_interval_where_its_parts_have_none() -> Result<()> {
             let width =
                 |name: &str| found[name].as_ref().map_or(f64::NAN, |found| found.plus_minus);
             assert!((width("more") - width("both")).abs() < 1e-6, "{cells:?}: {found:?}");
-            assert!(width("given") < 1e-6);
+            assert!(width("all") < 1e-6 && width("both") > 1e-4, "{cells:?}: {found:?}");
             assert_eq!(values["wet"], Some(2.0));
             widths.push(width("both"));
             let answers = Answers { open: &[], total: 0.0, are_balanced: true };
@@ -128,7 +129,7 @@ fn a_sum_has_an_interval_where_its_parts_have_none() -> Result<()> {
                 assert_eq!(weight.is_ok(), has, "{}: {weight:?}", output.name.value);
             }
         }
-        assert!(widths[1] < 0.5 * widths[0] || widths[1] < 1e-6, "{cells:?}: {widths:?}");
+        assert!(widths[1] < 0.6 * widths[0], "{cells:?}: {widths:?}");
     }
     Ok(())
 }
