@@ -34,7 +34,6 @@ mod profile;
 pub mod robin;
 pub mod sampled;
 mod stretch;
-mod stretched;
 pub mod term;
 #[cfg(test)]
 mod tests;

@@ -33,15 +33,19 @@ impl PartialOrd for Part {
     }
 }
 
-/// The worst is the greatest.
+/// The worst is the greatest, of those that miss as much the largest: no pole keeps others from being cut.
 impl Ord for Part {
     fn cmp(&self, other: &Self) -> Ordering {
-        self.missed.total_cmp(&other.missed)
+        let by_size = || self.region.measure().total_cmp(&other.region.measure());
+        self.missed.total_cmp(&other.missed).then_with(by_size)
     }
 }
 
 /// Cuts after which sums are taken anew: what is missed may be infinite at first, and differences round.
 const ROUND: usize = 32;
+
+/// Part of the largest region in which a pole is enough enclosed: cutting goes on elsewhere.
+const POLE: f64 = 1e-18;
 
 /// Cuts parts, at most `most` new ones, until Σ|value| and Σ missed are as they should be; `integral` gives a part's own. Where `f` has a kink or a
 /// jump, parts are cut along it.
@@ -53,7 +57,8 @@ pub fn refined(
     integral: impl Fn(usize, &Region) -> [f64; 2],
 ) -> Vec<Part> {
     let mut parts = BinaryHeap::from(parts);
-    let mut new = 0;
+    let (mut new, mut tiny) = (0, Vec::new());
+    let largest = parts.iter().map(|part| part.region.measure()).fold(0.0, f64::max);
     while new < most {
         let [size, missed] = parts
             .iter()
@@ -63,6 +68,12 @@ pub fn refined(
         }
         for _ in 0..ROUND.min(1 + parts.len() / 2) {
             let Some(worst) = parts.pop() else { break };
+            let is_pole = !worst.missed.is_finite() && worst.region.measure() < POLE * largest;
+            if is_pole || worst.region.is_tiny() {
+                tiny.push(worst);
+                new += 1;
+                continue;
+            }
             let along = f.switch(&worst.region).and_then(|switch| worst.region.cut(&switch));
             for region in along.unwrap_or_else(|| worst.region.parts()) {
                 let [value, missed] = integral(worst.of, &region);
@@ -71,5 +82,5 @@ pub fn refined(
             }
         }
     }
-    parts.into_vec()
+    parts.into_iter().chain(tiny).collect()
 }

@@ -86,6 +86,8 @@ impl Growth {
 pub(super) struct Grown {
     pub form: Form,
     pub growth: Option<Growth>,
+    /// Factors of x, y and 1, where it is affine in them.
+    pub affine: Option<[f64; 3]>,
 }
 
 /// Forms over a region with their growth.
@@ -95,7 +97,7 @@ impl Numbers for Grows<'_> {
     type Number = Grown;
 
     fn constant(&self, value: f64) -> Grown {
-        self.seen(Form::constant(self.0.shape(), value), None)
+        self.seen(Form::constant(self.0.shape(), value), Some([0.0, 0.0, value]), None)
     }
 
     fn unary(&self, operation: Unary, a: Grown) -> Grown {
@@ -109,7 +111,8 @@ impl Numbers for Grows<'_> {
             // Whatever they are of, bounded functions are bounded.
             _ => Growth::plain(&form),
         });
-        self.seen(form, growth)
+        let negated = a.affine.filter(|_| operation == Unary::Negate);
+        self.seen(form, negated.map(|affine| affine.map(|c| -c)), growth)
     }
 
     fn binary(&self, operation: Binary, a: Grown, b: Grown) -> Grown {
@@ -123,7 +126,25 @@ impl Numbers for Grows<'_> {
             Binary::Power if b.form.is_constant() => of_a.power(b.form.range().low),
             _ => None,
         });
-        self.seen(form, growth)
+        self.seen(form, affine(operation, a, b), growth)
+    }
+}
+
+/// Of sums, and of products and quotients with a constant.
+fn affine(operation: Binary, a: Grown, b: Grown) -> Option<[f64; 3]> {
+    let (of_a, of_b) = (a.affine?, b.affine?);
+    let both = |way: f64| Some([0, 1, 2].map(|k| of_a[k] + way * of_b[k]));
+    let number = |form: Form| form.is_constant().then_some(form.range().low);
+    match operation {
+        Binary::Add => both(1.0),
+        Binary::Subtract => both(-1.0),
+        Binary::Multiply => match (number(a.form), number(b.form)) {
+            (Some(a), _) => Some(of_b.map(|c| a * c)),
+            (_, Some(b)) => Some(of_a.map(|c| b * c)),
+            _ => None,
+        },
+        Binary::Divide => number(b.form).map(|b| of_a.map(|c| c / b)),
+        _ => None,
     }
 }
 
@@ -132,23 +153,24 @@ impl Grows<'_> {
         Forms(self.0.shape())
     }
 
-    /// A form as it grows: plainly where it is bounded and not 0 anywhere, from its zero where it is affine, else as its operation says.
-    pub fn seen(&self, form: Form, growth: Option<Growth>) -> Grown {
-        let is_plain = form.is_finite() && !form.range().holds(0.0);
-        let plain = || Growth::plain(&form).filter(|_| form.is_finite());
-        let growth = if is_plain { plain() } else { self.affine(&form).or(growth).or_else(plain) };
-        Grown { form, growth }
+    /// x and y.
+    pub fn coordinates(&self) -> [Grown; 2] {
+        let [x, y] = self.0.coordinates();
+        [self.seen(x, Some([1.0, 0.0, 0.0]), None), self.seen(y, Some([0.0, 1.0, 0.0]), None)]
     }
 
-    /// An affine form that is 0 somewhere: its slope times the distance from there.
-    fn affine(&self, form: &Form) -> Option<Growth> {
-        let [constant, xi, eta, bent @ ..] = form.coefficients;
-        let size = constant.abs() + xi.abs() + eta.abs();
-        let rest = bent.iter().map(|c| c.abs()).sum::<f64>() + form.remainder.size();
-        if !form.is_finite() || rest > 256.0 * ULP * size || xi.abs() + eta.abs() < 1e-6 * size {
-            return None;
-        }
-        let (slope, place) = self.0.zero(constant, [xi, eta])?;
+    /// A form as it grows: plainly where it is bounded and not 0 anywhere, from its zero where it is affine, else as its operation says.
+    fn seen(&self, form: Form, affine: Option<[f64; 3]>, growth: Option<Growth>) -> Grown {
+        let is_plain = form.is_finite() && !form.range().holds(0.0);
+        let plain = || Growth::plain(&form).filter(|_| form.is_finite());
+        let from_zero = || self.from_zero(&form, affine?);
+        let growth = if is_plain { plain() } else { from_zero().or(growth).or_else(plain) };
+        Grown { form, growth, affine }
+    }
+
+    /// An affine function that is 0 somewhere: its slope times the distance from there.
+    fn from_zero(&self, form: &Form, affine: [f64; 3]) -> Option<Growth> {
+        let (slope, place) = self.0.zero(affine)?;
         let Interval { low, high } = form.range();
         let sign = if low >= 0.0 {
             1.0
@@ -158,13 +180,8 @@ impl Grows<'_> {
             0.0
         };
         let slack = 1e-12;
-        Some(Growth {
-            low: slope * (1.0 - slack),
-            high: slope * (1.0 + slack),
-            sign,
-            exponent: 1.0,
-            place: Some(place),
-        })
+        let [low, high] = [slope * (1.0 - slack), slope * (1.0 + slack)];
+        Some(Growth { low, high, sign, exponent: 1.0, place: Some(place) })
     }
 
     /// The one place of both, where it is one: a line is seen from a point on it with no lower bound.

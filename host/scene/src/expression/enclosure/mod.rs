@@ -14,6 +14,7 @@
 //! What is enclosed is the expression in real numbers and in f64 alike, almost everywhere: at a pole the sign of a zero does not count.
 //! Where it has values in a part of the region only, the form encloses these, and says that it is not [`Form::is_finite`].
 
+mod branches;
 mod continuation;
 mod cut;
 mod degree;
@@ -39,6 +40,7 @@ pub use region::Region;
 
 use super::Expression;
 use super::program::Numbers;
+use branches::{Branch, Branches};
 use continuation::Discs;
 use cut::Switches;
 use degree::{Degree, Degrees};
@@ -66,7 +68,14 @@ impl Expression {
     /// ½(ρ + 1/ρ) of the middle: see [`Region::missed`]. Infinite where there may be none.
     pub fn modulus(&self, region: &Region, rho: f64, t: f64) -> f64 {
         let [x, y] = region.neighbourhood(rho);
-        self.program.run(&Discs, [x, y, Discs.constant(t)]).modulus()
+        if self.is_smooth() {
+            return self.program.run(&Discs, [x, y, Discs.constant(t)]).modulus();
+        }
+        let branches = Branches(Forms(region.shape()));
+        let [of_x, of_y] = region.coordinates();
+        let at =
+            [Branch { form: of_x, disc: x }, Branch { form: of_y, disc: y }, branches.constant(t)];
+        self.program.run(&branches, at).disc.modulus()
     }
 
     /// The first argument of a kink or a jump whose sign is not known in a region, see [`Region::cut`].
@@ -80,7 +89,7 @@ impl Expression {
     /// How it grows in a region where it is not bounded, if that is known.
     pub fn growth(&self, region: &Region, t: f64) -> Option<Growth> {
         let grows = Grows(region);
-        let [x, y] = region.coordinates().map(|form| grows.seen(form, None));
+        let [x, y] = grows.coordinates();
         self.program.run(&grows, [x, y, grows.constant(t)]).growth
     }
 

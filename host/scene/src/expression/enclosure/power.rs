@@ -30,22 +30,30 @@ impl Region {
         self.corners().iter().map(distance).fold(0.0, f64::max)
     }
 
-    /// The slope of an affine function of the reference coordinates, and where it is 0: on a segment a point.
-    pub(super) fn zero(&self, constant: f64, [xi, eta]: [f64; 2]) -> Option<(f64, Place)> {
-        let [u, v, w] = self.along;
-        if self.shape == Shape::Segment {
-            let slope = xi.abs() / norm(u);
-            return (xi != 0.0).then(|| (slope, Place::Point(self.place([-constant / xi, 0.0]))));
+    /// The point of a place next to the centre.
+    pub fn nearest(&self, place: Place) -> [f64; 2] {
+        match place {
+            Place::Point(point) => point,
+            Place::Line(normal, offset) => {
+                let off = dot(normal, self.centre) - offset;
+                [0, 1].map(|k| self.centre[k] - off * normal[k])
+            }
         }
-        let turn = cross(u, v);
-        if w != [0.0; 2] || turn == 0.0 {
+    }
+
+    /// The slope of an affine function with these factors of x, y and 1, and where it is 0: on a segment a point, and the slope along it.
+    pub(super) fn zero(&self, [a, b, c]: [f64; 3]) -> Option<(f64, Place)> {
+        let slope = norm([a, b]);
+        if self.shape != Shape::Segment {
+            return (slope > 0.0).then(|| (slope, Place::Line([a / slope, b / slope], -c / slope)));
+        }
+        let along = self.along[0];
+        let rise = dot([a, b], along);
+        if rise.abs() < 1e-9 * slope * norm(along) || rise == 0.0 {
             return None;
         }
-        // g·u = c_ξ, g·v = c_η
-        let gradient = [(xi * v[1] - eta * u[1]) / turn, (u[0] * eta - v[0] * xi) / turn];
-        let slope = norm(gradient);
-        let normal = gradient.map(|g| g / slope);
-        Some((slope, Place::Line(normal, dot(normal, self.centre) - constant / slope)))
+        let xi = -(dot([a, b], self.centre) + c) / rise;
+        Some((rise.abs() / norm(along), Place::Point(self.place([xi, 0.0]))))
     }
 
     /// ∫ρᵉ, ρ the distance to a point, as a sum over the triangles between the point and the sides: of each, with the angle θ there and a side

@@ -76,6 +76,13 @@ impl Region {
         self.centre
     }
 
+    /// Whether it is so small that its coordinates hardly differ: nothing is gained by cutting it.
+    pub fn is_tiny(&self) -> bool {
+        let [u, v, _] = self.along;
+        let extent = u.iter().chain(&v).fold(0.0_f64, |most, x| most.max(x.abs()));
+        extent <= 4096.0 * ULP * self.centre[0].abs().max(self.centre[1].abs())
+    }
+
     /// The point at reference coordinates.
     pub fn place(&self, [xi, eta]: [f64; 2]) -> [f64; 2] {
         let [u, v, w] = self.along;

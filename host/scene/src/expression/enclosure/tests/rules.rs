@@ -57,4 +57,9 @@ fn rules_miss_no_more_than_continuations_allow() {
     let smooth = parse("sin(pi*x)*exp(y)");
     let region = square(0.25, 0.5, 0.125);
     assert!(region.missed(8, 16.0, smooth.modulus(&region, 16.0, T)) < 1e-13 * region.measure());
+    // Beside a kink as well.
+    let branch = parse("max(x - 0.5*y, 0)*exp(y)");
+    let beside = square(0.25, 0.375, 0.125);
+    assert!(beside.missed(8, 16.0, branch.modulus(&beside, 16.0, T)) < 1e-13 * beside.measure());
+    assert_eq!(branch.modulus(&square(0.125, 0.375, 0.125), 16.0, T), f64::INFINITY);
 }

@@ -3,23 +3,23 @@
 //! What a flux leaves of f − f̄ or g − ḡ is integrated by the rule that has resolved these themselves; what that rule misses of the rest is
 //! bounded by moduli in ellipses around the cell, and added.
 
-use super::cell::Cell;
-use super::edge_flux::EdgeFlux;
-use super::local_flux::LocalFlux;
-use super::oscillation::{ELLIPSES, Oscillation, PANELS, POINTS, differences};
-use super::profile::{self, NO_SIDES, Sides, profiles};
-use super::stretch::{floor, is_even};
+use super::rules::{ELLIPSES, PANELS, POINTS, differences};
+use crate::cell::Cell;
+use crate::edge_flux::EdgeFlux;
+use crate::local_flux::LocalFlux;
+use crate::profile::{self, NO_SIDES, Sides, profiles};
+use crate::stretch::{floor, is_even};
 use signorini_problem::quadrature::{enclosed, gauss, on_panels};
 use signorini_problem::{Problem, Sum};
 use signorini_scene::error::Result;
 use signorini_scene::expression::enclosure::Region;
 
-/// osc_T by a flux inside the cell ([`super::local_flux`]), through whose sides `sides` leaves. In the plane energies are the same in any
+/// osc_T by a flux inside the cell ([`crate::local_flux`]), through whose sides `sides` leaves. In the plane energies are the same in any
 /// unit of length.
 ///
 /// # Errors
 /// Data that are not finite.
-pub fn closed(problem: &Problem, at: usize, f: &Sum, sides: &Sides) -> Result<f64> {
+pub fn in_cell(problem: &Problem, at: usize, f: &Sum, sides: &Sides) -> Result<f64> {
     let (own, rule) = (Cell::of(problem, at), gauss(POINTS));
     let load = problem.loads.of_cell(at);
     let (unit, all) = differences(&own, f, load);
@@ -44,18 +44,22 @@ pub fn closed(problem: &Problem, at: usize, f: &Sum, sides: &Sides) -> Result<f6
     let is_exact = own.is_affine() && f.degree() < POINTS as f64;
     let missed = if is_exact { 0.0 } else { missed.fold(f64::INFINITY, f64::min) };
     let by_flux = flux.norm + flux.reach * (rest + missed).sqrt();
-    let least = if sides == &NO_SIDES { by_flux.min(flux.reach * (square + missed).sqrt()) } else { by_flux };
+    let least = if sides == &NO_SIDES {
+        by_flux.min(flux.reach * (square + missed).sqrt())
+    } else {
+        by_flux
+    };
     f.finite(least.min(f64::MAX), own.corners()[0])
 }
 
-/// osc_T of all cells where fluxes go through sides as well; nothing where no side has one, or where f is not resolved everywhere: what
+/// osc_T of all cells, `known` without, where fluxes go through sides as well; nothing where no side has one, or where f is not resolved everywhere: what
 /// passes through a side has to be balanced in both cells.
 ///
 /// # Errors
 /// Data that are not finite.
-pub fn through_sides(problem: &Problem, known: &Oscillation) -> Result<Vec<f64>> {
+pub fn through_sides(problem: &Problem, known: &[f64], unresolved: &[f64]) -> Result<Vec<f64>> {
     let f = Sum::source(&problem.scene, problem.time);
-    if f.is_zero() || known.unresolved.iter().any(|&missed| missed != 0.0) {
+    if f.is_zero() || unresolved.iter().any(|&missed| missed != 0.0) {
         return Ok(Vec::new());
     }
     let profiles = profiles(problem, &f);
@@ -65,12 +69,12 @@ pub fn through_sides(problem: &Problem, known: &Oscillation) -> Result<Vec<f64>>
     let of_cell = |at: usize| {
         let sides = profile::of_cell(problem, at, &profiles);
         let is_closed = sides == NO_SIDES || is_even(problem, at);
-        if is_closed { Ok(known.of_cells[at]) } else { closed(problem, at, &f, &sides) }
+        if is_closed { Ok(known[at]) } else { in_cell(problem, at, &f, &sides) }
     };
     (0..problem.cells()).map(of_cell).collect()
 }
 
-/// osc_E by a flux inside the cell ([`super::edge_flux`]); `by_trace` is what ‖g − ḡ‖² costs without one.
+/// osc_E by a flux inside the cell ([`crate::edge_flux`]); `by_trace` is what ‖g − ḡ‖² costs without one.
 pub fn along_edge(
     problem: &Problem,
     edge: usize,
@@ -99,6 +103,7 @@ pub fn along_edge(
         let most = g.modulus(&region, rho) + mean.abs() + flux.modulus(rho);
         region.missed(POINTS, rho, most * most)
     });
-    let missed = if g.degree() < POINTS as f64 { 0.0 } else { missed.fold(f64::INFINITY, f64::min) };
+    let missed =
+        if g.degree() < POINTS as f64 { 0.0 } else { missed.fold(f64::INFINITY, f64::min) };
     flux.norm + by_trace(length * rest + missed)
 }
