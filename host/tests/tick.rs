@@ -429,3 +429,48 @@ fn ends_that_a_log_turns_round_are_blamed_on_its_line() {
     assert!(message.contains("sagging.csv:3:") && message.contains("at t = 1"), "{message}");
     assert!(message.contains("the limit is -3") && !message.contains("l.toml"), "{message}");
 }
+
+/// A plate that contact alone holds, pushed on, pulled off, in balance, and pushed on as before: rows without a solution are
+/// empty, and the last is the first.
+#[test]
+fn a_log_goes_on_beyond_loads_that_contact_cannot_hold() {
+    let folder = Folder::new();
+    let text = format!(
+        "mesh = {:?}\n[material.default]\nconductivity = 1\n\
+         [boundary.contact]\nkind = \"contact\"\n[boundary.default]\nkind = \"neumann\"\nflux = 0\n\
+         [boundary.dirichlet]\nkind = \"neumann\"\nflux = -1\n\
+         [input.push]\nof = \"dirichlet\"\nfield = \"flux\"\npattern = 1\nrange = [-3, 3]\n\
+         [output.power]\nkind = \"force\"\n[output.wet]\nkind = \"length\"\n",
+        meshes("catalogue/square-tri-16.msh")
+    );
+    let scene = folder.write("free.toml", text);
+    let log = folder.write("log.csv", "t,push\n0,-1\n1,2\n2,1\n3,-1\n");
+    let late = folder.write("late.csv", "t,push\n0,2\n1,-1\n");
+    let never = folder.write("never.csv", "t,push\n0,2\n5,3\n");
+    for more in [&[][..], &["--baked"], &["--baked", "--scalar", "f64"]] {
+        let ticked = |log: &str| {
+            let run = tick(&scene, &folder, &[&["--log", log], more].concat());
+            assert_eq!(run.status, 3, "{}{}", run.stdout, run.stderr);
+            let bounds = Table::read(folder.path("out/output_bounds.csv"));
+            (run.stderr, Table::read(folder.path("out/ticks.csv")), bounds)
+        };
+        let (said, table, bounds) = ticked(&log);
+        let status = table.column("status");
+        assert_eq!(status[1..3], ["no-solution", "not-unique"], "{more:?}");
+        assert_eq!(status[0], status[3], "{more:?}");
+        for at in [1, 2] {
+            assert!(table.lines[at][3..].iter().all(String::is_empty), "{:?}", table.lines);
+            assert!(bounds.lines[at][1..].iter().all(String::is_empty), "{:?}", bounds.lines);
+        }
+        assert!(table.lines[0][3..].iter().all(|field| !field.is_empty()), "{:?}", table.lines);
+        // 1 + 1 is pushed through each unit of a length of 4.
+        let force: [f64; 2] = [0, 3].map(|at| table.column("power")[at].parse().expect("a force"));
+        assert!(force.iter().all(|force| (force - 8.0).abs() < 1e-4), "{force:?}");
+        let warned: Vec<_> = said.lines().filter(|line| line.contains("warning")).collect();
+        assert_eq!(warned.len(), 1, "{said}");
+        assert!(warned[0].contains("2 of 4 ticks") && warned[0].contains("t = 1"), "{said}");
+        let status = |(_, table, _): (String, Table, Table)| table.column("status").join(" ");
+        assert!(status(ticked(&late)).starts_with("no-solution "), "{more:?}");
+        assert_eq!(status(ticked(&never)), "no-solution no-solution", "{more:?}");
+    }
+}

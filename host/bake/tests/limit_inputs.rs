@@ -216,9 +216,9 @@ fn refused_and_kept<R: Scalar>() -> Result<()> {
     let (first, _) = controller.tick_within(&narrow(&inputs), to_the_end()).expect("a tick");
     let u = controller.u().to_vec();
     // lo = −1 − leak/2 and hi = 6 supply, beside 0.3 x in both.
-    for [supply, leak] in [[-0.2, 0.0], [0.0, -2.1], [1.0, -15.0]] {
+    for ([supply, leak], input) in [([-0.2, 0.0], 0), ([0.0, -2.1], 1), ([1.0, -15.0], 1)] {
         let tried = controller.tick(&narrow(&[supply, leak, 0.0, -3.0]));
-        assert_eq!(tried.err(), Some(Error::EmptyRange { contact: 0 }), "{supply} {leak}");
+        assert_eq!(tried.err(), Some(Error::EmptyRange { input }), "{supply} {leak}");
         assert_eq!(controller.u(), u);
         assert!(problem.with_inputs(&[supply, leak, 0.0, -3.0]).is_err());
     }

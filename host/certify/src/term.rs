@@ -17,7 +17,7 @@ use super::data::Evaluated;
 use super::ends::Ends;
 use super::no_bound::NoBound;
 use super::robin::{RobinPoints, robin};
-use signorini_problem::{Loads, Problem, TransferPattern};
+use signorini_problem::{Loads, Problem, Room, TransferPattern, rooms};
 use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::term::{Term, left_with};
 use signorini_scene::scene::{Field, Input, Scene};
@@ -85,6 +85,17 @@ pub fn condensed_terms(problem: &Problem) -> Result<Vec<TermData>> {
         TermData::new(problem, term, alone, data)
     };
     (0..=problem.scene.inputs.len()).map(term).collect()
+}
+
+/// What inputs leave of the ranges of contact fluxes, from all terms of a model.
+pub fn rooms_of(problem: &Problem, terms: &[TermData]) -> Vec<Room> {
+    if problem.scene.limit_input().is_none() {
+        return Vec::new();
+    }
+    let counts = problem.topology.counts;
+    let ends: Vec<[&[f64]; 2]> =
+        terms.iter().map(|term| [&term.loads().contact_flux[..], &term.spans[..]]).collect();
+    rooms(&problem.lengths[counts.free..counts.unknowns()], &ends)
 }
 
 impl TermData {

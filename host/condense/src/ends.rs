@@ -8,7 +8,6 @@
 
 use super::CondensedModel;
 use signorini_certify::TermData;
-use signorini_kernel::flux_range::settled;
 use signorini_problem::{Problem, excess_within_ranges};
 use signorini_reference::ReferenceError;
 
@@ -23,16 +22,15 @@ impl CondensedModel {
         self.spans.iter().skip(1).flatten().any(|&span| span != 0.0)
     }
 
-    /// From the base of each edge to the other end of its flux; nothing where all are ∞. In a varying model a finite one is
-    /// negative where the inputs put the upper end below the lower one.
+    /// From the base of each edge to the other end of its flux; nothing where all are ∞. In a varying model a finite one is 0
+    /// where the inputs put the upper end below the lower one: by more than rounding they are refused.
     pub fn span_of(&self, p: &[f64]) -> Vec<f64> {
         let Some((constant, others)) = self.spans.split_first() else { return Vec::new() };
+        let is_varying = self.is_varying();
         let of_edge = |(at, &constant): (usize, &f64)| {
             let terms = || others.iter().zip(&p[1..]).map(|(column, p)| column[at] * p);
             let sum = terms().fold(constant, |sum, term| sum + term);
-            let size = terms().fold(constant.abs(), |sum, term| sum + term.abs());
-            let is_moved = sum < 0.0 && constant != sum;
-            if is_moved { settled(sum, size, p.len()).unwrap_or(sum) } else { sum }
+            if is_varying && sum.is_finite() { sum.max(0.0) } else { sum }
         };
         constant.iter().enumerate().map(of_edge).collect()
     }
@@ -70,8 +68,7 @@ impl CondensedModel {
         if !self.is_limited() {
             return Ok(());
         }
-        let spans = self.span_of(p);
-        if self.is_varying() && spans.iter().any(|&span| span < 0.0 && span.is_finite()) {
+        if self.rooms.iter().any(|room| room.view().check(&p[1..]).is_err()) {
             return Err(ReferenceError::Malformed("a limit lies below the flux at these inputs"));
         }
         let (load, ends) = (self.load_of(p), self.ends_of(p));

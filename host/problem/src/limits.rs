@@ -26,9 +26,6 @@ use signorini_scene::scene::{Boundary, Condition, Field};
 /// Fields of either end.
 pub(super) const ENDS: [Field; 2] = [Field::Flux, Field::Limit];
 
-/// Terms that an end counts for where rounding is told from an empty range: an expression has many, and so has a mean.
-const TERMS: usize = 4500;
-
 /// The means of both ends of a contact edge's flux, and what is missed of them; an infinite end is its own mean.
 pub(super) fn ends(problem: &Problem, edge: usize, time: f64) -> Result<([f64; 2], f64)> {
     let mean = |field, unlimited: f64| {
@@ -43,13 +40,17 @@ pub(super) fn ends(problem: &Problem, edge: usize, time: f64) -> Result<([f64; 2
     Ok(([least.value, most.value], least.missed.max(most.missed)))
 }
 
-/// Base and span of a contact edge from the means of its ends over a length of `length`.
-pub(super) fn base_and_span([least, most]: [f64; 2], length: f64) -> [f64; 2] {
-    // Means of equal ends may differ by rounding.
-    let span = length * (most - least).max(0.0);
+/// Base and span of a contact edge from the means of its ends over a length of `length`, and by how much either end was moved:
+/// where rounding has put the upper one below the lower one, both are their mean.
+pub(super) fn base_and_span([least, most]: [f64; 2], length: f64) -> [f64; 3] {
+    if most < least {
+        let half = 0.5 * (least - most);
+        return [length * (most + half), 0.0, length * half];
+    }
+    let span = length * (most - least);
     match most.abs() < least.abs() {
-        true => [length * most, -span],
-        false => [length * least, span],
+        true => [length * most, -span, 0.0],
+        false => [length * least, span, 0.0],
     }
 }
 
@@ -72,15 +73,28 @@ fn check_edge(problem: &Problem, edge: usize) -> Result<()> {
     for [x, y] in problem.looks(edge) {
         let (low, high) = (least.at(x, y), most.at(x, y));
         let terms = || least.terms_at(x, y) + most.terms_at(x, y);
-        if low > high && settled(high - low, terms(), TERMS).is_none() {
-            let message =
-                format!("the limit is {high} at ({x}, {y}), less than flux = {low} there");
+        if low > high && settled(high - low, terms()).is_none() {
+            let message = format!(
+                "the limit is {high} at ({x}, {y}), less than flux = {low} there{}",
+                problem.inputs_there(edge)
+            );
             let hint =
                 "the flux of a contact boundary lies between `flux` and `limit`, inputs included";
             return Err(problem.scene.error(most.key(), message).hint(hint).into());
         }
     }
     Ok(())
+}
+
+impl Problem {
+    /// The inputs that move an end of this edge's flux, with their values.
+    fn inputs_there(&self, edge: usize) -> String {
+        let boundary = self.boundary_of(edge).into_iter();
+        let inputs = boundary.flat_map(|boundary| self.inputs_of(boundary, &ENDS));
+        let all: Vec<_> =
+            inputs.map(|input| format!("input.{} = {}", input.name.value, input.default)).collect();
+        if all.is_empty() { String::new() } else { format!(", with {}", all.join(", ")) }
+    }
 }
 
 /// Contribution of one term of the loads to the ranges, with an entry for each contact edge.
@@ -149,7 +163,7 @@ fn check_at(problem: &Problem, boundary: &Boundary, [x, y]: [f64; 2]) -> Result<
             worst.push((input, value));
         }
     }
-    if settled(most - least, size, TERMS).is_some() {
+    if settled(most - least, size).is_some() {
         return Ok(());
     }
     let corner: Vec<_> =

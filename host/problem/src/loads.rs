@@ -32,6 +32,8 @@ pub struct Loads<R = f64> {
     pub spans: Vec<R>,
     /// By how much |E| (hi − lo) may exceed its span; 0 where it is constant along every edge.
     pub span_excess: R,
+    /// By how much ends of fluxes were moved at most, since rounding had put the upper one below the lower one.
+    pub moved: R,
     /// Mean of ψ on each contact edge.
     pub gap: Vec<R>,
     /// Mean of u_D on each Dirichlet edge.
@@ -51,7 +53,7 @@ impl<R: Scalar> Loads<R> {
     pub fn law(&self) -> Law<'_, R> {
         // Those of a scene that is refused, or of a part of the loads, are none.
         let spans = Spans::new(&self.spans).unwrap_or(Spans::UNLIMITED);
-        Law::above(&self.gap).with_spans(spans.varying(self.span_excess))
+        Law::above(&self.gap).with_spans(spans.varying(self.span_excess).moved_by(self.moved))
     }
 
     /// ∫f over the cells.
@@ -121,6 +123,7 @@ impl Loads {
             contact_flux: all(&self.contact_flux),
             spans: all(&self.spans),
             span_excess: R::narrow(self.span_excess),
+            moved: R::narrow(self.moved),
             gap: all(&self.gap),
             dirichlet: all(&self.dirichlet),
             missed: self.missed,
@@ -167,8 +170,9 @@ impl Loads {
             Condition::Contact { gap, .. } => {
                 self.gap.push(mean(Field::Gap, gap)?);
                 let (ends, missed) = limits::ends(problem, edge, time)?;
-                let [base, span] = limits::base_and_span(ends, length);
+                let [base, span, moved] = limits::base_and_span(ends, length);
                 self.missed += length * missed;
+                self.moved = self.moved.max(moved);
                 self.contact_flux.push(base);
                 self.spans.push(span);
             }

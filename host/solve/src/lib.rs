@@ -109,16 +109,32 @@ fn in_scalar<R: Scalar>(
 
 /// The kernel's refusal, in the scene's words.
 pub fn unfit<R: Scalar>(scene: &Scene) -> impl Fn(KernelError) -> Error + '_ {
-    |error| beyond(scene, format!("the scene does not fit {}: {error}", R::NAME))
+    |error| {
+        let refused = match error {
+            KernelError::NoSolution { .. } | KernelError::NotUnique { .. } => {
+                let hint = "without a Dirichlet or Robin boundary loads have to push every part onto its contact";
+                InputError::new(error.to_string()).file(&scene.path).hint(hint)
+            }
+            KernelError::EmptyRange { input } if input < scene.inputs.len() => {
+                let name = &scene.inputs[input].name.value;
+                let message = format!("input.{name}: it brings a limit below its flux");
+                InputError::new(message)
+                    .file(&scene.path)
+                    .hint("a flux lies between `flux` and `limit`, inputs included")
+            }
+            _ => beyond(scene, format!("the scene does not fit {}: {error}", R::NAME)),
+        };
+        refused.because(error).into()
+    }
 }
 
 fn overflow<R: Scalar>(scene: &Scene) -> Error {
-    beyond(scene, format!("not-finite: the solution overflows {}", R::NAME))
+    beyond(scene, format!("not-finite: the solution overflows {}", R::NAME)).into()
 }
 
-fn beyond(scene: &Scene, message: String) -> Error {
+fn beyond(scene: &Scene, message: String) -> InputError {
     let hint = "scale the data so that they are neither tiny nor huge, or use --scalar f64";
-    InputError::new(message).file(&scene.path).hint(hint).into()
+    InputError::new(message).file(&scene.path).hint(hint)
 }
 
 fn by_kernel<R: Scalar>(

@@ -136,6 +136,7 @@ impl Arguments {
         write_atomically(&out.join("ticks.svg"), drawing.as_bytes())?;
         series.map_or(Ok(()), Series::close)?;
         report(&problem, &model, &ticks, &out);
+        warn(unsolvable(&ticks).as_slice());
         if !self.no_intervals && !self.baked && work > MOST_INTERVALS {
             say(format_args!(
                 "  no intervals of outputs: {work} unknowns times ticks are more than {MOST_INTERVALS}"
@@ -161,6 +162,20 @@ fn report(problem: &Problem, model: &str, ticks: &[TickRecord], out: &Path) {
     ));
     say(format_args!("  {}", endings(ticks)));
     say(format_args!("  written to {}", out.display()));
+}
+
+/// How many ticks have no solution or no single one, and when the first.
+fn unsolvable(ticks: &[TickRecord]) -> Option<String> {
+    let refused = || ticks.iter().filter(|tick| tick.is_unsolvable());
+    let first = refused().next()?;
+    Some(format!(
+        "{} of {} ticks have no solution or more than one, the first at t = {} ({}): contact alone holds a part of the domain, \
+         and the loads do not push it on. Their rows are empty; each next one goes on from the last answer",
+        refused().count(),
+        ticks.len(),
+        first.time,
+        first.status.name(),
+    ))
 }
 
 /// Why outputs have no interval, the first reason of each; lengths never have one.

@@ -10,10 +10,12 @@ use signorini_contact::sides;
 use signorini_contact::spans::SpanColumns;
 use signorini_kernel::{Error, error::Array};
 
+use super::balance::Balance;
 use super::bound::{Bound, Ends};
 use super::modes::{Modes, Scaled};
 use super::start::{InitialState, best_omega};
 use crate::narrow::{filled_up, is_monotone, matrix, narrow, pairs, spans};
+use crate::room::Room;
 use signorini_condense::{CondensedModel, ModalModel};
 use signorini_image::chosen::WorstCase;
 use signorini_problem::inputs::ranges;
@@ -70,6 +72,10 @@ pub struct Baked<R: Scalar> {
     pub(super) limits: Vec<[R; 2]>,
     /// By columns: one where no input changes a span, else one for each input; empty where no flux has a limit.
     pub(super) spans: Vec<R>,
+    /// What inputs leave of spans that they change.
+    pub(super) rooms: Vec<Room<R>>,
+    /// Of parts that contact alone holds.
+    pub(super) parts: Vec<Balance<R>>,
     /// Of the inputs without the constant; empty where no range is declared.
     pub(super) ranges: Vec<[R; 2]>,
     pub(super) outputs: Vec<Output<Vec<R>, R>>,
@@ -106,6 +112,8 @@ impl<R: Scalar> Baked<R> {
             load: condensate.load.iter().flat_map(|column| filled_up(column)).collect(),
             limits: pairs(&condensate.limits),
             spans: spans(condensate)?,
+            rooms: condensate.rooms.iter().map(Room::new).collect(),
+            parts: condensate.balances.iter().map(Balance::new).collect(),
             ranges: ranges(condensate.ranges.get(1..).unwrap_or_default()),
             outputs: condensate.outputs.iter().map(|of| of.map(|c| narrow(c), R::narrow)).collect(),
             bound,
@@ -252,20 +260,19 @@ impl<R: Scalar> Baked<R> {
             .iter()
             .map(|(edge, excess, energy)| Corner { edge: *edge, excess, energy: *energy })
             .collect();
+        let rooms: Vec<_> = self.rooms.iter().map(Room::view).collect();
+        let parts: Vec<_> = self.parts.iter().map(Balance::view).collect();
         let certificate = self.bound.as_ref().ok().map(|bound| bound.form(&corners));
         let Self { contact, matrix, load, limits, spans, .. } = self;
-        let (x, start) = (&self.start.x, self.start.view());
         then(&Condensed {
             contact: *contact,
             matrix,
-            x,
-            start,
+            x: &self.start.x,
+            start: self.start.view(),
             load,
             limits,
-            spans: match spans.is_empty() {
-                true => SpanColumns::UNLIMITED,
-                false => SpanColumns::new(spans),
-            },
+            spans: SpanColumns::new(spans).within(&rooms),
+            parts: &parts,
             outputs: &outputs,
             certificate,
             has_bound: self.has_bound,

@@ -10,7 +10,9 @@ use super::bent::{Bent, bent};
 use super::pattern::{Pattern, fluxes};
 use crate::narrow::{narrow, pairs};
 use crate::range::wider;
+use crate::room::Room;
 use signorini_certify::TermData;
+use signorini_certify::term::rooms_of;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Problem, excess_within_ranges};
 use signorini_scene::error::Result;
@@ -26,6 +28,7 @@ pub(super) struct Data<R> {
     pub contact_flux: Vec<R>,
     pub spans: Vec<R>,
     pub span_excess: R,
+    pub rooms: Vec<Room<R>>,
     pub gap: Vec<R>,
     pub gap_ends: Vec<[R; 2]>,
     pub dirichlet: Vec<R>,
@@ -61,6 +64,7 @@ impl<R: Scalar> Data<R> {
             contact_flux: narrow(&base.loads().contact_flux),
             spans: narrow(&base.spans),
             span_excess: R::narrow(span_excess(problem)),
+            rooms: rooms_of(problem, parts).iter().map(Room::new).collect(),
             gap: narrow(&base.loads().gap),
             gap_ends: pairs(&base.ends.gap),
             dirichlet: narrow(&base.loads().dirichlet),
@@ -99,7 +103,7 @@ impl<R: Scalar> Data<R> {
             }
         };
         let source = self.varies(Field::Source);
-        let flux = self.patterns.iter().any(Pattern::moves_contact_flux);
+        let flux = !self.rooms.is_empty() || self.patterns.iter().any(Pattern::moves_contact_flux);
         fit(&mut self.triangles, source, problem.mesh.triangles.len());
         fit(&mut self.quads, source, problem.mesh.quads.len());
         fit(&mut self.contact_flux, flux, problem.topology.counts.contact);

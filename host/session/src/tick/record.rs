@@ -3,12 +3,13 @@
 use signorini_certify::ErrorBound;
 use signorini_certify::exact::distance;
 use signorini_problem::Problem;
-use signorini_scene::error::Result;
+use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_solve::outputs::{Reading, declared};
 use signorini_solve::{Ending, Solution};
 
+use signorini_device::codes::Refusal;
 use signorini_kernel::report::Ended;
 
 /// Numbers of a tick; those that do not exist or are not finite are `None`.
@@ -66,12 +67,12 @@ impl TickRecord {
         })
     }
 
-    /// A tick whose inputs or answer the controller's scalar cannot hold.
-    pub(super) fn refused(problem: &Problem) -> Self {
+    /// A tick that was refused with this error.
+    pub(super) fn refused(problem: &Problem, error: &Error) -> Self {
         let outputs = problem.scene.outputs.len();
         Self {
             time: problem.time,
-            status: Ending::Tick(Ended::NotFinite),
+            status: Ending::refused(error).unwrap_or(Ending::Tick(Ended::NotFinite)),
             sweeps: 0,
             contact_force: None,
             contact_length: None,
@@ -85,6 +86,11 @@ impl TickRecord {
     /// Whether the solve broke down; one that its budget cut off did not.
     pub fn failed(&self) -> bool {
         self.status.is_breakdown()
+    }
+
+    /// Whether its loads were such that contact cannot hold the domain, or at no one place.
+    pub fn is_unsolvable(&self) -> bool {
+        matches!(self.status, Ending::Refused(Refusal::NoSolution | Refusal::NotUnique))
     }
 
     /// From `units` to those that the scene had before.

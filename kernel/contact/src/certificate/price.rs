@@ -164,6 +164,7 @@ fn price_of<R: Real>(
         let mean = if may_be { mean + slack } else { mean };
         if mean > R::ZERO && distance.finite() {
             let unseen = range.unseen(distance + unsure, sides.excess).or_smaller(sides.excess);
+            let unseen = unseen + answer.ranges.moved(edge);
             R::TWO * mean * (distance + unseen + unsure)
         } else {
             R::ZERO
