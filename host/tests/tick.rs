@@ -286,7 +286,6 @@ fn in_time(mesh: &str, value: &str, gap: &str, more: &str) -> String {
 /// message.
 const WRONG_IN_TIME: &[(&str, &str, &str, &[&str])] = &[
     ("1/(2 - t)", "0", "", &["boundary.dirichlet.value", "a.toml:7:", "t = 2"]),
-    ("1 - t", "0", "", &["below the gap", "t = 2"]),
     ("1", "ln(2.5 - t)", "", &["boundary.contact.gap", "t = 3"]),
     ("1", "0", "[time]\nstep = 1e-9\nend = 1e9\n", &["time", "--ticks"]),
 ];
@@ -299,6 +298,44 @@ fn data_that_turn_wrong_are_refused_with_their_time() {
         let count: &[&str] = if more.is_empty() { &["--ticks", "4"] } else { &[] };
         let message = refused("tick", &scene, count);
         expected.iter().for_each(|part| assert!(message.contains(part), "{part}: {message}"));
+    }
+}
+
+/// u_D falls below the gap for one tick, in t and by an input without a range: that row is empty, and the next ones go on.
+#[test]
+fn ticks_whose_data_exclude_each_other_have_no_answer() {
+    let (folder, mesh) = (Folder::new(), meshes("catalogue/square-tri-16.msh"));
+    let checked = |scene: &str, more: &[&str]| {
+        let run = tick(scene, &folder, more);
+        assert_eq!(run.status, 3, "{}{}", run.stdout, run.stderr);
+        assert!(
+            run.stderr.contains("1 of 4 ticks have data that exclude each other"),
+            "{}",
+            run.stderr
+        );
+        assert!(run.stderr.contains("the first at t = 2 (excluded)"), "{}", run.stderr);
+        let table = Table::read(folder.path("out/ticks.csv"));
+        let is_excluded: Vec<_> =
+            table.column("status").iter().map(|&status| status == "excluded").collect();
+        assert_eq!(is_excluded, [false, false, true, false], "{more:?}");
+        assert!(table.lines[2][3..].iter().all(String::is_empty), "{:?}", table.lines);
+        assert!(table.lines[3][3..].iter().all(|field| !field.is_empty()), "{:?}", table.lines);
+    };
+    let scene = folder.write("t.toml", in_time(&mesh, "abs(t - 2) - 0.5", "0", ""));
+    checked(&scene, &["--ticks", "4"]);
+    let input = "[input.level]\nof = \"dirichlet\"\nfield = \"value\"\npattern = \"1\"\n";
+    let scene = folder.write("level.toml", in_time(&mesh, "1", "0", input));
+    let log = folder.write("log.csv", "t,level\n0,1\n1,-0.5\n2,-1.5\n3,0\n");
+    for more in [&[][..], &["--baked"], &["--baked", "--scalar", "f64"]] {
+        checked(&scene, &[&["--log", &log], more].concat());
+    }
+    // Ranges within which it can happen are refused at once.
+    let ranged = in_time(&mesh, "1", "0", &format!("{input}range = [-1.5, 1]\n"));
+    let scene = folder.write("ranged.toml", ranged);
+    for command in ["solve", "bake", "tick"] {
+        let message = refused(command, &scene, &[]);
+        let expected = "input.level.range: with level = -1.5 u_D = -0.5 of boundary.dirichlet";
+        assert!(message.contains(expected), "{message}");
     }
 }
 

@@ -91,6 +91,11 @@ pub enum Error {
         /// The number of the input that leaves it least room.
         input: usize,
     },
+    /// Where two boundary edges meet, one asks for a u that the other excludes.
+    Excluded {
+        /// The vertex, or its number among those where inputs can do so.
+        at: usize,
+    },
     /// The relaxation factor is not inside (0, 2).
     Relaxation,
     /// A workspace holds no problem: it has not been built, or not since an error left it half done.
@@ -186,6 +191,9 @@ impl fmt::Display for Error {
                     f,
                     "with input {input} the limit of a contact flux is less than its least value"
                 )
+            }
+            Self::Excluded { at } => {
+                write!(f, "two boundary edges exclude each other's values of u at vertex {at}")
             }
             Self::Relaxation => write!(f, "the relaxation factor must lie between 0 and 2"),
             Self::NotBuilt => write!(f, "the workspace holds no problem: build it"),

@@ -5,6 +5,7 @@ mod condensed_length;
 mod condensed_limits;
 mod crossed_ends;
 mod direct;
+mod excluded;
 mod limit_inputs;
 mod means;
 mod plus_minus;

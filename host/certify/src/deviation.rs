@@ -7,6 +7,7 @@ use super::ends::Ends;
 use super::energy::{CellEnergy, Sample};
 use signorini_problem::quadrature::bisected::mean_on_edge;
 use signorini_problem::quadrature::{DATA_POINTS, on_panels};
+use signorini_problem::rounding::extent;
 use signorini_problem::{Problem, Sum};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Field;
@@ -138,6 +139,13 @@ impl Deviation<'_> {
         let places = f64::GAUSS[DATA_POINTS - 1].iter().map(of_place);
         let data = places.fold(self.ends[0].abs().max(self.ends[1].abs()), f64::max);
         (ROUNDING * data).max(NOISES * self.noise())
+    }
+
+    /// Rounding of w at t alone: of operations, and of places that are off by some ulps of the edge's coordinates.
+    pub fn rounding_at(&self, t: f64) -> f64 {
+        /// Ulps that a point of the edge may be off, its ends and what is added to them.
+        const PLACES: f64 = 8.0 * f64::EPSILON;
+        self.data.rounding_at(self.place(t), PLACES * extent(self.segment))
     }
 
     /// Second differences of w, which rounding that follows the data in steps shows as well, and first ones of w′ at once beside

@@ -14,7 +14,7 @@
 
 use super::curved::{Curved, curved};
 use super::data::Evaluated;
-use super::ends::Ends;
+use super::ends::{Ends, of_moved};
 use super::no_bound::NoBound;
 use super::robin::{RobinPoints, robin};
 use signorini_problem::{Loads, Problem, Room, TransferPattern, rooms};
@@ -63,7 +63,10 @@ pub fn full_terms(problem: &Problem) -> Result<Vec<TermData>> {
     }
     let term = |term: Term| {
         let alone = problem.restated(as_stated(&problem.scene)).left_with(&[term])?;
-        let data = at_all_corners(&alone)?;
+        let mut data = at_all_corners(&alone)?;
+        if term == 0 {
+            data.oscillation += 2.0 * of_moved(problem, &problem.moved_at_most());
+        }
         let input = term.checked_sub(1).filter(|&at| changes_transfer(&problem.scene.inputs[at]));
         Ok(TermData {
             transfer: robin(&alone, alone.time)?,
@@ -161,9 +164,9 @@ fn as_stated(scene: &Scene) -> Scene {
 
 /// The data of a term with the most oscillation, and the first reason for no bound, of any coefficients within their ranges.
 fn at_all_corners(alone: &Problem) -> Result<Evaluated> {
-    let mut corners = corners(&alone.scene).map(|scene| Evaluated::new(&alone.restated(scene)));
+    let mut corners = corners(&alone.scene).map(|scene| Evaluated::of_term(&alone.restated(scene)));
     // Without such inputs there is one corner, the scene itself.
-    let first = corners.next().unwrap_or_else(|| Evaluated::new(alone))?;
+    let first = corners.next().unwrap_or_else(|| Evaluated::of_term(alone))?;
     corners.try_fold(first, |worst, there| {
         let there = there?;
         let oscillation = worst.oscillation.max(there.oscillation);

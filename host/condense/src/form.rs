@@ -144,7 +144,7 @@ impl FormData<'_> {
         let (inputs, contact) = (pieces.patterns.len(), openings.len());
         let columns = inputs + contact + chain.contact.len();
         let mut s = Table::new(functions.count(), columns);
-        for (&vertex, values) in &chain.dirichlet {
+        for (&vertex, values) in &chain.given {
             s.row_mut(vertex as usize)[..inputs].copy_from_slice(values);
         }
         for (at, ((vertex, place), gap)) in chain.contact.iter().zip(&chain.gap).enumerate() {

@@ -37,6 +37,7 @@ mod factor;
 mod form;
 mod held;
 mod laws;
+mod levels;
 mod measures;
 mod model;
 mod modes;

@@ -22,6 +22,7 @@ mod integrals;
 mod lacks;
 mod limits;
 mod loads;
+mod pinched;
 pub mod pointwise;
 pub mod progress;
 mod property;
@@ -29,6 +30,7 @@ pub mod quadrature;
 pub mod random;
 mod restated;
 mod room;
+pub mod rounding;
 pub mod scalar;
 pub mod search;
 mod solvability;
@@ -43,6 +45,7 @@ mod widths;
 
 pub use assembled::Assembled;
 pub use binding::Binding;
+pub use corners::Exclusion;
 pub use integrals::{Coefficients, QuadCoefficient};
 pub use lacks::{Approach, Lack};
 pub use limits::RangeTerm;
@@ -107,6 +110,9 @@ impl Problem {
         let mesh = mesh.into();
         let binding = Binding::new(scene, &mesh)?;
         let (topology, ends) = number_edges(scene, &mesh, &binding)?;
+        if let Some(parted) = pinched::parted(&mesh, &topology, &ends) {
+            return Self::new(scene, parted);
+        }
         let count = topology.counts.edges();
         let outer = topology.half_edges.iter().zip(&ends).filter(|(pair, _)| pair[1] == u32::MAX);
         let outer: Vec<_> = outer.map(|(_, &ends)| ends).collect();
@@ -132,6 +138,7 @@ impl Problem {
         };
         problem.set_time(0.0)?;
         transfer::check(&problem)?;
+        corners::check_within_ranges(&problem)?;
         problem.warnings = warnings::warnings(&problem);
         Ok(problem)
     }

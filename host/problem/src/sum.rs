@@ -156,6 +156,14 @@ impl<'s> Sum<'s> {
         self.inputs.iter().map(added).fold(base, |sum, term| sum + term)
     }
 
+    /// How far the value at a point may be off where its coordinates are by `off`, through that and the rounding of operations.
+    pub fn rounding_at(&self, point: [f64; 2], off: f64) -> f64 {
+        let base = self.base.value.rounding(point, off, self.time);
+        self.inputs.iter().fold(base, |sum, (weight, pattern)| {
+            sum + weight.abs() * pattern.value.rounding(point, off, self.time)
+        })
+    }
+
     /// (∂/∂x, ∂/∂y)
     pub fn gradient_at(&self, x: f64, y: f64) -> [f64; 2] {
         let (_, base) = self.base.value.gradient(x, y, self.time);

@@ -69,6 +69,7 @@ impl Ending {
             Self::Refused(Refusal::NoSolution) => "no-solution",
             Self::Refused(Refusal::NotUnique) => "not-unique",
             Self::Refused(Refusal::EmptyRange) => "empty-range",
+            Self::Refused(Refusal::Excluded) => "excluded",
             // What a scene's data or its scalar do not allow for.
             Self::Refused(_) => "not-finite",
         }

@@ -122,6 +122,13 @@ pub fn unfit<R: Scalar>(scene: &Scene) -> impl Fn(KernelError) -> Error + '_ {
                     .file(&scene.path)
                     .hint("a flux lies between `flux` and `limit`, inputs included")
             }
+            KernelError::Excluded { .. } => {
+                let message = "with these inputs two boundaries that meet exclude each other's values of u: a gap and a Dirichlet \
+                               value, or two gaps";
+                InputError::new(message)
+                    .file(&scene.path)
+                    .hint("declare ranges of the inputs: `bake` then says where")
+            }
             _ => beyond(scene, format!("the scene does not fit {}: {error}", R::NAME)),
         };
         refused.because(error).into()

@@ -34,6 +34,9 @@ signorini_kernel::codes! {
         NoWayOut = 12 c"NO_WAY_OUT",
         /// Data and code do not belong together; never of a library as it was baked.
         Inconsistent = 13 c"INCONSISTENT",
+        /// With these inputs two boundary edges that meet exclude each other's values of u: a gap and a Dirichlet value, or two
+        /// gaps. The culprit is the number of their vertex among those where that can be.
+        Excluded = 14 c"EXCLUDED",
     }
 }
 
@@ -54,6 +57,7 @@ pub fn refusal(error: &Error) -> (Refusal, usize) {
         Error::NotFinite { .. } => (Refusal::Overflow, 0),
         Error::EmptyRange { input } => (Refusal::EmptyRange, input),
         Error::NegativeRobin { edge } => (Refusal::NegativeCoefficient, edge),
+        Error::Excluded { at } => (Refusal::Excluded, at),
         Error::NoSolution { .. } => (Refusal::NoSolution, 0),
         Error::NotUnique { .. } => (Refusal::NotUnique, 0),
         Error::NoWayOut { .. } => (Refusal::NoWayOut, 0),
@@ -104,6 +108,7 @@ mod tests {
         for (error, expected) in [
             (Error::InputOutOfRange { input: 2 }, (Refusal::InputOutOfRange, 2)),
             (Error::EmptyRange { input: 7 }, (Refusal::EmptyRange, 7)),
+            (Error::Excluded { at: 3 }, (Refusal::Excluded, 3)),
             (Error::NegativeRobin { edge: 9 }, (Refusal::NegativeCoefficient, 9)),
             (Error::NoSolution { cell: 1 }, (Refusal::NoSolution, 0)),
             (Error::NotUnique { cell: 1 }, (Refusal::NotUnique, 0)),

@@ -78,6 +78,8 @@ pub struct Baked<R: Scalar> {
     pub(super) parts: Vec<Balance<R>>,
     /// Of the inputs without the constant; empty where no range is declared.
     pub(super) ranges: Vec<[R; 2]>,
+    /// Rows that inputs without a range have to meet.
+    pub(crate) exclusions: Vec<R>,
     pub(super) outputs: Vec<Output<Vec<R>, R>>,
     pub(super) bound: Result<Bound<R>, String>,
 }
@@ -115,6 +117,7 @@ impl<R: Scalar> Baked<R> {
             rooms: condensate.rooms.iter().map(Room::new).collect(),
             parts: condensate.balances.iter().map(Balance::new).collect(),
             ranges: ranges(condensate.ranges.get(1..).unwrap_or_default()),
+            exclusions: Vec::new(),
             outputs: condensate.outputs.iter().map(|of| of.map(|c| narrow(c), R::narrow)).collect(),
             bound,
         };

@@ -82,6 +82,10 @@ impl<R: Scalar> Scene for Desk<'_, R> {
         &self.0.ranges
     }
 
+    fn exclusions(&self) -> &[R] {
+        &self.0.exclusions
+    }
+
     fn limits(&self) -> Limits<R> {
         Limits { error: R::ZERO, share: R::ZERO, sweeps: self.0.sweeps.most }
     }

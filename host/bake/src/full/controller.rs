@@ -161,6 +161,10 @@ impl<R: Scalar, const WIDTH: usize> Scene for Desk<'_, R, WIDTH> {
         &self.ranges
     }
 
+    fn exclusions(&self) -> &[R] {
+        &self.baked.exclusions
+    }
+
     fn limits(&self) -> Limits<R> {
         self.baked.how.limits
     }

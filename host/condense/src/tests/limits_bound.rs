@@ -14,10 +14,10 @@ use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{self, Mesh};
 
 /// The subject of the bound of (p, x), and its distance from the exact solution.
-struct Certified {
-    problem: Problem,
-    model: CondensedModel,
-    recovery: Recovery,
+pub(super) struct Certified {
+    pub problem: Problem,
+    pub model: CondensedModel,
+    pub recovery: Recovery,
 }
 
 impl Certified {
@@ -28,7 +28,7 @@ impl Certified {
     }
 
     /// The bound, the combined error, and the square root of what the exact solution says the gap is.
-    fn at(&self, x: &[f64]) -> Result<[f64; 3]> {
+    pub fn at(&self, x: &[f64]) -> Result<[f64; 3]> {
         let p = &self.model.defaults;
         let answer = self.recovery.admissible(&self.model, &self.problem, p, x);
         let exact = self.problem.scene.exact.as_ref().expect("an exact solution");
@@ -38,7 +38,7 @@ impl Certified {
     }
 
     /// The solution and others, each on a side that there is.
-    fn trials(&self) -> Vec<(bool, Vec<f64>)> {
+    pub fn trials(&self) -> Vec<(bool, Vec<f64>)> {
         let x = self.model.solve(&self.model.defaults).expect("a solution");
         let ends = self.model.ends_of(&self.model.defaults);
         let allowed = |at: usize, x: f64| match ends[at] {

@@ -105,7 +105,7 @@ class Controller:
 
         Raises
         ------
-        SceneError : inputs without an answer; its `refusal` says why (no-solution, not-unique, empty-range or not-finite).
+        SceneError : inputs without an answer; its `refusal` says why (no-solution, not-unique, excluded, empty-range or not-finite).
             The next call goes on from the last answer.
         """
         unknown = set(inputs) - set(self.defaults)

@@ -22,6 +22,7 @@ mod lexer;
 mod operation;
 mod parser;
 mod program;
+mod rounded;
 #[cfg(test)]
 mod tests;
 
@@ -29,6 +30,7 @@ use std::fmt;
 use std::ops::Range;
 
 use program::{Numbers, Program};
+use rounded::{Rounded, Roundings};
 use thiserror::Error;
 
 pub use arithmetic::Arithmetic;
@@ -129,6 +131,14 @@ impl Expression {
     /// The derivative along `direction`; what does not change along it contributes nothing, however steep it is across.
     pub fn slope(&self, x: f64, y: f64, t: f64, [dx, dy]: [f64; 2]) -> f64 {
         self.dual([x, y, t], [[dx, 0.0], [dy, 0.0]]).gradient[0]
+    }
+
+    /// How far the value at a point and t may be off where its coordinates are by `off`, through that and the rounding of constants
+    /// and operations; what jumps there is none of it.
+    pub fn rounding(&self, point: [f64; 2], off: f64, t: f64) -> f64 {
+        let [x, y] = point.map(|value| Rounded { value: value + 0.0, off });
+        let t = Rounded { value: t, off: f64::EPSILON * t.abs() };
+        self.program.run(&Roundings(self.program.folded()), [x, y, t]).off
     }
 
     /// The value and its derivatives along two ways, on which x and y change so fast.

@@ -178,8 +178,7 @@ fn begun(problem: &mut Problem, moments: &[ScheduledTick]) -> Result<Option<Part
         return Ok(Some(Parts::whatever_inputs(problem)?.counts));
     }
     for moment in moments {
-        moment.set(problem)?;
-        match Parts::whatever_inputs(problem) {
+        match moment.set(problem).and_then(|()| Parts::whatever_inputs(problem)) {
             Err(error) if is_unsolvable(&error) => {}
             examined => {
                 return Ok(Some(examined.map_err(|error| error.at_time(moment.time))?.counts));
@@ -197,8 +196,8 @@ fn unsolvable(
 ) -> Result<Vec<TickRecord>> {
     let mut problem = problem.clone();
     let ticks = moments.iter().map(|moment| {
-        moment.set(&mut problem)?;
-        let tick = match Parts::whatever_inputs(&problem) {
+        let posed = moment.set(&mut problem);
+        let tick = match posed.and_then(|()| Parts::whatever_inputs(&problem)) {
             Err(error) => TickRecord::refused(&problem, &error),
             Ok(_) => return Err(Error::Check("a moment without a solution has one".to_owned())),
         };
@@ -208,10 +207,10 @@ fn unsolvable(
     ticks.collect()
 }
 
-/// Whether contact cannot hold the loads, or holds them at no one place.
+/// Whether contact cannot hold the loads, or holds them at no one place, or data exclude each other where boundaries meet.
 fn is_unsolvable(error: &Error) -> bool {
-    let cause = error.cause();
-    matches!(cause, Some(KernelError::NoSolution { .. } | KernelError::NotUnique { .. }))
+    use KernelError::{Excluded, NoSolution, NotUnique};
+    matches!(error.cause(), Some(NoSolution { .. } | NotUnique { .. } | Excluded { .. }))
 }
 
 /// A session and what reads it.
@@ -232,8 +231,14 @@ impl Play<'_> {
     ) -> Result<Vec<TickRecord>> {
         let mut problem = problem.clone();
         let ticks = moments.iter().map(|moment| {
-            moment.set(&mut problem)?;
-            let (tick, solution) = self.tick(&problem)?;
+            let (tick, solution) = match moment.set(&mut problem) {
+                // A controller has its own scalar and looks itself.
+                Err(error) if !is_unsolvable(&error) => return Err(error),
+                Err(error) if !matches!(self.intervals, Intervals::Weighed(_)) => {
+                    (TickRecord::refused(&problem, &error), None)
+                }
+                _ => self.tick(&problem)?,
+            };
             done(&tick, solution.as_ref())?;
             Ok(tick)
         });

@@ -93,6 +93,11 @@ impl TickRecord {
         matches!(self.status, Ending::Refused(Refusal::NoSolution | Refusal::NotUnique))
     }
 
+    /// Whether its data excluded each other where boundaries meet.
+    pub fn is_excluded(&self) -> bool {
+        self.status == Ending::Refused(Refusal::Excluded)
+    }
+
     /// From `units` to those that the scene had before.
     pub(super) fn rescale(&mut self, scene: &Scene, units: &Units) {
         let times = |number: &mut Option<f64>, unit: f64| {
