@@ -24,6 +24,8 @@ const LOOKS: u32 = 7;
 const MOST: u32 = 120;
 
 type Function<'f> = &'f dyn Fn(f64, f64) -> f64;
+/// Mean and size over a segment by either rule.
+type Rules<'r> = &'r dyn Fn(&[[f64; 2]; 2]) -> [[f64; 2]; 2];
 
 /// The mean of `f` over the segment from `a` to `b`.
 pub fn mean_on_edge(segment: [[f64; 2]; 2], f: Function) -> f64 {
@@ -65,7 +67,7 @@ pub fn graded_mean([a, b]: [[f64; 2]; 2], f: Function) -> [f64; 2] {
 }
 
 /// The mean by both rules over a segment, and on halves where they differ: what is in doubt is what they still differ by.
-fn over(segment: [[f64; 2]; 2], rules: &dyn Fn(&[[f64; 2]; 2]) -> [[f64; 2]; 2]) -> [f64; 2] {
+fn over(segment: [[f64; 2]; 2], rules: Rules) -> [f64; 2] {
     let [[value, size], [other, _]] = rules(&segment);
     let tolerance = AGREE * size;
     if (value - other).abs() <= tolerance || !value.is_finite() {
@@ -79,7 +81,7 @@ fn cut(
     [a, b]: [[f64; 2]; 2],
     levels: u32,
     tolerance: f64,
-    rules: &dyn Fn(&[[f64; 2]; 2]) -> [[f64; 2]; 2],
+    rules: Rules,
     left: &Count<u32>,
 ) -> [f64; 2] {
     left.set(left.get().saturating_sub(1));

@@ -128,7 +128,8 @@ fn resolved(f: &Sum, regions: &[Region], by_rule: Vec<[f64; 2]>) -> Vec<Integral
         |at: usize| RESOLVED * (by_rule[at][1] + sizes * (regions[at].measure() / measures));
     let is_open = |&at: &usize| {
         let is_settled = is_exact(&regions[at], degree) || !by_rule[at][0].is_finite();
-        !is_settled && !(missed_by_rule(f, &regions[at], tolerance(at)) <= tolerance(at))
+        let is_proved = || missed_by_rule(f, &regions[at], tolerance(at)) <= tolerance(at);
+        !is_settled && !is_proved()
     };
     let open: Vec<usize> = (0..regions.len()).filter(is_open).collect();
     let mut all: Vec<_> =
@@ -178,7 +179,8 @@ fn on_part(f: &Sum, region: &Region, faint: f64) -> [f64; 2] {
         return by_form;
     }
     let missed = missed_by_rule(f, region, enough) + 16.0 * f64::EPSILON * size;
-    if !(missed < by_form[1]) {
+    let is_better = missed < by_form[1];
+    if !is_better {
         return by_form;
     }
     let rule = match *region.corners() {

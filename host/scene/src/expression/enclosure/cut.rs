@@ -78,7 +78,8 @@ impl Region {
             corners.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], corner| {
                 [low.min(corner.1), high.max(corner.1)]
             });
-        if !(width <= NARROW * 0.5 * (high - low)) {
+        let is_narrow = width <= NARROW * 0.5 * (high - low);
+        if !is_narrow {
             return None;
         }
         let above = clipped(&corners, width, 1.0);

@@ -48,7 +48,7 @@ pub(super) fn binary(operation: Binary, a: Interval, b: Interval) -> Range {
         }
         Binary::Divide => {
             let zeros = a.holds(0.0) && b.holds(0.0);
-            (a.over(b), !zeros && !(unbounded(a) && unbounded(b)))
+            (a.over(b), !(zeros || unbounded(a) && unbounded(b)))
         }
         Binary::Power if b.low == b.high => power(a, b.low),
         Binary::Power => powers(a, b),

@@ -163,13 +163,13 @@ impl Grows<'_> {
     fn seen(&self, form: Form, affine: Option<[f64; 3]>, growth: Option<Growth>) -> Grown {
         let is_plain = form.is_finite() && !form.range().holds(0.0);
         let plain = || Growth::plain(&form).filter(|_| form.is_finite());
-        let from_zero = || self.from_zero(&form, affine?);
-        let growth = if is_plain { plain() } else { from_zero().or(growth).or_else(plain) };
+        let beside_zero = || self.beside_zero(&form, affine?);
+        let growth = if is_plain { plain() } else { beside_zero().or(growth).or_else(plain) };
         Grown { form, growth, affine }
     }
 
     /// An affine function that is 0 somewhere: its slope times the distance from there.
-    fn from_zero(&self, form: &Form, affine: [f64; 3]) -> Option<Growth> {
+    fn beside_zero(&self, form: &Form, affine: [f64; 3]) -> Option<Growth> {
         let (slope, place) = self.0.zero(affine)?;
         let Interval { low, high } = form.range();
         let sign = if low >= 0.0 {

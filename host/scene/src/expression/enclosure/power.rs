@@ -10,8 +10,8 @@ impl Region {
     pub fn grown(&self, growth: &Growth, k: f64) -> Interval {
         let exponent = k * growth.exponent;
         let power = match growth.place {
-            Some(Place::Point(point)) => self.from_point(point, exponent),
-            Some(Place::Line(normal, offset)) => self.from_line(normal, offset, exponent),
+            Some(Place::Point(point)) => self.around_point(point, exponent),
+            Some(Place::Line(normal, offset)) => self.beside_line(normal, offset, exponent),
             None => Interval::point(self.measure()),
         };
         let slack = 1e-12;
@@ -58,7 +58,7 @@ impl Region {
 
     /// ∫ρᵉ, ρ the distance to a point, as a sum over the triangles between the point and the sides: of each, with the angle θ there and a side
     /// from d to D away, between θ dᵉ⁺²/(e + 2) and θ Dᵉ⁺²/(e + 2).
-    fn from_point(&self, point: [f64; 2], e: f64) -> Interval {
+    fn around_point(&self, point: [f64; 2], e: f64) -> Interval {
         let corners = self.corners();
         if self.shape == Shape::Segment {
             let [a, b] = [corners[0], corners[1]].map(|corner| norm(from(point, corner)));
@@ -93,7 +93,7 @@ impl Region {
     }
 
     /// ∫ρᵉ, ρ the distance to a line: at most the width along it times the integral across.
-    fn from_line(&self, normal: [f64; 2], offset: f64, e: f64) -> Interval {
+    fn beside_line(&self, normal: [f64; 2], offset: f64, e: f64) -> Interval {
         let across = Interval::hull(&self.corners.map(|corner| dot(normal, corner) - offset));
         let along = Interval::hull(&self.corners.map(|corner| cross(normal, corner)));
         if e <= -1.0 {
