@@ -205,7 +205,7 @@ const WRONG_LOGS: &[(&str, &str, &str)] = &[
 /// Data far from 1 are played in other units, and each number of the table comes back in the scene's.
 #[test]
 fn other_units_change_no_digit() {
-    let units = Units { u: 2f64.powi(-60), conductivity: 2f64.powi(-80) };
+    let units = Units { u: 2f64.powi(-60), conductivity: 2f64.powi(-80), zero: 0.0 };
     let moments = [0.0, 0.05].map(|time| ScheduledTick { time, inputs: Vec::new() });
     for (name, scalar) in [
         (MOVING, ScalarKind::F32),

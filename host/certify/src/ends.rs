@@ -7,6 +7,11 @@ use signorini_problem::{Problem, Sum, rounding};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Field;
 
+/// Difference that rounding may leave between two expressions for the same value, relative to the range of all.
+const CONTINUOUS: f64 = 1e-9;
+/// Roundings of the largest number that it may be in any case.
+const ROUNDINGS: f64 = 64.0;
+
 /// Boundary data at the two ends of each edge, in the direction of the edge; the unit is that of u.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ends {
@@ -91,9 +96,22 @@ impl Ends {
     }
 
     /// The largest modulus of all these numbers.
-    pub fn scale(&self) -> f64 {
+    pub fn size(&self) -> f64 {
         let all = self.gap.iter().chain(&self.given).flatten();
         all.fold(0.0, |most: f64, value| most.max(value.abs()))
+    }
+
+    /// max − min of all these numbers: a constant added to them changes nothing.
+    pub fn range(&self) -> f64 {
+        let all = || self.gap.iter().chain(&self.given).flatten().copied();
+        let [low, high] = [f64::min, f64::max].map(|of| all().reduce(of).unwrap_or(0.0));
+        high - low
+    }
+
+    /// What rounding may leave between two expressions for the same value.
+    pub fn slack(&self, problem: &Problem) -> f64 {
+        let rounding = ROUNDINGS * f64::EPSILON * (self.size() + problem.units.level());
+        rounding.max(CONTINUOUS * self.range())
     }
 }
 

@@ -37,13 +37,14 @@ impl NoBound {
         transfer: &[RobinPoints],
     ) -> Option<Self> {
         let rough = || curved.iter().find_map(|edge| Self::rough(problem, edge));
-        let jump = || ends.jump(problem).map(Self::values_differ);
+        let jump = || ends.jump(problem).map(|jump| Self::values_differ(problem, jump));
         let vanishes = || Self::transfer_vanishes(problem, transfer);
         rough().or_else(jump).or_else(vanishes)
     }
 
     /// u_D has two values where two Dirichlet edges meet.
-    fn values_differ((at, [a, b]): ([f64; 2], [f64; 2])) -> Self {
+    fn values_differ(problem: &Problem, (at, values): ([f64; 2], [f64; 2])) -> Self {
+        let [a, b] = values.map(|value| problem.units.value(value));
         Self(format!(
             "the Dirichlet value jumps from {a} to {b} at {}: no function of finite energy has both values",
             place(at)

@@ -19,9 +19,6 @@ use signorini_certify::TermData;
 use signorini_certify::ends::of_moved;
 use signorini_problem::Problem;
 
-/// Difference that rounding may leave between two expressions for the same value, relative to the largest.
-const ROUNDING: f64 = 1e-9;
-
 /// The boundary values of s.
 pub(super) struct Chain {
     /// Contact vertices with their places in e.
@@ -190,7 +187,7 @@ fn common_gap(
 fn excess(patterns: &[TermData], given: &[f64], psi: &[f64]) -> Vec<f64> {
     let difference = |(pattern, (given, psi)): (&TermData, (&f64, &f64))| {
         let excess = given - psi;
-        if excess.abs() > ROUNDING * pattern.ends.scale() { excess } else { 0.0 }
+        if excess.abs() > pattern.ends.slack(&pattern.problem) { excess } else { 0.0 }
     };
     patterns.iter().zip(given.iter().zip(psi)).map(difference).collect()
 }

@@ -54,11 +54,10 @@ pub fn of_outputs(problem: &Problem, solution: &Solution) -> BTreeMap<String, Fo
     let Some((scaled, own)) = solution.in_its_units() else {
         return of_answer(problem, &solution.into());
     };
-    let mut all = of_answer(scaled, &(&own).into());
+    let mut all = of_answer(scaled, &own.into());
     for output in wanted(&problem.scene).iter() {
-        let unit = solution.units.of_output(output.quantity);
         if let Some(Ok(found)) = all.get_mut(&output.name.value) {
-            *found = found.clone().times(unit);
+            *found = found.clone().in_scene(&solution.units, output.quantity);
         }
     }
     all

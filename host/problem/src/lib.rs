@@ -68,6 +68,7 @@ use element_matrices::ElementMatrices;
 use quadrature::DATA_POINTS;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::{Mesh, shape};
+use signorini_scene::scene::units::Units;
 use signorini_scene::scene::{Boundary, Field, Input, Scene};
 use topology::wrong_mesh;
 
@@ -96,6 +97,8 @@ pub struct Problem {
     pub loads: Loads,
     /// The time t of the loads and of the exact solution.
     pub time: f64,
+    /// The units of all its numbers, in those of the scene as it was given.
+    pub units: Units,
     /// Findings that are no errors, but may not be meant: a sentence each.
     pub warnings: Vec<String>,
 }
@@ -134,6 +137,7 @@ impl Problem {
             coefficients: Arc::new(coefficients),
             loads: Loads::default(),
             time: 0.0,
+            units: Units::default(),
             warnings: Vec::new(),
         };
         problem.set_time(0.0)?;

@@ -37,7 +37,7 @@ pub use mixed::{Corrected, Mixed, mixed};
 pub use options::{Options, ScalarKind, SolverKind};
 pub use solution::{Seconds, Solution};
 pub use tuned::{Trials, tuned_omega};
-pub use units::{Scaled, choose as choose_units, choose_for_inputs, times};
+pub use units::{Scaled, choose as choose_units, choose_for_inputs, in_scene, times};
 
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::Edges;
@@ -74,11 +74,11 @@ pub fn solve(problem: &Problem, options: &Options) -> Result<Solution> {
 /// As for [`solve`].
 pub fn solve_from(problem: &Problem, options: &Options, start: &[f64]) -> Result<Solution> {
     let scaled = Scaled::new(problem, choose_units(problem)?)?;
-    let start: Vec<f64> = start.iter().map(|u| u / scaled.units.u).collect();
+    let (units, inverse) = (scaled.units, scaled.units.inverse());
+    let start: Vec<f64> = start.iter().map(|&u| inverse.value(u)).collect();
     let solution = solve_in_its_units(scaled.problem(), options, &start)?;
-    let units = scaled.units;
     let Some(other) = scaled.other() else { return Ok(solution) };
-    Ok(Solution { units, scaled: Some(other), ..times(&units, solution) })
+    Ok(in_scene(&other, &units, solution))
 }
 
 fn solve_in_its_units(problem: &Problem, options: &Options, start: &[f64]) -> Result<Solution> {

@@ -85,6 +85,12 @@ table! {
         "rounding times the condition of the mesh";
     CARRIED: "an affine u carried to a finer mesh, its mean over an edge", 2e-12,
         "a residual of 1e-13 of the range of u, 6, times the condition of a small mesh";
+    ZERO: "figures with a constant added to every datum of u, relative", 1e-9,
+        "the constant is a thousand ranges, of which rounding is 1e-13, times the condition of a small mesh";
+    ZERO_SWEPT: "figures of ticks with a constant added to every datum of u, relative", 1e-6,
+        "sweeps end at a share of the bound, one of them earlier or later";
+    ZERO_NARROW: "figures in f32 with a constant of twenty ranges added to every datum of u, relative", 3e-4,
+        "the data are narrowed with another zero: 6e-8, times the condition of a small mesh";
     TRANSFER: "a wall with a transfer coefficient that an input sets, against its resistances in series", 3e-12,
         "u is affine, and exact in the elements: sweeps end at 4√n ε = 1e-14 of its size 2, times the condition of a small mesh, 100";
     DUVAUT: "a wall above a heater with a limit, against its closed form", 1e-11,

@@ -166,7 +166,7 @@ fn with_flux(parts: &[TermData]) -> Vec<u32> {
 /// Of each part, what f, g and q leave out and, where inputs change ψ or u_D, what rounding does to its
 /// boundary values: the kernel's own allowance knows only their sum, which may be a small difference.
 fn oscillation<R: Scalar>(problem: &Problem, parts: &[TermData], k: Stiffness<R>) -> Vec<R> {
-    let moves = |part: &TermData| part.ends.scale() > 0.0;
+    let moves = |part: &TermData| part.ends.size() > 0.0;
     let varies = parts.iter().skip(1).any(moves);
     let perturbation = |part| if varies { perturbation(problem, part, k) } else { 0.0 };
     parts.iter().map(|part| R::narrow(part.oscillation + perturbation(part))).collect()

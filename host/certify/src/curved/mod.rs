@@ -174,7 +174,7 @@ impl<'d, 's> Extension<'d, 's> {
         let unit = |t| Sample { t, weight: 1.0, w: 0.0, slope: 1.0 };
         let slope = energy.of_extension(self.side, &[unit(0.0), unit(1.0)]);
         let beyond = found + slope * self.panels.beyond.sqrt();
-        if self.mended.is_rounding {
+        if !self.mended.is_counted {
             return Ok(beyond);
         }
         let [w, slope] = self.mended.change;
@@ -224,24 +224,31 @@ impl<'d, 's> Extension<'d, 's> {
 ///
 /// The records are those of a field g in the place of ∇v, and ∫g·τ = w̄ (τ_E + κ∫f) holds for the mended one alone. That of the
 /// samples themselves would be off by a difference of large terms where a value at an end is, by 10⁻¹⁶ say, that of another
-/// branch of the data. What mending changes is added to the bound, by the triangle inequality, unless it is rounding of w.
+/// branch of the data. What mending changes is added to the bound, by the triangle inequality, unless it is rounding of w;
+/// what panels may miss of a kink stays.
 struct Mended {
     /// What is added to w and w′ at all points.
     change: [f64; 2],
-    is_rounding: bool,
+    is_counted: bool,
 }
 
 impl Mended {
     fn new(deviation: &Deviation, panels: &Panels) -> Result<Self> {
-        let (mut mean, mut rise, mut lever) = (0.0, 0.0, 0.0);
+        let (mut mean, mut rise, mut lever, mut energy) = (0.0, 0.0, 0.0, 0.0);
         for [t, weight] in panels.rule() {
             let [w, slope] = deviation.at(t)?;
+            energy += weight * slope * slope;
             mean += weight * w;
             rise += weight * slope;
             lever += weight * t * slope;
         }
         let change: [f64; 2] = [0.5 * rise - lever - mean, -rise];
-        let most = deviation.rounding();
-        Ok(Self { change, is_rounding: change.iter().all(|change| change.abs() <= most) })
+        let is_below = |most: f64| change.iter().all(|change| change.abs() <= most);
+        let is_rounding = is_below(deviation.rounding());
+        // Each panel may miss so much.
+        let is_resolved =
+            !is_rounding && is_below(panels::MISSING * energy.sqrt() * panels.ends.len() as f64);
+        let change = if is_resolved { [0.0; 2] } else { change };
+        Ok(Self { change, is_counted: !is_rounding && !is_resolved })
     }
 }

@@ -31,7 +31,7 @@ const FINEST: u32 = 24;
 /// Most panels: data that are rough everywhere are integrated by as many, and no finer.
 const MOST: usize = 128;
 /// Largest part of a rise that may be missing.
-const MISSING: f64 = 1e-9;
+pub(super) const MISSING: f64 = 1e-9;
 
 /// A subdivision of \[0, 1\] along an edge.
 #[derive(Debug, Clone, PartialEq)]

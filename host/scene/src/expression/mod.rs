@@ -169,6 +169,12 @@ impl Expression {
         Self { program: self.program.times(factor), ..self.clone() }
     }
 
+    /// This less `subtracted`.
+    #[must_use]
+    pub fn minus(&self, subtracted: f64) -> Self {
+        Self { program: self.program.minus(subtracted), ..self.clone() }
+    }
+
     /// Whether no operation of it has a kink, a jump or a pole anywhere: a polynomial, sines, exponentials.
     pub fn is_smooth(&self) -> bool {
         self.program.is_smooth()

@@ -103,6 +103,18 @@ impl Program {
         }
     }
 
+    /// This program less a number, as [`Program::times`] has room for it.
+    pub fn minus(&self, subtracted: f64) -> Self {
+        match self.value() {
+            Some(value) => Self::constant(value - subtracted),
+            None => {
+                let mut steps = self.steps.clone();
+                steps.extend([Step::Constant(subtracted), Step::Binary(Binary::Subtract)]);
+                Self { steps }
+            }
+        }
+    }
+
     /// How often a device calls `function` to run this.
     pub fn calls(&self, function: Elementary) -> usize {
         let calls = |step: &&Step| match step {

@@ -20,6 +20,8 @@ mod tests;
 
 pub use record::{TickInterval, TickRecord};
 
+use std::sync::Arc;
+
 use signorini_device::tick::Limits;
 use signorini_intervals::Lasting;
 use signorini_kernel::Error as KernelError;
@@ -31,7 +33,7 @@ use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_scene::setting::Precision;
-use signorini_solve::{Options, ScalarKind, Solution, choose_units, times};
+use signorini_solve::{Options, ScalarKind, Solution, choose_units, in_scene};
 
 use crate::{Session, coarse, kernel_tick, solves, with_module};
 use intervals::Intervals;
@@ -259,7 +261,10 @@ impl Play<'_> {
         let solution = answer.map_err(|error| error.at_time(problem.time))?;
         let mut tick = TickRecord::of(problem, &solution)?;
         tick.intervals = self.intervals.of(problem, &solution)?;
+        if self.units == Units::default() {
+            return Ok((tick, Some(solution)));
+        }
         tick.rescale(&problem.scene, &self.units);
-        Ok((tick, Some(times(&self.units, solution))))
+        Ok((tick, Some(in_scene(&Arc::new(problem.clone()), &self.units, solution))))
     }
 }

@@ -107,12 +107,14 @@ impl TickRecord {
         times(&mut self.combined, units.energy());
         self.bound = self.bound.map(|bound| bound.times(units.energy()));
         for (output, of) in self.outputs.iter_mut().zip(&scene.outputs) {
-            times(output, units.of_output(of.quantity));
+            *output = output.map(|x| units.output(of.quantity, x)).filter(|x| x.is_finite());
         }
+        // Another zero of u rounds the ends.
+        let rounding = if units.zero == 0.0 { 0.0 } else { f64::EPSILON };
         for (interval, of) in self.intervals.iter_mut().zip(&scene.outputs) {
-            let unit = units.of_output(of.quantity);
             if let Ok(ends) = interval {
-                *ends = ends.map(|end| end * unit);
+                let [least, most] = ends.map(|end| units.output(of.quantity, end));
+                *ends = [least - rounding * least.abs(), most + rounding * most.abs()];
             }
         }
     }
@@ -135,7 +137,7 @@ fn outputs(
     let Solution { scalar, u, flux, outputs, .. } = solution;
     if outputs.is_empty() {
         let (scalar, bound) = (*scalar, bound.map(|bound| bound.total));
-        return declared(problem, Reading { scalar, u, flux, units: Units::default(), bound });
+        return declared(problem, Reading { scalar, u, flux, bound });
     }
     let own = outputs.iter().take(problem.scene.outputs.len());
     Ok(own.map(|&value| finite(value)).collect())

@@ -170,7 +170,9 @@ impl<'a> Trial<'a> {
     }
 
     fn allowed_for(&self, of: &Followed) -> Option<Allowed> {
-        let bound = self.promised.goal.most(of.level.as_ref()?.energy_norm);
+        // Of nothing but rounding no part is promised.
+        let level = of.level.as_ref().filter(|level| !level.is_constant(self.promised.goal))?;
+        let bound = self.promised.goal.most(level.energy_norm);
         Some(Allowed { inputs: of.values.clone(), bound })
     }
 

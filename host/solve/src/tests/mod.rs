@@ -9,6 +9,7 @@ mod meshes;
 mod stops;
 mod stretched;
 mod transfer;
+mod zero;
 
 use signorini_tolerances::solve::AGREEMENT;
 use std::path::{Path, PathBuf};

@@ -87,11 +87,16 @@ const RESOLVED: f64 = 1e-4;
 /// # Errors
 /// A scene that cannot be stated in its own units.
 pub fn measure(case: &RandomCase, attempt: &Attempt) -> Result<Option<Measured>> {
-    let units = choose_units(&attempt.problem)?;
-    let answer = times(&units.inverse(), attempt.answer.clone());
-    let problem = match units == Units::default() {
-        true => attempt.problem.clone(),
-        false => attempt.problem.in_units(&units)?,
+    let (problem, answer) = match attempt.answer.in_its_units() {
+        Some((problem, own)) => (problem.clone(), own.clone()),
+        None => {
+            let units = Units { zero: 0.0, ..choose_units(&attempt.problem)? };
+            let answer = times(&units.inverse(), attempt.answer.clone());
+            match units == Units::default() {
+                true => (attempt.problem.clone(), answer),
+                false => (attempt.problem.in_units(&units)?, answer),
+            }
+        }
     };
     let Some(bound) = answer.bound else { return Ok(None) };
     // An answer without s and τ has nothing to be measured.
@@ -123,7 +128,7 @@ impl Held<'_> {
             number: self.case.number,
             problem: self.problem,
             answer: Answered { certified, bound, scalar },
-            reading: Reading { scalar, u, flux, units: Units::default(), bound: total },
+            reading: Reading { scalar, u, flux, bound: total },
             is_balanced: self.case.effort.way == Way::Condensed,
         }
     }
