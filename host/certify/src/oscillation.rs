@@ -22,7 +22,6 @@ mod tests;
 use std::f64::consts::PI;
 
 use super::cell::Cell;
-use super::profile::NO_SIDES;
 use super::robin::missed;
 use super::stretch::is_even;
 pub use alpha::alpha;
@@ -37,6 +36,7 @@ use signorini_problem::{EdgeKind, Problem, Sum};
 use signorini_scene::error::Result;
 use signorini_scene::expression::enclosure::{Form, Region, Shape};
 use signorini_scene::scene::Field;
+use stretched::Inside;
 
 /// Most parts in search of it: in all, and for each cell that the rule does not resolve.
 const MOST: usize = 20_000;
@@ -58,8 +58,8 @@ pub struct Oscillation {
 /// # Errors
 /// Data that are not finite.
 pub fn oscillation(problem: &Problem) -> Result<Oscillation> {
-    let mut all = of_source(problem)?;
-    let mut through_sides = stretched::through_sides(problem, &all.of_cells, &all.unresolved)?;
+    let (mut all, inside) = of_source(problem)?;
+    let mut through_sides = stretched::through_sides(problem, &all.of_cells, &inside);
     for edge in 0..problem.kinds.len() {
         let (at, _) = problem.topology.first_side(edge);
         let [known, missed] = match problem.kinds[edge] {
@@ -82,14 +82,15 @@ pub fn oscillation(problem: &Problem) -> Result<Oscillation> {
     Ok(all)
 }
 
-/// osc_T of every cell, from what is left of f − f̄.
-fn of_source(problem: &Problem) -> Result<Oscillation> {
+/// osc_T of every cell, from what is left of f − f̄, with the flux inside where the cell is stretched and f is resolved.
+fn of_source(problem: &Problem) -> Result<(Oscillation, Vec<Option<Inside>>)> {
     let f = Sum::source(&problem.scene, problem.time);
     let cells = problem.cells();
     let mut all =
         Oscillation { of_cells: vec![0.0; cells], unresolved: vec![0.0; cells], pole: None };
+    let mut inside = Vec::new();
     if f.is_zero() {
-        return Ok(all);
+        return Ok((all, inside));
     }
     let weights = in_portions(cells, |portion| {
         Ok(portion
@@ -101,16 +102,18 @@ fn of_source(problem: &Problem) -> Result<Oscillation> {
         let root = |square: f64| weights[at] * square.sqrt();
         all.of_cells[at] = root(square.value + square.missed);
         all.unresolved[at] = all.of_cells[at] - root(square.value);
-        if square.missed == 0.0 && !is_even(problem, at) {
-            let closed = stretched::in_cell(problem, at, &f, &NO_SIDES)?;
-            all.of_cells[at] = all.of_cells[at].min(closed);
+        let is_fitted = square.missed == 0.0 && square.value != 0.0 && !is_even(problem, at);
+        let flux = is_fitted.then(|| stretched::in_cell(problem, at, &f));
+        if let Some((balanced, _)) = &flux {
+            all.of_cells[at] = all.of_cells[at].min(*balanced);
         }
+        inside.push(flux.map(|(_, inside)| inside));
         if !square.missed.is_finite() && all.pole.is_none() {
             let found = pole(&f, &enclosed::region(Cell::of(problem, at)), 2.0);
             all.pole = found.map(|(at, is_proved)| (Field::Source, at, is_proved));
         }
     }
-    Ok(all)
+    Ok((all, inside))
 }
 
 /// ‖f − f̄‖² of every cell: by the rule where it is resolved, else on parts where f is enclosed, those first that weigh most.

@@ -103,9 +103,14 @@ impl Topology {
         self.side(self.half_edges[edge][0])
     }
 
+    /// The cells (triangles first) and sides of an inner edge.
+    pub fn sides_of(&self, edge: usize) -> [(usize, usize); 2] {
+        self.half_edges[edge].map(|half| self.side(half))
+    }
+
     /// The cells of an inner edge, triangles first.
     pub fn cells_of(&self, edge: usize) -> [usize; 2] {
-        self.half_edges[edge].map(|half| self.side(half).0)
+        self.sides_of(edge).map(|(at, _)| at)
     }
 
     /// Whether an edge has a cell on one side alone.

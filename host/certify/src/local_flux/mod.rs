@@ -27,11 +27,12 @@ mod triangle;
 use std::f64::consts::PI;
 
 use signorini_kernel::Tensor;
+use signorini_kernel::element::rannacher_turek::place;
 
 use super::cell::Cell;
 use super::conductivity::{inverse, product};
 use super::legendre::{DEGREES, legendre};
-use super::profile::Sides;
+use super::profile::{InRows, Sides};
 use signorini_problem::quadrature::Point;
 
 /// A flux ρ in a cell.
@@ -76,12 +77,40 @@ impl LocalFlux {
                 (square, Divergence::Triangle(k))
             }
             Cell::Quad(corners) => {
-                let given = (points, values);
-                let (square, factors) = quad::fitted(*corners, &metric, rule, given, sides);
+                let factors = quad::of_values(rule, points, values);
+                let (square, factors) = quad::fitted(*corners, &metric, rule, factors, sides);
                 (square, Divergence::Quad(factors))
             }
         };
         Self { norm: square.max(0.0).sqrt(), reach: diameter / PI, divergence }
+    }
+
+    /// ‖A^{−½}ρ‖ with the same divergence on a quad, where `sides` leaves through its sides; infinite on a triangle.
+    pub fn norm_through(
+        &self,
+        cell: &Cell,
+        a: &Tensor<f64>,
+        rule: &[[f64; 2]],
+        sides: &Sides,
+    ) -> f64 {
+        let (Cell::Quad(corners), Divergence::Quad(factors)) = (cell, &self.divergence) else {
+            return f64::INFINITY;
+        };
+        let factors = factors.map(|row| row.map(|[along, across]| along + across));
+        quad::fitted(*corners, &inverse(a), rule, factors, sides).0.max(0.0).sqrt()
+    }
+
+    /// What rows of quads make of it: nothing on a triangle.
+    pub fn in_rows(&self, cell: &Cell, a: &Tensor<f64>) -> Option<InRows> {
+        let (Cell::Quad(corners), Divergence::Quad(factors)) = (cell, &self.divergence) else {
+            return None;
+        };
+        let (here, metric) = (place(*corners, [0.5, 0.5]), inverse(a));
+        let weights = here.directions().map(|v| product(&metric, v, v) / here.determinant);
+        let sum = |i: usize, j: usize| factors[i][j][0] + factors[i][j][1];
+        let along = ([weights[0], weights[1]], std::array::from_fn(|n| sum(0, n)));
+        let across = ([weights[1], weights[0]], std::array::from_fn(|n| sum(n, 0)));
+        Some(InRows([along, across]))
     }
 
     /// ∇·ρ at a point given by its reference coordinates, where the area element is `determinant`.

@@ -39,11 +39,10 @@ pub(super) fn fitted(
     corners: [[f64; 2]; 4],
     metric: &Tensor<f64>,
     rule: &[[f64; 2]],
-    (points, values): (&[Point], &[f64]),
+    mut factors: Factors<f64>,
     sides: &Sides,
 ) -> (f64, Box<Factors<[f64; 2]>>) {
-    let tables: Vec<Table> = rule.iter().map(|[t, _]| (legendre(*t), integrated(*t))).collect();
-    let (mut factors, ends) = (of_values(rule, &tables, points, values), Ends::of(sides));
+    let (tables, ends) = (tables(rule), Ends::of(sides));
     for n in 1..DEGREES {
         factors[0][n] -= ends.rise(0, n);
         factors[n][0] -= ends.rise(1, n);
@@ -93,18 +92,18 @@ fn squares(
     sums
 }
 
+fn tables(rule: &[[f64; 2]]) -> Vec<Table> {
+    rule.iter().map(|[t, _]| (legendre(*t), integrated(*t))).collect()
+}
+
 /// c_ij, but for c_00: the mean, which is 0.
-fn of_values(
-    rule: &[[f64; 2]],
-    tables: &[Table],
-    points: &[Point],
-    values: &[f64],
-) -> Factors<f64> {
+pub(super) fn of_values(rule: &[[f64; 2]], points: &[Point], values: &[f64]) -> Factors<f64> {
+    let tables = tables(rule);
     let mut factors = [[0.0; DEGREES]; DEGREES];
     let rows = points.chunks(rule.len()).zip(values.chunks(rule.len()));
-    for ((points, values), (p_y, _)) in rows.zip(tables) {
+    for ((points, values), (p_y, _)) in rows.zip(&tables) {
         let mut along = [0.0; DEGREES];
-        for ((point, value), (p_x, _)) in points.iter().zip(values).zip(tables) {
+        for ((point, value), (p_x, _)) in points.iter().zip(values).zip(&tables) {
             let share = point.weight * value;
             along.iter_mut().zip(p_x).for_each(|(sum, p)| *sum += share * p);
         }

@@ -3,75 +3,78 @@
 //! What a flux leaves of f − f̄ or g − ḡ is integrated by the rule that has resolved these themselves; what that rule misses of the rest is
 //! bounded by moduli in ellipses around the cell, and added.
 
+use signorini_kernel::Tensor;
+
 use super::rules::{ELLIPSES, PANELS, POINTS, differences};
 use crate::cell::Cell;
 use crate::edge_flux::EdgeFlux;
 use crate::local_flux::LocalFlux;
-use crate::profile::{self, NO_SIDES, Sides, profiles};
-use crate::stretch::{floor, is_even};
+use crate::profile::{self, NO_SIDES};
+use crate::stretch::floor;
 use signorini_problem::quadrature::{enclosed, gauss, on_panels};
 use signorini_problem::{Problem, Sum};
-use signorini_scene::error::Result;
 use signorini_scene::expression::enclosure::Region;
 
-/// osc_T by a flux inside the cell ([`crate::local_flux`]), through whose sides `sides` leaves. In the plane energies are the same in any
-/// unit of length.
-///
-/// # Errors
-/// Data that are not finite.
-pub fn in_cell(problem: &Problem, at: usize, f: &Sum, sides: &Sides) -> Result<f64> {
+/// A flux inside a stretched cell, in a unit of length of its own, and what its divergence leaves.
+#[derive(Debug, Clone)]
+pub struct Inside {
+    cell: Cell,
+    a: Tensor<f64>,
+    flux: LocalFlux,
+    rest: f64,
+}
+
+/// osc_T by a flux inside the cell ([`crate::local_flux`]). In the plane energies are the same in any unit of length.
+pub fn in_cell(problem: &Problem, at: usize, f: &Sum) -> (f64, Inside) {
     let (own, rule) = (Cell::of(problem, at), gauss(POINTS));
     let load = problem.loads.of_cell(at);
     let (unit, all) = differences(&own, f, load);
     let (cell, a) = (own.scaled(1.0 / unit), floor(problem, at, &rule));
     let points = cell.points(&rule);
     let values: Vec<_> = all.iter().map(|(_, value)| unit * value).collect();
-    let flux = LocalFlux::fitted(&cell, &a, &rule, (&points, &values), sides);
+    let flux = LocalFlux::fitted(&cell, &a, &rule, (&points, &values), &NO_SIDES);
     let [mut square, mut rest] = [0.0; 2];
     for (point, value) in points.iter().zip(&values) {
         let determinant = cell.local(point.reference).determinant;
         square += point.weight * value.powi(2);
         rest += point.weight * (value - flux.divergence(point.reference, determinant)).powi(2);
     }
-    let region = enclosed::region(own);
-    let missed = ELLIPSES.into_iter().map(|rho| {
-        let density = region.least_density(rho) * region.measure();
-        let most = f.modulus(&region, rho) + load.abs() / density;
-        let own = unit * unit * most + flux.modulus(rho, density / (unit * unit));
-        let missed = region.missed(POINTS, rho, own * own) / (unit * unit);
-        if density > 0.0 { missed } else { f64::INFINITY }
-    });
-    let is_exact = own.is_affine() && f.degree() < POINTS as f64;
-    let missed = if is_exact { 0.0 } else { missed.fold(f64::INFINITY, f64::min) };
-    let by_flux = flux.norm + flux.reach * (rest + missed).sqrt();
-    let least = if sides == &NO_SIDES {
-        by_flux.min(flux.reach * (square + missed).sqrt())
-    } else {
-        by_flux
-    };
-    f.finite(least.min(f64::MAX), own.corners()[0])
+    let rest = flux.reach * (rest + missed(&own, f, load, &flux, unit)).sqrt();
+    ((flux.norm + rest).min(flux.reach * square.sqrt()), Inside { cell, a, flux, rest })
 }
 
-/// osc_T of all cells, `known` without, where fluxes go through sides as well; nothing where no side has one, or where f is not resolved everywhere: what
-/// passes through a side has to be balanced in both cells.
-///
-/// # Errors
-/// Data that are not finite.
-pub fn through_sides(problem: &Problem, known: &[f64], unresolved: &[f64]) -> Result<Vec<f64>> {
-    let f = Sum::source(&problem.scene, problem.time);
-    if f.is_zero() || unresolved.iter().any(|&missed| missed != 0.0) {
-        return Ok(Vec::new());
+/// What the rule misses of the square of f − f̄ − ∇·ρ, in the cell's own unit.
+fn missed(cell: &Cell, f: &Sum, load: f64, flux: &LocalFlux, unit: f64) -> f64 {
+    if cell.is_affine() && f.degree() < POINTS as f64 {
+        return 0.0;
     }
-    let profiles = profiles(problem, &f);
-    if profiles.is_empty() {
-        return Ok(Vec::new());
-    }
-    let of_cell = |at: usize| {
-        let sides = profile::of_cell(problem, at, &profiles);
-        let is_closed = sides == NO_SIDES || is_even(problem, at);
-        if is_closed { Ok(known[at]) } else { in_cell(problem, at, &f, &sides) }
+    let (region, square) = (enclosed::region(*cell), unit * unit);
+    let within = |rho: f64| {
+        let density = region.least_density(rho) * region.measure();
+        let of_data = f.modulus(&region, rho) + load.abs() / density;
+        let most = square * of_data + flux.modulus(rho, density / square);
+        let missed = region.missed(POINTS, rho, most * most) / square;
+        if density > 0.0 && !missed.is_nan() { missed } else { f64::INFINITY }
     };
-    (0..problem.cells()).map(of_cell).collect()
+    ELLIPSES.into_iter().map(within).fold(f64::INFINITY, f64::min)
+}
+
+/// osc_T of all cells, `known` without, where fluxes go through sides between stretched quads as well; nothing where there are none.
+pub fn through_sides(problem: &Problem, known: &[f64], inside: &[Option<Inside>]) -> Vec<f64> {
+    if inside.iter().all(Option::is_none) {
+        return Vec::new();
+    }
+    let in_rows = |of: &Inside| of.flux.in_rows(&of.cell, &of.a);
+    let quads: Vec<_> = inside.iter().map(|of| of.as_ref().and_then(in_rows)).collect();
+    let (profiles, rule) = (profile::profiles(problem, &quads), gauss(POINTS));
+    let of_cell = |at: usize| match &inside[at] {
+        Some(of) if quads[at].is_some() => {
+            let sides = profile::of_cell(problem, at, &profiles);
+            of.flux.norm_through(&of.cell, &of.a, &rule, &sides) + of.rest
+        }
+        _ => known[at],
+    };
+    (0..inside.len()).map(of_cell).collect()
 }
 
 /// osc_E by a flux inside the cell ([`crate::edge_flux`]); `by_trace` is what ‖g − ḡ‖² costs without one.
