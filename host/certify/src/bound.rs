@@ -67,7 +67,8 @@ pub struct Certified {
 }
 
 impl Certified {
-    /// Certifies the iterate `u`.
+    /// Certifies the iterate `u`, with an s that is better than the average of u_h where that is worth it, unless it is to be
+    /// the average.
     ///
     /// # Errors
     /// Never for data of this problem.
@@ -75,11 +76,14 @@ impl Certified {
         problem: &Problem,
         parts: &Parts,
         assembled: &Assembled<R>,
-        data: &Data<R>,
+        (data, averages): (&Data<R>, bool),
         u: &[R],
     ) -> Result<Self, KernelError> {
         let mut certifier = Certifier::new(problem, parts, assembled)?;
-        let certificate = certifier.certify(parts, assembled, data, u)?;
+        let mut certificate = certifier.certify(parts, assembled, data, u)?;
+        if let Some(found) = certificate.as_mut().filter(|_| !averages) {
+            *found = certifier.relaxed(assembled, data, u, *found)?;
+        }
         let unresolved = data.unresolved();
         let bound =
             certificate.as_ref().map(|found| ErrorBound { unresolved, ..ErrorBound::new(found) });

@@ -31,6 +31,7 @@ pub mod metric;
 mod no_bound;
 pub mod oscillation;
 mod profile;
+mod relaxed;
 pub mod robin;
 pub mod sampled;
 mod stretch;

@@ -151,7 +151,7 @@ fn by_kernel<R: Scalar>(
     start: &[f64],
 ) -> Result<Solution> {
     let unfit = unfit::<R>(&problem.scene);
-    let mut attempt = Attempt::<R>::new(problem, parts)?;
+    let mut attempt = Attempt::<R>::new(problem, parts, options)?;
     attempt.assembled.set_parts(parts);
     let system = attempt.assembled.system().map_err(&unfit)?;
     let diagonal = attempt.assembled.diagonal().map_err(&unfit)?;

@@ -121,7 +121,8 @@ impl<'a> Trial<'a> {
         let drawn = drawn(&spaces, if spaces.is_empty() { 0 } else { DRAWN_IN_ALL });
         let inputs = drawn.filter(|values| !first.contains(values)).take(DRAWN).collect();
         let followed = first.into_iter().map(|values| Followed { values, level: None }).collect();
-        let options = Options { solver: SolverKind::Factor, ..Options::default() };
+        // A controller has the average.
+        let options = Options { solver: SolverKind::Factor, averages: true, ..Options::default() };
         Self { scene, promised, options, inputs, followed, allowed: Vec::new() }
     }
 

@@ -6,6 +6,7 @@ mod hard;
 mod level;
 mod limits;
 mod meshes;
+mod relaxed;
 mod stops;
 mod stretched;
 mod transfer;
