@@ -106,11 +106,14 @@ impl Program {
     /// This program less a number, as [`Program::times`] has room for it.
     pub fn minus(&self, subtracted: f64) -> Self {
         match self.value() {
-            Some(value) => Self::constant(value - subtracted),
+            Some(value) => {
+                let folded = self.folded + f64::EPSILON * value.abs();
+                Self { folded, ..Self::constant(value - subtracted) }
+            }
             None => {
                 let mut steps = self.steps.clone();
                 steps.extend([Step::Constant(subtracted), Step::Binary(Binary::Subtract)]);
-                Self { steps }
+                Self { steps, ..*self }
             }
         }
     }
