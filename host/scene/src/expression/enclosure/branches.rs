@@ -15,13 +15,13 @@ pub(super) struct Branch {
 }
 
 /// Discs with forms beside them.
-pub(super) struct Branches(pub Forms);
+pub(super) struct Branches(pub Forms, pub Discs);
 
 impl Numbers for Branches {
     type Number = Branch;
 
     fn constant(&self, value: f64) -> Branch {
-        Branch { form: self.0.constant(value), disc: Discs.constant(value) }
+        Branch { form: self.0.constant(value), disc: self.1.constant(value) }
     }
 
     fn unary(&self, operation: Unary, a: Branch) -> Branch {
@@ -29,10 +29,10 @@ impl Numbers for Branches {
         let disc = match (operation, a.form.range()) {
             (Unary::Abs, Interval { low, .. }) if low >= 0.0 => a.disc,
             (Unary::Abs, Interval { high, .. }) if high <= 0.0 => {
-                Discs.unary(Unary::Negate, a.disc)
+                self.1.unary(Unary::Negate, a.disc)
             }
-            (Unary::Sign, _) if form.is_constant() => Discs.constant(form.range().low),
-            _ => Discs.unary(operation, a.disc),
+            (Unary::Sign, _) if form.is_constant() => self.1.constant(form.range().low),
+            _ => self.1.unary(operation, a.disc),
         };
         Branch { form, disc }
     }
@@ -51,7 +51,7 @@ impl Numbers for Branches {
         } else if high <= 0.0 {
             b.disc
         } else {
-            Discs.binary(operation, a.disc, b.disc)
+            self.1.binary(operation, a.disc, b.disc)
         };
         Branch { form, disc }
     }

@@ -12,18 +12,52 @@ use super::super::operation::{Binary, Unary};
 use super::super::program::Numbers;
 use super::function::ULP;
 
-/// All complex numbers within `radius` of a real one; all of them where it is infinite.
+/// All complex numbers within `radius` of a real one; all of them where it is infinite. What is linear in the reference coordinates is
+/// kept beside: along a thin cell that lies aslant, x and y vary by much, and their combination across it by little.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Disc {
     pub centre: f64,
     pub radius: f64,
+    /// Factors of ξ, η and ξη.
+    along: [f64; 3],
+    /// The radius beside these.
+    rest: f64,
 }
 
 impl Disc {
     pub fn new(centre: f64, radius: f64) -> Self {
         let radius = radius + 16.0 * ULP * (centre.abs() + radius);
         let is_known = centre.is_finite() && radius.is_finite();
-        if is_known { Self { centre, radius } } else { Self { centre: 0.0, radius: f64::INFINITY } }
+        let (centre, radius) = if is_known { (centre, radius) } else { (0.0, f64::INFINITY) };
+        Self { centre, radius, along: [0.0; 3], rest: radius }
+    }
+
+    /// The numbers c + uξ + vη + wξη, where one of ξ and η is real and the other one in the disc of radius `reach`.
+    pub fn linear(centre: f64, along: [f64; 3], reach: f64) -> Self {
+        Self { along, rest: 0.0, ..Self::new(centre, 0.0) }.bounded(reach)
+    }
+
+    /// With rounding of its parts, and the radius that follows from them where it is the smaller one.
+    fn bounded(self, reach: f64) -> Self {
+        let [u, v, w] = self.along.map(f64::abs);
+        let slack = 16.0 * ULP * (self.centre.abs() + reach * (u + v + w));
+        let rest = self.rest + slack;
+        let radius = (v + reach * (u + w)).max(u + reach * (v + w)) * (1.0 + 8.0 * ULP) + rest;
+        match radius.is_finite() && self.centre.is_finite() {
+            true => Self { rest, radius, ..self },
+            false => Self::unknown(),
+        }
+    }
+
+    /// a·self + b·other
+    fn combined(self, a: f64, other: Self, b: f64, reach: f64) -> Self {
+        let along = [0, 1, 2].map(|k| a * self.along[k] + b * other.along[k]);
+        let rest = (a * self.rest).abs() + (b * other.rest).abs();
+        // What cancels in the sum was rounded before.
+        let sizes = a.abs() * self.modulus() + b.abs() * other.modulus();
+        let rest = rest + 16.0 * ULP * sizes;
+        let centre = a * self.centre + b * other.centre;
+        Self { along, rest, ..Self::new(centre, rest) }.bounded(reach)
     }
 
     /// The largest modulus.
@@ -71,14 +105,14 @@ impl Disc {
     }
 }
 
-/// Discs.
-pub(super) struct Discs;
+/// Discs, the reference coordinate that is complex being within this number of the middle.
+pub(super) struct Discs(pub f64);
 
 impl Numbers for Discs {
     type Number = Disc;
 
     fn constant(&self, value: f64) -> Disc {
-        Disc { centre: value, radius: 0.0 }
+        Disc { centre: value, radius: 0.0, along: [0.0; 3], rest: 0.0 }
     }
 
     fn unary(&self, operation: Unary, a: Disc) -> Disc {
@@ -87,7 +121,7 @@ impl Numbers for Discs {
         // The least product of distances from the poles or branch points ±1, ±i.
         let off = |at: f64| ((c - at).abs() - r) * ((c + at).abs() - r);
         match operation {
-            Unary::Negate => Disc::new(-c, r),
+            Unary::Negate => a.combined(-1.0, self.constant(0.0), 0.0, self.0),
             // |sin z − sin c| = 2|sin ½(z − c) cos ½(z + c)|
             Unary::Sin | Unary::Cos => Disc::new(value, 2.0 * (0.5 * r).sinh() * (0.5 * r).cosh()),
             Unary::Tan => {
@@ -120,11 +154,13 @@ impl Numbers for Discs {
     fn binary(&self, operation: Binary, a: Disc, b: Disc) -> Disc {
         let is_apart = (a.centre - b.centre).abs() > a.radius + b.radius;
         match operation {
-            Binary::Add => Disc::new(a.centre + b.centre, a.radius + b.radius),
-            Binary::Subtract => Disc::new(a.centre - b.centre, a.radius + b.radius),
+            Binary::Add => a.combined(1.0, b, 1.0, self.0),
+            Binary::Subtract => a.combined(1.0, b, -1.0, self.0),
+            Binary::Multiply if b.radius == 0.0 => a.combined(b.centre, b, 0.0, self.0),
+            Binary::Multiply if a.radius == 0.0 => b.combined(a.centre, a, 0.0, self.0),
             Binary::Multiply => a.times(b),
             Binary::Divide if b.radius == 0.0 && b.centre != 0.0 => {
-                Disc::new(a.centre / b.centre, a.radius / b.centre.abs())
+                a.combined(1.0 / b.centre, b, 0.0, self.0)
             }
             Binary::Divide => a.times(b.power(-1.0)),
             Binary::Power if b.radius == 0.0 && (b.centre.fract() == 0.0 || a.centre > 0.0) => {

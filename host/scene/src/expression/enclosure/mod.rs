@@ -37,6 +37,7 @@ pub use growth::{Growth, Place};
 pub use interval::Interval;
 pub use polynomial::Shape;
 pub use region::Region;
+use region::reach;
 
 use super::Expression;
 use super::program::Numbers;
@@ -69,9 +70,10 @@ impl Expression {
     pub fn modulus(&self, region: &Region, rho: f64, t: f64) -> f64 {
         let [x, y] = region.neighbourhood(rho);
         if self.is_smooth() {
-            return self.program.run(&Discs, [x, y, Discs.constant(t)]).modulus();
+            let discs = Discs(reach(rho));
+            return self.program.run(&discs, [x, y, discs.constant(t)]).modulus();
         }
-        let branches = Branches(Forms(region.shape()));
+        let branches = Branches(Forms(region.shape()), Discs(reach(rho)));
         let [of_x, of_y] = region.coordinates();
         let at =
             [Branch { form: of_x, disc: x }, Branch { form: of_y, disc: y }, branches.constant(t)];

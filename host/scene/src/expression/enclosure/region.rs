@@ -130,19 +130,11 @@ impl Region {
     /// Discs around x and y where one reference coordinate of the rule of Gauss points is complex, in the ellipse of ρ. A triangle
     /// is the quad whose last corners are one.
     pub(super) fn neighbourhood(&self, rho: f64) -> [Disc; 2] {
-        let reach = reach(rho);
-        [0, 1].map(|k| {
-            let [u, v, w] = self.along.map(|along| along[k].abs());
-            let coordinates = self.corners.map(|corner| corner[k]);
-            let [low, high] =
-                [f64::min, f64::max].map(|of| coordinates.into_iter().fold(coordinates[0], of));
-            match self.shape {
-                Shape::Triangle => {
-                    Disc::new(0.5 * (low + high), 0.5 * (1.0 + reach) * (high - low))
-                }
-                _ => Disc::new(self.centre[k], (v + reach * (u + w)).max(u + reach * (v + w))),
-            }
-        })
+        let quad = match self.shape {
+            Shape::Triangle => Self::quad(self.corners),
+            Shape::Segment | Shape::Quad => *self,
+        };
+        [0, 1].map(|k| Disc::linear(quad.centre[k], quad.along.map(|of| of[k]), reach(rho)))
     }
 
     /// What a rule of n Gauss points in each direction misses at most of an integral over the region, of a function with this modulus in
@@ -251,7 +243,7 @@ impl Region {
 }
 
 /// Semi-axis of the ellipse of ρ, which lies in the disc of that radius.
-fn reach(rho: f64) -> f64 {
+pub(super) fn reach(rho: f64) -> f64 {
     0.5 * (rho + 1.0 / rho)
 }
 

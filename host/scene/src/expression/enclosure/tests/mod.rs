@@ -7,9 +7,9 @@ mod rules;
 
 use super::super::operation::{Binary, Unary};
 use super::super::program::Numbers;
+use super::Interval;
 use super::form::Form;
 use super::numbers::Forms;
-use super::{Interval, Region};
 use random::Random;
 
 const TREES: usize = 10_000;
