@@ -4,7 +4,7 @@
 const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
 const PRIME: u64 = 0x0000_0100_0000_01b3;
 
-/// What bytes add to.
+/// A sum that bytes are added to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Fingerprint(pub u64);
 
@@ -22,7 +22,7 @@ impl Fingerprint {
         }
     }
 
-    /// That of these bytes alone.
+    /// The fingerprint of these bytes alone.
     pub fn of(bytes: &[u8]) -> Self {
         let mut all = Self::default();
         all.take(bytes);

@@ -1,4 +1,4 @@
-//! What inputs leave of the ranges of fluxes, as the target has it: in a condensed model as in a full one.
+//! Room that inputs leave in the ranges of fluxes, as the target has it: in a condensed model as in a full one.
 
 use signorini_kernel::flux_range;
 use signorini_problem::scalar::Scalar;

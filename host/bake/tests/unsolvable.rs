@@ -69,7 +69,7 @@ fn end(error: Option<Error>) -> End {
     }
 }
 
-/// What the host says of the problem with these inputs.
+/// The host's verdict on the problem with these inputs.
 fn of_host(problem: &Problem, inputs: &[f64]) -> Result<End> {
     Ok(end(Parts::examine(&problem.with_inputs(inputs)?)
         .err()

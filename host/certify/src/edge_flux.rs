@@ -65,7 +65,7 @@ impl EdgeFlux {
         [(before + sum(integrated(own))) / count as f64, sum(legendre(own))]
     }
 
-    /// What |w′|/|E| is at most where t is complex and in the ellipse of `rho` around a part: there |P_n| ≤ rhoⁿ.
+    /// The largest |w′|/|E| where t is complex and in the ellipse of `rho` around a part: there |P_n| ≤ rhoⁿ.
     pub fn modulus(&self, rho: f64) -> f64 {
         let of_part = |part: &[f64; DEGREES]| -> f64 {
             part.iter().enumerate().map(|(n, factor)| factor.abs() * rho.powi(n as i32)).sum()

@@ -108,7 +108,7 @@ impl Ends {
         high - low
     }
 
-    /// What rounding may leave between two expressions for the same value.
+    /// The difference that rounding may leave between two expressions for one value.
     pub fn slack(&self, problem: &Problem) -> f64 {
         let rounding = ROUNDINGS * f64::EPSILON * (self.size() + problem.units.level());
         rounding.max(CONTINUOUS * self.range())

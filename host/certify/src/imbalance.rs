@@ -1,4 +1,4 @@
-//! What is missed of the integrals of f, g and q: it has no zero mean, and leaves along cells through a side that can take it.
+//! The part that is missed of the integrals of f, g and q: it has no zero mean, and leaves along cells through a side that can take it.
 //!
 //! With δ_T missed in cell T, τ + θ is admissible for the data themselves, where ∇·θ = −δ_T/|T| and θ flows along the forest of cells to an
 //! edge of D or R. ‖A^{−½}θ‖ ≤ stability Σ|δ_T| moves the gap once, and what the bound is about, τ, once more. Of an edge, the
@@ -13,7 +13,7 @@ use super::no_bound::NoBound;
 /// Part of the loads up to which contact alone takes what is missed, as it takes what rounding leaves.
 const ROUNDING: f64 = 1e-9;
 
-/// What is missed of the loads adds so much to the oscillation.
+/// The share of the oscillation that comes from what is missed of the loads.
 ///
 /// # Errors
 /// More is missed than rounding would where contact alone holds a part, or nothing does.

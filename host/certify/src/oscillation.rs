@@ -42,7 +42,7 @@ use stretched::Inside;
 const MOST: usize = 20_000;
 const EACH: usize = 4;
 
-/// What the means of f, g, q and u_ext leave out.
+/// The parts of f, g, q and u_ext that their means leave out.
 #[derive(Debug, Clone, Default)]
 pub struct Oscillation {
     /// osc_T + Σ osc_E over the sides of each cell, triangles first, in the unit of ‖A^½∇u‖. That of the whole is the root of the sum of the squares.
@@ -53,7 +53,7 @@ pub struct Oscillation {
     pub pole: Option<(Field, [f64; 2], bool)>,
 }
 
-/// That of the data of `problem` at its time.
+/// The oscillation of the data of `problem` at its time.
 ///
 /// # Errors
 /// Data that are not finite.

@@ -90,7 +90,7 @@ pub fn condensed_terms(problem: &Problem) -> Result<Vec<TermData>> {
     (0..=problem.scene.inputs.len()).map(term).collect()
 }
 
-/// What inputs leave of the ranges of contact fluxes, from all terms of a model.
+/// Room that inputs leave in the ranges of contact fluxes, from all terms of a model.
 pub fn rooms_of(problem: &Problem, terms: &[TermData]) -> Vec<Room> {
     if problem.scene.limit_input().is_none() {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! What the fluxes of a part that contact alone holds have to balance, pattern by pattern.
+//! Loads that the fluxes of a part which contact alone holds have to balance, pattern by pattern.
 //!
 //! ```text
 //!   Σ_e b_e(p) = Σ_j p_j Σ_e b_ej        b_ej the load of pattern j on edge e of the part, from its cells and its boundary

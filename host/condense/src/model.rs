@@ -39,9 +39,9 @@ pub struct CondensedModel {
     pub energy_unit: f64,
     /// The unknowns of each part that nothing else holds: Ŝ is singular there.
     pub held_by_contact: Vec<Vec<usize>>,
-    /// What inputs leave of the ranges of fluxes.
+    /// Room that inputs leave in the ranges of fluxes.
     pub rooms: Vec<Room>,
-    /// What the fluxes of each such part have to balance.
+    /// Loads that the fluxes of each such part have to balance.
     pub balances: Vec<Balance>,
 }
 

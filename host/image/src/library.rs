@@ -74,7 +74,7 @@ pub const EXPORTS: [&str; 13] = [
     "most_inputs",
 ];
 
-/// What the names of one bake end with: the scene's hash, and one of the module's text, which has the model and its numbers.
+/// The end of all names of one bake: the scene's hash, and one of the module's text, which has the model and its numbers.
 pub fn mark(module: &str) -> String {
     let scene = module.split("SCENE_HASH: u64 = 0x").nth(1).unwrap_or_default();
     let scene: String = scene.chars().take_while(char::is_ascii_hexdigit).collect();

@@ -37,9 +37,9 @@ struct Meeting {
 /// A difference of data at a vertex that must not be positive: Σ factor · (1, inputs).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Exclusion {
-    /// What one edge asks from below, less what the other asks from above, as factors of the constant 1 and of the inputs.
+    /// Factors of what one edge asks from below, less what the other asks from above: of the constant 1 and of the inputs.
     pub factors: Vec<f64>,
-    /// What rounding explains of it.
+    /// The part of it that rounding explains.
     pub slack: f64,
     /// The vertex.
     pub vertex: u32,
@@ -69,7 +69,7 @@ pub(super) fn check_within_ranges(problem: &Problem) -> Result<()> {
 }
 
 impl Problem {
-    /// What a tick has to look at: differences that inputs without a range can make positive.
+    /// Differences for a tick to look at: those that inputs without a range can make positive.
     pub fn exclusions(&self) -> Vec<Exclusion> {
         let is_open = |factors: &[f64]| {
             let inputs = self.scene.inputs.iter().zip(&factors[1..]);
@@ -105,7 +105,7 @@ impl Problem {
         moved
     }
 
-    /// What an edge asks of u: not to be below its datum, not to be above it.
+    /// Bounds that an edge sets to u: not to be below its datum, not to be above it.
     pub fn asks(&self, edge: usize) -> [bool; 2] {
         match self.kinds[edge] {
             EdgeKind::Dirichlet => [true; 2],
@@ -182,7 +182,7 @@ impl Meeting {
         Some([of(self.below)?, of(self.above)?])
     }
 
-    /// What rounding explains of the difference.
+    /// The part of the difference that rounding explains.
     fn slack(&self, problem: &Problem, range: f64) -> f64 {
         rounding::slack(problem, range, [self.below, self.above], self.vertex)
     }

@@ -38,7 +38,7 @@ pub struct Loads<R = f64> {
     pub gap: Vec<R>,
     /// Mean of u_D on each Dirichlet edge.
     pub dirichlet: Vec<R>,
-    /// What may be missed of ∫f, ∫g, ∫q and their limits in all: out of balance, and seen by no mean.
+    /// The most that is missed of ∫f, ∫g, ∫q and their limits in all: out of balance, and seen by no mean.
     pub missed: f64,
 }
 

@@ -1,4 +1,4 @@
-//! What inputs leave of the ranges of contact fluxes: hi − lo as forms of the inputs, the same ones for every model of a scene.
+//! Room that inputs leave in the ranges of contact fluxes: hi − lo as forms of the inputs, the same ones for every model of a scene.
 
 use signorini_kernel::flux_range;
 

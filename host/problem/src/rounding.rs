@@ -1,4 +1,4 @@
-//! What rounding explains of a difference between data of u, so that one rule tells a jump from rounding everywhere.
+//! The part of a difference between data of u that rounding explains, so that one rule tells a jump from rounding everywhere.
 //!
 //! Two expressions for one value differ by the rounding of their operations and constants, and since they are evaluated where a
 //! mesh generator has put a vertex: Gmsh writes 1.999999999998744 for the end of a curve at 2. Each carries how far it may be off
@@ -25,7 +25,7 @@ pub fn slack(problem: &Problem, range: f64, edges: [usize; 2], vertex: u32) -> f
     explained.max(TYPED * range)
 }
 
-/// What an edge says of u: u_D, or the gap.
+/// The datum of an edge: u_D, or the gap.
 pub(super) fn datum(problem: &Problem, edge: usize) -> Option<Sum<'_>> {
     Sum::on_edge(problem, edge, field_of(problem.kinds[edge]), problem.time)
 }

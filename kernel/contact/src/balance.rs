@@ -21,7 +21,7 @@ pub struct Balance<'a, R> {
     pub least: &'a [R],
     /// Σ b with all of them at their greatest; empty where one has no end there.
     pub greatest: &'a [R],
-    /// What rounding may be of either sum, for a unit of each input.
+    /// The rounding of either sum, for a unit of each input.
     pub slack: &'a [R],
 }
 

@@ -15,7 +15,7 @@ const TOOLCHAIN: &str = include_str!("../../../c/example/toolchain.cmake");
 const BOARD_HOST: &str = include_str!("../../../c/example/board_host.c");
 const CMAKE_HOST: &str = include_str!("../../../c/example/host.cmake");
 
-/// What the example's board has where, by the tokens of its files: memories, timer and watchdog of CMSDK, and megahertz.
+/// Places on the example's board, by the tokens of its files: memories, timer and watchdog of CMSDK, and megahertz.
 const MPS2: [(&str, &str); 7] = [
     ("@flash@", "0x00000000"),
     ("@retained-ram@", "0x20000000"),
@@ -26,7 +26,7 @@ const MPS2: [(&str, &str); 7] = [
     ("@megahertz@", "25"),
 ];
 
-/// The same of the mps2-an505, by the addresses of its secure state.
+/// Places on the mps2-an505, by the addresses of its secure state.
 const AN505: [(&str, &str); 7] = [
     ("@flash@", "0x10000000"),
     ("@retained-ram@", "0x38000000"),

@@ -155,7 +155,7 @@ impl Header<'_> {
         )
     }
 
-    /// What makes a header and the library of another bake two that do not link.
+    /// Definitions by which a header and the library of another bake do not link.
     fn marks(&self) -> String {
         let mark = &self.library.mark;
         let define =

@@ -79,7 +79,7 @@ mod tests {
         stdarg stdatomic stdbit stdbool stdckdint stddef stdint stdio stdlib stdnoreturn string tgmath \
         threads time uchar wchar wctype unistd sys/types sys/stat";
 
-    /// What `compiler` says of a text; nothing where there is no such compiler.
+    /// Words of `compiler` on a text; nothing where there is no such compiler.
     fn said(compiler: &str, words: &[&str], text: &str) -> Option<String> {
         let mut command = Command::new(compiler);
         command.args(words).arg("-").stdin(Stdio::piped()).stdout(Stdio::piped());

@@ -32,7 +32,7 @@ pub struct Origin {
     pub modes: Option<ModalModel>,
     /// What is proved of those for all values of the coefficient.
     pub followed: Option<FollowedRanges>,
-    /// What inputs without a range have to meet.
+    /// Conditions that inputs without a range have to meet.
     pub exclusions: Vec<Exclusion>,
 }
 

@@ -5,9 +5,7 @@ use signorini_contact::certificate::Corner;
 use signorini_contact::dense::blocks::{Block, SIDE, padded};
 use signorini_contact::dense::rule::{Phases, Rule as _};
 use signorini_contact::method::Sweeps;
-use signorini_contact::outputs::Output;
-use signorini_contact::sides;
-use signorini_contact::spans::SpanColumns;
+use signorini_contact::{outputs::Output, sides, spans::SpanColumns};
 use signorini_kernel::{Error, error::Array};
 
 use super::balance::Balance;
@@ -72,7 +70,7 @@ pub struct Baked<R: Scalar> {
     pub(super) limits: Vec<[R; 2]>,
     /// By columns: one where no input changes a span, else one for each input; empty where no flux has a limit.
     pub(super) spans: Vec<R>,
-    /// What inputs leave of spans that they change.
+    /// Room that inputs leave in spans that they change.
     pub(super) rooms: Vec<Room<R>>,
     /// Of parts that contact alone holds.
     pub(super) parts: Vec<Balance<R>>,
@@ -265,19 +263,17 @@ impl<R: Scalar> Baked<R> {
             .collect();
         let rooms: Vec<_> = self.rooms.iter().map(Room::view).collect();
         let parts: Vec<_> = self.parts.iter().map(Balance::view).collect();
-        let certificate = self.bound.as_ref().ok().map(|bound| bound.form(&corners));
-        let Self { contact, matrix, load, limits, spans, .. } = self;
         then(&Condensed {
-            contact: *contact,
-            matrix,
+            contact: self.contact,
+            matrix: &self.matrix,
             x: &self.start.x,
             start: self.start.view(),
-            load,
-            limits,
-            spans: SpanColumns::new(spans).within(&rooms),
+            load: &self.load,
+            limits: &self.limits,
+            spans: SpanColumns::new(&self.spans).within(&rooms),
             parts: &parts,
             outputs: &outputs,
-            certificate,
+            certificate: self.bound.as_ref().ok().map(|bound| bound.form(&corners)),
             has_bound: self.has_bound,
         })
     }

@@ -1,4 +1,4 @@
-//! What the fluxes of a part that contact alone holds have to balance, as the target has it.
+//! Loads that the fluxes of a part which contact alone holds have to balance, as the target has it.
 //!
 //! Only the signs of sums matter: all numbers of a part are in the unit of its largest, so that any scalar holds them.
 

@@ -227,7 +227,7 @@ impl<'d, 's> Extension<'d, 's> {
 /// branch of the data. What mending changes is added to the bound, by the triangle inequality, unless it is rounding of w;
 /// what panels may miss of a kink stays.
 struct Mended {
-    /// What is added to w and w′ at all points.
+    /// Corrections of w and w′ at all points.
     change: [f64; 2],
     is_counted: bool,
 }

@@ -211,7 +211,7 @@ impl Rise<'_, '_> {
         Ok(())
     }
 
-    /// What rounding explains of the rise on a panel.
+    /// The part of the rise on a panel that rounding explains.
     fn explained(&self, [a, b]: [f64; 2]) -> f64 {
         self.deviation.rounding_at(a) + self.deviation.rounding_at(b)
     }

@@ -130,7 +130,7 @@ impl LocalFlux {
         }
     }
 
-    /// What |∇·ρ| is at most where one reference coordinate is complex and in the ellipse of `rho`, at least 2, around the cell: there
+    /// The largest |∇·ρ| where one reference coordinate is complex and in the ellipse of `rho`, at least 2, around the cell: there
     /// |P_n| ≤ rhoⁿ, and |λ| ≤ rho. The area element is at least `determinant` there.
     pub fn modulus(&self, rho: f64, determinant: f64) -> f64 {
         match &self.divergence {

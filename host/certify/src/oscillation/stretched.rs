@@ -43,7 +43,7 @@ pub fn in_cell(problem: &Problem, at: usize, f: &Sum) -> (f64, Inside) {
     ((flux.norm + rest).min(flux.reach * square.sqrt()), Inside { cell, a, flux, rest })
 }
 
-/// What the rule misses of the square of f − f̄ − ∇·ρ, in the cell's own unit.
+/// The part of the square of f − f̄ − ∇·ρ that the rule misses, in the cell's own unit.
 fn missed(cell: &Cell, f: &Sum, load: f64, flux: &LocalFlux, unit: f64) -> f64 {
     if cell.is_affine() && f.degree() < POINTS as f64 {
         return 0.0;

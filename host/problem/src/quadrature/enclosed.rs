@@ -105,7 +105,7 @@ fn is_exact(region: &Region, degree: f64) -> bool {
     degree <= if region.shape() == Shape::Segment { 2.0 * n - 1.0 } else { 2.0 * n - 2.0 }
 }
 
-/// What the rule misses over a region at most, by the best ellipse; the search ends below `enough`.
+/// The most that the rule misses over a region, by the best ellipse; the search ends below `enough`.
 fn missed_by_rule(f: &Sum, region: &Region, enough: f64) -> f64 {
     let n = points(region.corners().len());
     let mut best = f64::INFINITY;

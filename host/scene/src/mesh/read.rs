@@ -13,7 +13,7 @@ use crate::error::{InputError, Result};
 /// The largest file that is read: 2 GiB.
 const SIZE_LIMIT: u64 = 1 << 31;
 
-/// What some editors put before a text in UTF-8.
+/// The mark that some editors put before a text in UTF-8.
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// A format that is read.

@@ -11,11 +11,11 @@ use signorini_scene::error::Result;
 pub enum Term {
     /// A∇s and τ differ.
     Gap,
-    /// What means of the data leave out.
+    /// The part that means of the data leave out.
     Oscillation,
-    /// What rounding may hide.
+    /// The part that rounding may hide.
     Rounding,
-    /// What more iterations would remove.
+    /// The part that more iterations would remove.
     Algebraic,
 }
 
@@ -30,7 +30,7 @@ impl Term {
         }
     }
 
-    /// What lowers it.
+    /// The advice that lowers it.
     fn remedy(self, scalar: ScalarKind) -> &'static str {
         match (self, scalar) {
             (Self::Gap | Self::Oscillation, _) => {

@@ -26,7 +26,7 @@ pub struct Base<'a, R, I> {
     pub contact_flux: &'a [R],
     /// The ranges of the fluxes on contact edges, whose bases `contact_flux` holds then.
     pub spans: Spans<'a, R>,
-    /// What inputs leave of ranges that they change.
+    /// Room that inputs leave in ranges that they change.
     pub rooms: &'a [Room<'a, R>],
     /// Means of ψ, one a contact edge.
     pub gap: &'a [R],

@@ -35,7 +35,7 @@ fn compiled(header: &str) -> Result<(), String> {
     compiled_by("cc", "-std=c99", header)
 }
 
-/// What a compiler of the desk says of a text.
+/// Words of a compiler of the desk on a text.
 fn compiled_by(compiler: &str, age: &str, text: &str) -> Result<(), String> {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("main"), text).expect("a file");

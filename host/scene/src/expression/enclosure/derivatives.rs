@@ -16,7 +16,7 @@ fn to(a: Interval, p: f64) -> Interval {
     power(a, p).0
 }
 
-/// Those of `operation` over `a`; `None` where it is none with derivatives, or is resolved otherwise.
+/// Taylor coefficients of `operation` over `a`; `None` where it is none with derivatives, or is resolved otherwise.
 pub(super) fn series(operation: Unary, a: Interval) -> Option<Series> {
     let of = |operation| unary(operation, a).0;
     let series = match operation {

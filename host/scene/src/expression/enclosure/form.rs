@@ -12,7 +12,7 @@ pub struct Form {
     shape: Shape,
     /// Coefficients of p: 1, ξ, η, ξ², ξη, η². No monomial is larger than 1.
     pub coefficients: Polynomial,
-    /// What the function differs from p by.
+    /// The difference between the function and p.
     pub remainder: Interval,
     range: Interval,
     is_defined: bool,
@@ -57,7 +57,7 @@ impl Form {
         Self { shape, coefficients, remainder, range, is_defined, is_analytic }
     }
 
-    /// What its reference coordinates run through.
+    /// The shape that its reference coordinates run through.
     pub fn shape(&self) -> Shape {
         self.shape
     }
@@ -94,7 +94,7 @@ impl Form {
         self.is_analytic
     }
 
-    /// What p(ξ, η) + `remainder` is at reference coordinates.
+    /// The values of p(ξ, η) + `remainder` at reference coordinates.
     pub fn at(&self, reference: [f64; 2]) -> Interval {
         let value = Interval::point(polynomial::value(&self.coefficients, reference));
         let slack = 4.0 * ULP * polynomial::size(&self.coefficients);

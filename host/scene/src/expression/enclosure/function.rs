@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Twice what rounding to the nearest does to 1.
 pub(super) const ULP: f64 = f64::EPSILON;
-/// What libm is wrong by at most, and a unit more.
+/// The largest error of libm, and a unit more.
 const LIBM: f64 = 4.0;
 /// Beyond it the period of sines is not resolved.
 const LARGE: f64 = 1e12;
@@ -14,7 +14,7 @@ const LARGE: f64 = 1e12;
 /// A range, and whether every operand in the intervals has a value that is a number.
 pub(super) type Range = (Interval, bool);
 
-/// What `operation` makes of `a`.
+/// The values of `operation` on `a`.
 pub(super) fn unary(operation: Unary, a: Interval) -> Range {
     let whole = |range: Interval| (range, a.is_finite());
     match operation {
@@ -36,7 +36,7 @@ pub(super) fn unary(operation: Unary, a: Interval) -> Range {
     }
 }
 
-/// What `operation` makes of `a` and `b`.
+/// The values of `operation` on `a` and `b`.
 pub(super) fn binary(operation: Binary, a: Interval, b: Interval) -> Range {
     let unbounded = |a: Interval| !a.is_finite();
     match operation {

@@ -48,7 +48,7 @@ impl Interval {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
-    /// What both hold; this one where rounding or an empty domain has left nothing.
+    /// The numbers that both hold; this one where rounding or an empty domain has left nothing.
     pub fn meet(self, other: Self) -> Self {
         let (low, high) = (self.low.max(other.low), self.high.min(other.high));
         if low <= high { Self { low, high } } else { self }
@@ -85,7 +85,7 @@ impl Interval {
         if middle.is_finite() { middle.clamp(self.low, self.high) } else { 0.0 }
     }
 
-    /// What is within `by` of it.
+    /// The numbers within `by` of it.
     pub fn widened(self, by: f64) -> Self {
         if by == 0.0 { self } else { self + Self::around(by) }
     }

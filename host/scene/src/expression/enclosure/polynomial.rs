@@ -12,7 +12,7 @@ use super::interval::Interval;
 /// Coefficients of 1, ξ, η, ξ², ξη, η².
 pub(super) type Polynomial = [f64; 6];
 
-/// What reference coordinates run through.
+/// Shapes that reference coordinates run through.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
     /// ξ alone.
@@ -37,7 +37,7 @@ pub(super) fn size(p: &Polynomial) -> f64 {
     p.iter().map(|p| p.abs()).sum()
 }
 
-/// What holds all values on a shape, rounding included.
+/// An interval that holds all values on a shape, rounding included.
 pub(super) fn range(shape: Shape, p: &Polynomial) -> Interval {
     let [least, most] = match shape {
         Shape::Triangle => of_triangle(p),

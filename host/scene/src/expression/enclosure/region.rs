@@ -57,7 +57,7 @@ impl Region {
         Self { shape: Shape::Quad, corners, centre: middle(middle(a, c), middle(b, d)), along }
     }
 
-    /// What its reference coordinates run through.
+    /// The shape that its reference coordinates run through.
     pub fn shape(&self) -> Shape {
         self.shape
     }
@@ -137,7 +137,7 @@ impl Region {
         [0, 1].map(|k| Disc::linear(quad.centre[k], quad.along.map(|of| of[k]), reach(rho)))
     }
 
-    /// What a rule of n Gauss points in each direction misses at most of an integral over the region, of a function with this modulus in
+    /// The most that a rule of n Gauss points in each direction misses of an integral over the region, of a function with this modulus in
     /// the ellipse of ρ ([`super::continuation`]).
     pub fn missed(&self, points: usize, rho: f64, modulus: f64) -> f64 {
         let reach = reach(rho);
@@ -207,7 +207,7 @@ impl Region {
         })
     }
 
-    /// All of ∫f over the region that `form` allows for, f.
+    /// The integrals of f over the region that its `form` allows for.
     pub fn integral(&self, form: &Form) -> Interval {
         let rule = self.rule();
         let sum: f64 = rule

@@ -19,7 +19,7 @@ pub(in crate::mesh) fn apart(used: &[u32], point: impl Fn(u32) -> [f64; 3]) -> O
     used.iter().find(is_apart).map(|&other| [other, first])
 }
 
-/// What is wrong with these two points and their z, in words.
+/// The fault of these two points and their z, in words.
 pub(in crate::mesh) fn why([(name, z), (first, at)]: [(String, f64); 2]) -> String {
     format!("{name} has z = {z}, {first} has z = {at}, expected a mesh in a plane z = constant")
 }

@@ -1,4 +1,4 @@
-//! What Gauss rules miss, and how much continuations allow for.
+//! Errors of Gauss rules, and how much continuations allow for.
 
 use super::exact::{parse, square};
 use super::random::Random;
