@@ -63,7 +63,11 @@ impl Answer {
             // Of a solution that is constant up to the solver's last digits there is nothing to be said.
             let is_finished = solution.algebraic_residual <= FINISHED * solution.scalar.epsilon();
             if dominant.term != Term::Algebraic || !is_finished {
-                problem.warnings.push(dominant.warning(&problem, &solution, &percent_above(part)));
+                let size = match part < 1.0 {
+                    true => format!("{} % of the energy norm", percent_above(part)),
+                    false => "no less than the energy norm itself".to_owned(),
+                };
+                problem.warnings.push(dominant.warning(&problem, &solution, &size));
             }
         }
         let errors = of_solution(&problem, &solution)?;

@@ -88,8 +88,8 @@ impl Dominant {
         Ok(Self { term, at, material, share })
     }
 
-    /// A warning on a bound that is so many per cent of the energy norm: what dominates it, and what to do.
-    pub fn warning(&self, problem: &Problem, solution: &Solution, percent: &str) -> String {
+    /// A warning on a bound, `size` saying how large it is: what dominates it, and what to do.
+    pub fn warning(&self, problem: &Problem, solution: &Solution, size: &str) -> String {
         let Self { term, at: [x, y], material, share } = self;
         let materials = &problem.scene.materials;
         let place = match materials.get(*material).filter(|_| materials.len() > 1) {
@@ -101,9 +101,7 @@ impl Dominant {
             None => format!("the cell near ({x:.6}, {y:.6}) has most"),
         };
         let (words, remedy) = (term.words(), term.remedy(solution.scalar));
-        format!(
-            "the error bound is {percent} % of the energy norm: most of it is {words}. Of that {place}; {remedy}"
-        )
+        format!("the error bound is {size}: most of it is {words}. Of that {place}; {remedy}")
     }
 }
 
