@@ -25,7 +25,8 @@ mod tests {
     fn any_byte_is_a_flag() {
         for count in [0, 1, 7, 8, 9, 19] {
             for byte in 0..=u8::MAX {
-                let bytes = &mut [byte; 19][..count];
+                let mut all = [byte; 19];
+                let (bytes, _) = all.split_at_mut(count);
                 let flags = restored(bytes);
                 assert!(flags.len() == count && flags.iter().all(|flag| *flag == (byte % 2 == 1)));
                 flags.iter_mut().for_each(|flag| *flag = !*flag);

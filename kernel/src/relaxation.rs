@@ -275,7 +275,11 @@ mod tests {
             search.disturb();
             again = again.kept().search().ok_or(Error::Relaxation)?;
             for look in 0..5 {
-                size *= [0.9, 0.5, 0.99][(tick + look) % 3];
+                size *= match (tick + look) % 3 {
+                    0 => 0.9,
+                    1 => 0.5,
+                    _ => 0.99,
+                };
                 search.look::<Libm>(size, 0, search.block());
                 again.look::<Libm>(size, 0, again.block());
                 assert_eq!((search.omega, search.is_over()), (again.omega, again.is_over()));

@@ -43,13 +43,15 @@ pub(super) fn relaxed<R: Scalar>(
         |square: f64| (square.max(0.0) + oscillation.powi(2)).sqrt() + oscillation + rounding;
     let (mut sum, mut square) = (Quadratic::new(problem, given, fields), gap * gap);
     let mut lost = sum.sweep(1.0, false);
-    if !(total(square - lost) < (1.0 - FIRST) * total(square)) {
+    let gains = total(square - lost) < (1.0 - FIRST) * total(square);
+    if !gains {
         return None;
     }
     for at in 1..MOST {
         square -= lost;
         lost = sum.sweep(OMEGA, at % 2 == 1);
-        if !(lost > NEXT * square) {
+        let goes_on = lost > NEXT * square;
+        if !goes_on {
             break;
         }
     }

@@ -20,7 +20,9 @@ pub fn is_even(problem: &Problem, at: usize) -> bool {
         Cell::Quad(_) => (cell.local([0.5, 0.5, 0.0]).determinant, EVEN[1]),
     };
     let [least, most] = eigenvalues(&a);
-    !(cell.diameter().powi(2) / determinant * (most / least).sqrt() > even)
+    let ratio = cell.diameter().powi(2) / determinant * (most / least).sqrt();
+    // What is no number keeps the plain inequality.
+    ratio <= even || ratio.is_nan()
 }
 
 /// A tensor below A all over a cell, triangles first: A itself where it is constant, else a part of A in the middle that is below

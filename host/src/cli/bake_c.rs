@@ -97,8 +97,8 @@ mod tests {
         let (folder, text) = (folder.path(), |path: &str| {
             fs::read_to_string(folder.path().join(path)).expect("a file")
         });
-        assert_eq!(put(&baked("push"), folder).expect("files"), [PathBuf::new(); 0]);
-        assert_eq!(put(&baked("load"), folder).expect("files"), [PathBuf::new(); 0]);
+        assert!(put(&baked("push"), folder).expect("files").is_empty());
+        assert!(put(&baked("load"), folder).expect("files").is_empty());
         assert_eq!([text("plate.h"), text("example/main.c")], ["load"; 2]);
         fs::write(folder.join("example/main.c"), "load, and mine").expect("a file");
         for input in ["heat", "rain"] {

@@ -43,10 +43,8 @@ pub(super) fn fitted(
     sides: &Sides,
 ) -> (f64, Box<Factors<[f64; 2]>>) {
     let (tables, ends) = (tables(rule), Ends::of(sides));
-    for n in 1..DEGREES {
-        factors[0][n] -= ends.rise(0, n);
-        factors[n][0] -= ends.rise(1, n);
-    }
+    (1..DEGREES).for_each(|n| factors[0][n] -= ends.rise(0, n));
+    (1..DEGREES).for_each(|n| factors[n][0] -= ends.rise(1, n));
     let [square, cross, added] = squares(corners, metric, (rule, &tables), &factors, &ends);
     let theta = if added > 0.0 { -cross / added } else { 0.0 };
     let split = |i: usize, j: usize| match (i, j) {

@@ -57,10 +57,10 @@ impl LocalFlux {
                         phi[1] += factors[i][j][1] * legendre(x)[i] * integrated(y)[j];
                     }
                 }
-                for n in 1..DEGREES {
-                    // Backwards through the left side, and inwards; upwards through the lower one.
-                    phi[0] -= sides[3][n] * legendre(1.0 - y)[n];
-                    phi[1] -= sides[0][n] * legendre(x)[n];
+                // Backwards through the left side, and inwards; upwards through the lower one.
+                for (into, side, at) in [(0, sides[3], 1.0 - y), (1, sides[0], x)] {
+                    let sum: f64 = side.iter().zip(legendre(at)).skip(1).map(|(s, p)| s * p).sum();
+                    phi[into] -= sum;
                 }
                 let here = place(*corners, [x, y]);
                 let [by_x, by_y] = here.directions();

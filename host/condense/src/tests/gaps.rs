@@ -52,7 +52,7 @@ fn gaps_that_differ_at_a_common_vertex_have_a_bound() -> Result<()> {
             let (model, recovery) = crate::recoverable(&problem)?;
             let certified = Certified { problem, model, recovery };
             if near == 0.0 {
-                let reason = certified.model.certificate.err().expect("an input without a range");
+                let reason = certified.model.certificate.expect_err("an input without a range");
                 assert!(
                     reason.contains("meet at (0, 0) differ by what an input without a range"),
                     "{reason}"
