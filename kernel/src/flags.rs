@@ -9,9 +9,9 @@
 /// The flags that these bytes stand for, each by its lowest bit.
 #[allow(unsafe_code)]
 pub fn restored(bytes: &mut [u8]) -> &mut [bool] {
-    const ONES: u64 = 0x0101_0101_0101_0101;
-    let (words, rest) = bytes.as_chunks_mut::<8>();
-    words.iter_mut().for_each(|word| *word = (u64::from_ne_bytes(*word) & ONES).to_ne_bytes());
+    const ONES: u32 = 0x0101_0101;
+    let (words, rest) = bytes.as_chunks_mut::<4>();
+    words.iter_mut().for_each(|word| *word = (u32::from_ne_bytes(*word) & ONES).to_ne_bytes());
     rest.iter_mut().for_each(|byte| *byte &= 1);
     // SAFETY: a bool is a byte, every one is 0 or 1, and bools are what is written through this.
     unsafe { &mut *(core::ptr::from_mut(bytes) as *mut [bool]) }

@@ -171,19 +171,18 @@ impl<R: Real> Room<'_, R> {
     pub fn check(&self, inputs: &[R]) -> Result<(), Error> {
         let Some((&constant, terms)) = self.terms.split_first() else { return Ok(()) };
         let (mut sum, mut size) = (constant, self.size);
-        let mut least: Option<(usize, R)> = None;
+        let mut least = (0, R::INFINITY);
         for (input, (&term, &p)) in terms.iter().zip(inputs).enumerate() {
             let product = term * p;
             (sum, size) = (sum + product, size + product.magnitude());
-            if term != R::ZERO && least.is_none_or(|(_, other)| product < other) {
-                least = Some((input, product));
+            if term != R::ZERO && product < least.1 {
+                least = (input, product);
             }
         }
         if !size.finite() {
             return Err(Error::NotFinite { of: Array::ContactSpans, at: 0 });
         }
-        let input = least.map_or(0, |(input, _)| input);
-        settled(sum, size).map(drop).ok_or(Error::EmptyRange { input })
+        settled(sum, size).map(drop).ok_or(Error::EmptyRange { input: least.0 })
     }
 }
 

@@ -160,12 +160,12 @@ fn price_of<R: Real>(
     }
     let [above, below] = Excess { ends: [a[0], b[0]], bubble: R::ZERO }.sides();
     let range = FluxRange::new(R::ZERO, Span::new(most - least));
+    let beside = unsure + answer.ranges.moved(edge);
     let one = |mean: R, may_be: bool, distance: R| {
         let mean = if may_be { mean + slack } else { mean };
         if mean > R::ZERO && distance.finite() {
             let unseen = range.unseen(distance + unsure, sides.excess).or_smaller(sides.excess);
-            let unseen = unseen + answer.ranges.moved(edge);
-            R::TWO * mean * (distance + unseen + unsure)
+            R::TWO * mean * (distance + unseen + beside)
         } else {
             R::ZERO
         }

@@ -113,8 +113,7 @@ impl<Numbers, Flags, Columns, Spans, Matrix, Inputs, R: Real>
         let start = InitialTableau { blocks: matrix, exchanged: &[] };
         let mut shared = self.shared.memory(&modal.model);
         shared.spans.moved = self.moved;
-        let t = if self.has_matrix == 0 { R::ZERO } else { self.t };
-        let memory = ModalMemory { shared, inputs: self.inputs.as_mut(), t };
+        let memory = ModalMemory { shared, inputs: self.inputs.as_mut(), t: self.t };
         (Condensed { matrix, start, ..modal.model }, memory)
     }
 
