@@ -333,7 +333,8 @@ fn ticks_whose_data_exclude_each_other_have_no_answer() {
     let ranged = in_time(&mesh, "1", "0", &format!("{input}range = [-1.5, 1]\n"));
     let scene = folder.write("ranged.toml", ranged);
     for command in ["solve", "bake", "tick"] {
-        let message = refused(command, &scene, &[]);
+        let more: &[&str] = if command == "tick" { &["--ticks", "4"] } else { &[] };
+        let message = refused(command, &scene, more);
         let expected = "input.level.range: with level = -1.5 u_D = -0.5 of boundary.dirichlet";
         assert!(message.contains(expected), "{message}");
     }

@@ -116,7 +116,7 @@ impl<R: Scalar> Certifier<R> {
         Ok(verdict.certificate().copied())
     }
 
-    /// The last certificate or, where s is worth moving off the average of u_h ([`relaxed`]), that with the better s. Each of
+    /// The last certificate or, where s is worth moving off the average of u_h (`relaxed`), that with the better s. Each of
     /// both bounds the error of u_h.
     ///
     /// # Errors

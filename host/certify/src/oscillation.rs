@@ -9,7 +9,7 @@
 //!   osc_E² = (|E| h_K²/|K|)(1/π² + 1/π) ‖g − ḡ‖²_E / α_T
 //! ```
 //! with the diameters h and the smallest eigenvalue α_T of A on T. q counts like g; of u_ext what 8 points do not see
-//! ([`super::robin`]). Where a cell is stretched, or A is, fluxes inside it bound both closer ([`stretched`]).
+//! ([`super::robin`]). Where a cell is stretched, or A is, fluxes inside it bound both closer (`stretched`).
 
 mod alpha;
 mod edges;
