@@ -179,7 +179,8 @@ fn ordinary<R: Bits, const WIDTH: usize>(
         assert_eq!(found.err(), expected.err(), "{inputs:?}");
         return;
     }
-    let [(_, expected), (_, report)] = [expected, found].map(|tick| tick.expect("an ordinary tick"));
+    let [(_, expected), (_, report)] =
+        [expected, found].map(|tick| tick.expect("an ordinary tick"));
     answered(&report);
     let said = format!("{inputs:?}: {report:?} instead of {expected:?}");
     let is_settled = |ended| matches!(ended, Ended::Settled | Ended::Exact);

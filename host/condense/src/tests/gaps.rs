@@ -28,7 +28,7 @@ fn parted_scene(other: &str) -> String {
 const OFF: [(&str, f64); 6] = [
     ("gap = \"x^3 - 1\", flux = \"-2.5*x^2\"", 1.1),
     ("gap = \"x^3 + 0.5\", flux = \"-2.5*x^2 - 1\", limit = \"-2.5*x^2\"", 1.1),
-    ("gap = \"x^3 + 1\", flux = \"-inf\", limit = \"-2.5*x^2\"", 2.0),
+    ("gap = \"x^3 + 1\", flux = \"-inf\", limit = \"-2.5*x^2\"", 2.2),
     (
         "gap = \"x^3 - 1\", flux = \"-2.5*x^2\" }\ninput.lift = { of = \"other\", field = \"gap\", pattern = \"1 + x\"",
         0.0,

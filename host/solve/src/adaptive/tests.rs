@@ -106,8 +106,9 @@ fn the_bound_falls_as_it_would_without_the_corner() {
     }
 }
 
-/// Never more unknowns than 1.3 times those of the mesh refined everywhere; 1.5 times on quads where u is like r^{3/2}, since cuts
-/// of quads are triangles. With the average: a better s gains most where cells are fine everywhere.
+/// Never more unknowns than 1.3 times those of the mesh refined everywhere. On quads 1.35 times, and 1.5 times where u is like r^{3/2}:
+/// their cuts are triangles, between which less of the oscillation cancels than in a row of quads. With the average: a better s gains
+/// most where cells are fine everywhere.
 #[test]
 fn where_u_is_smooth_it_costs_what_refining_everywhere_does() {
     for (text, kind) in [(SMOOTH.to_owned(), 0), (two_transitions([-1.0, 2.0]), 1)] {
@@ -124,7 +125,7 @@ fn where_u_is_smooth_it_costs_what_refining_everywhere_does() {
             let uniform = solve(&problem, &averaged(Goal::Part(1.0)).options).expect("a solution");
             let goal = Goal::Energy(uniform.bound.expect("a bound").total);
             let (levels, _, stop) = levels(&scene, mesh, &averaged(goal));
-            let factor = if kind == 1 && cells == Cells::Quads { 1.5 } else { 1.3 };
+            let factor = if cells == Cells::Quads { [1.35, 1.5][kind] } else { 1.3 };
             let most = factor * problem.topology.counts.unknowns() as f64;
             assert_eq!(stop, Stop::Reached);
             assert!(levels[levels.len() - 1][0] <= most, "{cells:?}: {levels:?}");

@@ -36,6 +36,8 @@ pub struct Measured {
     /// The number that the bound is up to quadrature, and how far its square may be off by rounding, where the exact solution is
     /// known.
     pub identity: Option<[f64; 2]>,
+    /// Whether the gap may be above it: a condensed model has one excess of hi − lo for all edges, in the unit of its unknowns.
+    pub may_exceed: bool,
     /// The bound of the truth: 0 where it is exact.
     pub total: f64,
     /// How far `combined` and `of_u` may be off, where they seem above their bounds.
@@ -49,11 +51,13 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// |gap/identity − 1| less what rounding may be of it, where the exact solution is known and the gap is no rounding.
+    /// |gap/identity − 1|, or by how much the gap falls short, less what rounding may be of it, where the exact solution is known and
+    /// the gap is no rounding.
     pub fn identity_off(&self) -> Option<f64> {
         let ([identity, rounding], gap) = (self.identity?, self.bound.duality_gap);
         // |gap² − identity²| = |gap − identity| (gap + identity)
-        let off = (gap - identity).abs() - rounding / (gap + identity);
+        let off = if self.may_exceed { identity - gap } else { (gap - identity).abs() };
+        let off = off - rounding / (gap + identity);
         (gap > ROUNDINGS * self.bound.rounding).then(|| off.max(0.0) / identity)
     }
 
@@ -164,6 +168,8 @@ impl Held<'_> {
             found.intervals = self.asked().by_exact();
             let known = self.missed()? <= RESOLVED * self.bound.duality_gap;
             found.identity = known.then_some([distance.identity, distance.rounding]);
+            found.may_exceed =
+                self.case.effort.way == Way::Condensed && problem.loads.span_excess > 0.0;
         }
         Ok(found)
     }
