@@ -39,7 +39,7 @@ const OFF: [(&str, f64); 6] = [
     ),
     (
         "gap = \"x^3 - 1\", flux = \"-2.5*x^2\" }\ninput.lift = { of = \"other\", field = \"gap\", pattern = \"1\", range = [-1.0, 1.5]",
-        1.2,
+        1.25,
     ),
 ];
 

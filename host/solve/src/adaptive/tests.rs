@@ -106,7 +106,7 @@ fn the_bound_falls_as_it_would_without_the_corner() {
     }
 }
 
-/// Never more unknowns than 1.3 times those of the mesh refined everywhere. On quads 1.35 times, and 1.5 times where u is like r^{3/2}:
+/// Never more unknowns than 1.3 times those of the mesh refined everywhere. On quads 1.4 times, and 1.5 times where u is like r^{3/2}:
 /// their cuts are triangles, between which less of the oscillation cancels than in a row of quads. With the average: a better s gains
 /// most where cells are fine everywhere.
 #[test]
@@ -125,7 +125,7 @@ fn where_u_is_smooth_it_costs_what_refining_everywhere_does() {
             let uniform = solve(&problem, &averaged(Goal::Part(1.0)).options).expect("a solution");
             let goal = Goal::Energy(uniform.bound.expect("a bound").total);
             let (levels, _, stop) = levels(&scene, mesh, &averaged(goal));
-            let factor = if cells == Cells::Quads { [1.35, 1.5][kind] } else { 1.3 };
+            let factor = if cells == Cells::Quads { [1.4, 1.5][kind] } else { 1.3 };
             let most = factor * problem.topology.counts.unknowns() as f64;
             assert_eq!(stop, Stop::Reached);
             assert!(levels[levels.len() - 1][0] <= most, "{cells:?}: {levels:?}");

@@ -7,7 +7,7 @@
 //! ```
 //! (ξ, η) are reference coordinates of the region. A smooth operation is its Taylor polynomial of degree 2 in its operand, and
 //! Lagrange's remainder with the third derivative enclosed by intervals; beside it each form carries the range that
-//! intervals alone give ([`interval`], rounded outward), and takes it where the remainder is wider. `abs`, `min` and `max` are
+//! intervals alone give (`interval`, rounded outward), and takes it where the remainder is wider. `abs`, `min` and `max` are
 //! resolved where the sign of their argument is known, and lie between a chord and a chord less the kink's height where it
 //! is not. A jump is the hull of its values.
 //!

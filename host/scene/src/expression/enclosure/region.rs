@@ -138,7 +138,7 @@ impl Region {
     }
 
     /// The most that a rule of n Gauss points in each direction misses of an integral over the region, of a function with this modulus in
-    /// the ellipse of ρ ([`super::continuation`]).
+    /// the ellipse of ρ (`continuation`).
     pub fn missed(&self, points: usize, rho: f64, modulus: f64) -> f64 {
         let reach = reach(rho);
         // The largest area element over that in the middle: 1 − ŷ over ½ on a triangle.
