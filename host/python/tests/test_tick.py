@@ -178,6 +178,7 @@ def test_intervals_of_ticks_hold_what_a_finer_mesh_says(name, error, scenes):
 def test_loads_that_contact_cannot_hold(tmp_path):
     scene = tmp_path / "pushed.toml"
     scene.write_text("""
+mesh = "given.msh"
 [material.default]
 conductivity = 1
 [boundary.right]
