@@ -294,3 +294,43 @@ fn wrong_arguments_are_refused() {
         assert!(message.contains(expected), "{arguments:?}: {message}");
     }
 }
+
+/// A case of a folder beside this file.
+fn case(name: &str) -> String {
+    format!("{}/tests/cases/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// u ≥ 0 beside u ≤ −10: no function of finite energy has both, so that refining such a scene would never end.
+#[test]
+fn contacts_that_exclude_each_other_are_wrong_input() {
+    let message = command::refused("solve", &case("opposed-contacts.toml"), &[]);
+    let expected = "boundary.bottom.gap: boundary.bottom asks for u ≥ 0 at (0, 0), where boundary.bottom2 asks for u ≤ -10";
+    assert!(
+        message.contains(expected) && message.contains("opposed-contacts.toml:9:"),
+        "{message}"
+    );
+}
+
+/// Gmsh puts a vertex where a gap has a kink 1.3e−12 beside it: no jump, and a bound as where it lies on the kink.
+#[test]
+fn a_kink_of_a_gap_right_beside_a_vertex_leaves_a_bound() {
+    let (folder, mesh) = (Folder::new(), text(case("opposed-contacts.msh")));
+    let bound = |y: &str| {
+        let moved = mesh.replace("14 1 0.5 0", &format!("14 1 {y} 0"));
+        let file = folder.write("a.msh", moved);
+        let scene = format!(
+            "mesh = {file:?}\nsource.f = -6\nmaterial.default.conductivity = 1\n\
+             boundary.default = {{ kind = \"neumann\", flux = 0 }}\n\
+             boundary.top = {{ kind = \"dirichlet\", value = 0 }}\n\
+             boundary.right = {{ kind = \"contact\", gap = \"min(-y, -0.5)\" }}\n"
+        );
+        let (status, _, summary) = solve(&folder.write("a.toml", scene), &[]);
+        assert_eq!((status, &summary["error_bound_reason"]), (0, &Value::Null), "{y}");
+        assert!(summary["contact_active"].as_u64() > Some(0), "{summary}");
+        summary["error_bound"]["total"].as_f64().expect("a bound")
+    };
+    let [on, below, above] = ["0.5", "0.499999999998744", "0.500000000001256"].map(bound);
+    for beside in [below, above] {
+        assert!((0.999..1.001).contains(&(beside / on)), "{beside} {on}");
+    }
+}

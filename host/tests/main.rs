@@ -11,6 +11,7 @@ mod pages;
 mod paths;
 mod ranges;
 mod records;
+mod scales;
 mod settings;
 mod tick;
 mod trade;

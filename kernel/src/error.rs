@@ -86,10 +86,15 @@ pub enum Error {
         /// Its number.
         input: usize,
     },
-    /// Inputs bring the limit of a contact edge's flux below its least value.
+    /// Inputs bring the limit of a contact flux below its least value.
     EmptyRange {
-        /// The contact edge, counted from the first one.
-        contact: usize,
+        /// The number of the input that leaves it least room.
+        input: usize,
+    },
+    /// Where two boundary edges meet, one asks for a u that the other excludes.
+    Excluded {
+        /// The vertex, or its number among those where inputs can do so.
+        at: usize,
     },
     /// The relaxation factor is not inside (0, 2).
     Relaxation,
@@ -181,8 +186,14 @@ impl fmt::Display for Error {
                 write!(f, "no edge can take the surplus of the part around cell {cell}")
             }
             Self::InputOutOfRange { input } => write!(f, "input {input} is outside its range"),
-            Self::EmptyRange { contact } => {
-                write!(f, "the limit of contact edge {contact} is less than its least flux")
+            Self::EmptyRange { input } => {
+                write!(
+                    f,
+                    "with input {input} the limit of a contact flux is less than its least value"
+                )
+            }
+            Self::Excluded { at } => {
+                write!(f, "two boundary edges exclude each other's values of u at vertex {at}")
             }
             Self::Relaxation => write!(f, "the relaxation factor must lie between 0 and 2"),
             Self::NotBuilt => write!(f, "the workspace holds no problem: build it"),

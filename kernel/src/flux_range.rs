@@ -57,6 +57,7 @@ impl<R: Real> Span<R> {
 pub struct Spans<'a, R> {
     lengths: &'a [R],
     excess: R,
+    moved: R,
 }
 
 impl<'a, R: Real> Spans<'a, R> {
@@ -77,13 +78,25 @@ impl<'a, R: Real> Spans<'a, R> {
 
     /// Takes spans that the host has checked, with the excess of [`Spans::varying`].
     pub const fn baked(lengths: &'a [R], excess: R) -> Self {
-        Self { lengths, excess }
+        Self { lengths, excess, moved: R::ZERO }
     }
 
     /// Spans whose hi − lo varies along edges: |E| (hi − lo) is at most `excess` more than its integral anywhere.
     #[must_use]
     pub fn varying(self, excess: R) -> Self {
         Self { excess, ..self }
+    }
+
+    /// Spans some of which have [`settled`] to 0: by at most so much each of their ends was moved.
+    #[must_use]
+    pub fn moved_by(self, moved: R) -> Self {
+        Self { moved, ..self }
+    }
+
+    /// By how much the ends of a span of this length may have been moved.
+    #[inline(always)]
+    pub fn moved(&self, span: Span<R>) -> R {
+        if features::LIMITED && span.length() == R::ZERO { self.moved } else { R::ZERO }
     }
 
     /// By how much |E| (hi − lo) may exceed its integral; 0 where it is constant along every edge.
@@ -125,12 +138,52 @@ impl<'a, R: Real> Spans<'a, R> {
     }
 }
 
-/// The span that a sum of so many `terms` stands for, `size` being the sum of their magnitudes: itself, 0 where it is below
-/// 0 by rounding alone, `None` where the range is empty. Two ends that are equal for some inputs are so to rounding.
+/// Part of the terms of hi − lo that rounding may be, for every scalar: 16 ε of f32. So a controller in f32, one in f64 and a solve
+/// take the same inputs.
+const SLACK: u32 = 1 << 19;
+
+/// The span that hi − lo stands for, `size` being the sum of the magnitudes of its terms: itself, 0 where it is below 0 by
+/// rounding alone, `None` where the range is empty. Both ends are their mean then: each goes by half of it.
 #[inline(always)]
-pub fn settled<R: Real>(span: R, size: R, terms: usize) -> Option<R> {
-    let rounding = R::from_count(terms as u32 + 4) * R::EPSILON;
-    (span >= -(rounding * size)).then(|| span.or_larger(R::ZERO))
+pub fn settled<R: Real>(span: R, size: R) -> Option<R> {
+    (span * R::from_count(SLACK) >= -size).then(|| span.or_larger(R::ZERO))
+}
+
+/// hi − lo as a form of the inputs, for all contact edges on which it is the same (borrowed).
+///
+/// ```text
+///   hi − lo = terms₀ + Σ_j p_j terms_j       the size of its terms is |lo₀| + |hi₀| + Σ_j |p_j terms_j|
+/// ```
+/// An input acts on one end. Every model of a scene has the same forms, in units that all edges share: so all refuse the same inputs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Room<'a, R> {
+    /// The constant first.
+    pub terms: &'a [R],
+    /// |lo₀| + |hi₀|
+    pub size: R,
+}
+
+impl<R: Real> Room<'_, R> {
+    /// `Ok` where these inputs, without the constant, leave a range of fluxes.
+    ///
+    /// # Errors
+    /// [`Error::EmptyRange`] with the input that leaves least room, [`Error::NotFinite`] where a term overflows.
+    pub fn check(&self, inputs: &[R]) -> Result<(), Error> {
+        let Some((&constant, terms)) = self.terms.split_first() else { return Ok(()) };
+        let (mut sum, mut size) = (constant, self.size);
+        let mut least = (0, R::INFINITY);
+        for (input, (&term, &p)) in terms.iter().zip(inputs).enumerate() {
+            let product = term * p;
+            (sum, size) = (sum + product, size + product.magnitude());
+            if term != R::ZERO && product < least.1 {
+                least = (input, product);
+            }
+        }
+        if !size.finite() {
+            return Err(Error::NotFinite { of: Array::ContactSpans, at: 0 });
+        }
+        settled(sum, size).map(drop).ok_or(Error::EmptyRange { input: least.0 })
+    }
 }
 
 /// What ∫_E A∇u·n may be on a contact edge.
@@ -190,10 +243,12 @@ impl<R: Real> FluxRange<R> {
         flux.or_larger(least).or_smaller(most)
     }
 
-    /// The end that is nearest to a flux.
-    pub fn nearest_end(self, flux: R) -> R {
-        let [least, most] = self.ends();
-        if (flux - least).magnitude() <= (most - flux).magnitude() { least } else { most }
+    /// What a mean `distance` of a flux from an end may lack somewhere along the edge, where |E| (hi − lo) is at most `excess`
+    /// above its integral: the flux is lo + θ (hi − lo) there, and from either end by its share of the range.
+    #[inline(always)]
+    pub fn unseen(self, distance: R, excess: R) -> R {
+        let width = self.span.length().magnitude();
+        if excess > R::ZERO && width > R::ZERO { excess * (distance / width) } else { R::ZERO }
     }
 
     /// λ ≥ 0 of an admissible flux: ∫_E (τ·n − lo), or ∫_E (hi − τ·n) where lo = −∞.
@@ -203,5 +258,44 @@ impl<R: Real> FluxRange<R> {
             return flux - self.base;
         }
         if self.span.is_below() { self.base - flux } else { flux - self.ends()[0] }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// hi − lo = −1 + p of terms of 1 + 1 where p = 1, and q as a second input that may cancel.
+    fn tried<R: Real>(slacks: f64) -> Result<(), Error> {
+        let number = |x: f64| R::from_f64(x).unwrap_or(R::ZERO);
+        let terms = [number(-1.0), number(1.0), number(0.5)];
+        let room = Room { terms: &terms, size: number(1.0) };
+        room.check(&[number(1.0 - slacks / f64::from(1 << 18)), number(0.0)])
+    }
+
+    #[test]
+    fn one_slack_holds_for_every_scalar() {
+        let refused = Err(Error::EmptyRange { input: 1 });
+        for (slacks, expected) in [(0.5, Ok(())), (0.99, Ok(())), (1.01, refused), (2.0, refused)] {
+            assert_eq!(
+                (tried::<f32>(slacks), tried::<f64>(slacks)),
+                (expected, expected),
+                "{slacks}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_input_that_leaves_least_room_is_named() {
+        let room = Room { terms: &[0.5, 2.0, -1.0, 0.0], size: 1.0 };
+        assert_eq!(room.check(&[1.0, 2.5, 9.0]), Ok(()));
+        assert_eq!(room.check(&[1.0, 2.6, 9.0]), Err(Error::EmptyRange { input: 1 }));
+        assert_eq!(room.check(&[-1.0, 0.6, 9.0]), Err(Error::EmptyRange { input: 0 }));
+        assert_eq!(
+            room.check(&[f64::NAN, 0.0, 0.0]),
+            Err(Error::NotFinite { of: Array::ContactSpans, at: 0 })
+        );
+        assert_eq!((settled(-1e-6, 1.0), settled(-2e-6, 1.0)), (Some(0.0), None));
+        assert_eq!(settled(f64::NAN, 1.0), None);
     }
 }

@@ -20,6 +20,7 @@ pub mod element;
 pub mod error;
 pub mod excess;
 pub mod features;
+pub mod flags;
 #[cfg(feature = "mesh")]
 pub mod flux;
 pub mod flux_range;

@@ -63,6 +63,35 @@ pub struct Search<R> {
     moves: u32,
 }
 
+/// What a search leaves to other data, as numbers that mean something whatever bits they have: who keeps it need not trust
+/// its memory. All zeros before a search.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct KeptSearch<R> {
+    omega: R,
+    /// An ω of 0 is none.
+    best: [R; 2],
+    moves: u32,
+    phase: u32,
+}
+
+impl<R: Real> KeptSearch<R> {
+    /// Before a search.
+    pub const NONE: Self = Self { omega: R::ZERO, best: [R::ZERO; 2], moves: 0, phase: 0 };
+
+    /// The search that goes on from here; `None` before one, or where ω is none of a search.
+    pub fn search(&self) -> Option<Search<R>> {
+        let Self { omega, best: [best, factor], moves, phase } = *self;
+        let phase = match phase {
+            0 => Phase::Rising,
+            1 => Phase::Falling,
+            _ => Phase::Settled,
+        };
+        let best = (best != R::ZERO).then_some((best, factor));
+        let is_known = omega > R::ZERO && omega < R::TWO;
+        is_known.then_some(Search { omega, phase, best, previous: None, factor: None, moves })
+    }
+}
+
 /// The longest block, for 2 − ω around 1e−5.
 const LONGEST: u32 = 1 << 18;
 
@@ -70,16 +99,6 @@ const LONGEST: u32 = 1 << 18;
 const MOVES: u32 = 64;
 
 impl<R: Real> Search<R> {
-    /// None yet: an ω of 0 and nothing seen, all zeros in memory.
-    pub const NONE: Self = Self {
-        omega: R::ZERO,
-        phase: Phase::Rising,
-        best: None,
-        previous: None,
-        factor: None,
-        moves: 0,
-    };
-
     /// A search; with a fixed ω, one that is over.
     fn new(relaxation: Relaxation<R>) -> Self {
         let (omega, moves) = match relaxation {
@@ -118,6 +137,12 @@ impl<R: Real> Search<R> {
     /// Other data: what was seen last says nothing of the next blocks.
     pub fn disturb(&mut self) {
         *self = Self { previous: None, factor: None, ..*self };
+    }
+
+    /// What is left once data change.
+    pub fn kept(&self) -> KeptSearch<R> {
+        let best = self.best.map_or([R::ZERO; 2], |(omega, factor)| [omega, factor]);
+        KeptSearch { omega: self.omega, best, moves: self.moves, phase: self.phase as u32 }
     }
 
     /// Looks at the size of the residual after a block of `sweeps` (a power of two).
@@ -225,8 +250,8 @@ mod tests {
     }
 
     #[test]
-    fn omega_moves_64_times_at_most() {
-        let mut search = Search::<f64>::checked(Relaxation::Adaptive(1.0)).unwrap_or(Search::NONE);
+    fn omega_moves_64_times_at_most() -> Result<(), Error> {
+        let mut search = Search::<f64>::checked(Relaxation::Adaptive(1.0))?;
         let (mut size, mut moves, mut state) = (1.0, 0, 1_u32);
         for _ in 0..100_000 {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -237,5 +262,40 @@ mod tests {
             moves += u32::from(search.omega != before);
         }
         assert!(search.is_over() && (32..=MOVES).contains(&moves), "{moves} moves");
+        Ok(())
+    }
+
+    /// A search goes on from what was kept; of any other bits it is a search too, or none.
+    #[test]
+    fn what_is_kept_is_a_search_whatever_its_bits() -> Result<(), Error> {
+        let mut search = Search::<f64>::checked(Relaxation::Adaptive(1.0))?;
+        let mut again = search;
+        let mut size = 1.0;
+        for tick in 0..20 {
+            search.disturb();
+            again = again.kept().search().ok_or(Error::Relaxation)?;
+            for look in 0..5 {
+                size *= match (tick + look) % 3 {
+                    0 => 0.9,
+                    1 => 0.5,
+                    _ => 0.99,
+                };
+                search.look::<Libm>(size, 0, search.block());
+                again.look::<Libm>(size, 0, again.block());
+                assert_eq!((search.omega, search.is_over()), (again.omega, again.is_over()));
+            }
+        }
+        assert!(KeptSearch::<f64>::NONE.search().is_none());
+        let kept = search.kept();
+        for omega in [0.0, -1.0, 2.0, 1e300, f64::NAN] {
+            assert!(KeptSearch { omega, ..kept }.search().is_none());
+        }
+        for phase in [3, 1 << 31, u32::MAX] {
+            let mut found =
+                KeptSearch { phase, moves: u32::MAX, ..kept }.search().ok_or(Error::Relaxation)?;
+            found.look::<Libm>(1.0, 0, 4);
+            assert!(found.is_over());
+        }
+        Ok(())
     }
 }

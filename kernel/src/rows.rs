@@ -90,7 +90,8 @@ impl<R: Real, I: Index, const WIDTH: usize> Default for Row<R, I, WIDTH> {
 /// The rows of all unknowns, in the order of [`Edges`] (borrowed).
 ///
 /// Every offset in them was computed here from a validated numbering and names an entry of an array
-/// over `counts.edges()` edges; nothing else can write an offset. [`crate::psor`] relies on it.
+/// over `counts.edges()` edges, or was found to do so in memory that they own; nothing else can write an offset.
+/// [`crate::psor`] relies on it.
 #[derive(Debug)]
 pub struct Rows<'a, R, I, const WIDTH: usize> {
     rows: &'a mut [Row<R, I, WIDTH>],

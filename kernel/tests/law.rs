@@ -44,8 +44,11 @@ fn a_flux_is_between_its_ends() {
         );
     }
     assert_eq!(RANGES.map(|range| range.multiplier(0.25)), [-0.75, -0.75, 0.75, -0.75]);
-    let near = [1.9, 2.0, 2.1].map(|flux| RANGES[0].nearest_end(flux));
-    assert_eq!(near, [1.0, 1.0, 3.0]);
+    // A half of the range may lack half of what the range does; of none and of an endless one nothing is unseen.
+    let unseen = |range: FluxRange<f64>| range.unseen(1.0, 0.5);
+    assert_eq!(RANGES.map(unseen)[0], 0.25);
+    assert_eq!(unseen(FluxRange::new(1.0, Span::UNLIMITED)), 0.0);
+    assert_eq!(unseen(FluxRange::new(1.0, Span::new(0.0))), 0.0);
 }
 
 #[test]

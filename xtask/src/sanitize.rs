@@ -5,6 +5,8 @@
 //! it, for this build alone. Std comes as it is, without; the kernel has none of it, and the allocator of the tests
 //! is the sanitizer's. What it cannot see is an offset that is wrong and still inside of u: the tests see that.
 //!
+//! Ticks on damaged states are among the tests: of what a state holds nothing may lead outside of it (`flags`, `OwnedRows`).
+//!
 //! Offsets of `Rows` made too large by hand end each of the tests, at the line of `psor` that reads there.
 
 use std::io::Write as _;
@@ -16,8 +18,8 @@ use crate::steps::{Steps, Tally};
 use signorini_image::cargo::{cargo, target_dir};
 use signorini_image::toolchain::host;
 
-/// Whole solves and ticks in both scalars, with short and long indices.
-const TESTS: [&str; 3] = ["replay::", "exact::", "tick::"];
+/// Whole solves and ticks in both scalars, with short and long indices; ticks on states with wrong bits.
+const TESTS: [&str; 4] = ["replay::", "exact::", "tick::", "damaged::"];
 /// Reads one number behind an array.
 const OUTSIDE: &str = "
 fn main() {

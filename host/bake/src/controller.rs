@@ -13,6 +13,8 @@ pub(super) struct Parts<'a> {
     pub limits: &'a str,
     /// Whether the inputs have ranges.
     pub has_ranges: bool,
+    /// The rows that inputs have to meet.
+    pub exclusions: Vec<String>,
     /// Whether every tick starts anew.
     pub is_cold: bool,
     /// The type of the memory.
@@ -31,11 +33,23 @@ pub(super) fn controller(parts: &Parts) -> String {
         ends,
         limits,
         has_ranges,
+        exclusions,
         is_cold,
         storage,
         zeros,
         lent: [model, setup],
     } = parts;
+    let exclusions = match &exclusions[..] {
+        [] => String::new(),
+        rows => format!(
+            "
+    fn exclusions(&self) -> &[Scalar] {{
+        &[{}]
+    }}
+",
+            rows.join(", ")
+        ),
+    };
     let ranges = if *has_ranges { "&Inputs::RANGES" } else { "&[]" };
     format!(
         "
@@ -50,7 +64,7 @@ pub const LIMITS: Limits<Scalar> = {limits};
 pub type Answer = controller::Answer<Outputs, Scalar>;
 
 /// All memory of the scene; can initialise a `static`. The first tick {first}, each answers {from}. Refused are inputs outside
-/// [`Inputs::RANGES`].
+/// [`Inputs::RANGES`], and those with which boundary values exclude each other.
 pub type Controller = controller::Controller<Scene>;
 
 /// The scene, as [`Controller`] takes it.
@@ -66,7 +80,7 @@ impl controller::Scene for Scene {{
     fn ranges(&self) -> &[[Scalar; 2]] {{
         {ranges}
     }}
-
+{exclusions}
     fn limits(&self) -> Limits<Scalar> {{
         LIMITS
     }}

@@ -50,9 +50,8 @@ pub fn warnings<R: Scalar>(choice: &Choice<R>) -> Vec<String> {
     let unbounded = choice.unbounded().map(|why| {
         format!("warning: there is no error bound: {why}; certificate = false in [setting] silences this")
     });
-    let conflict = choice.condensed().and_then(|(_, origin)| ranges::conflict(origin));
     let of_time = worst::warning(choice).or_else(|| late(choice));
-    of_time.into_iter().chain(unbounded).chain(conflict).collect()
+    of_time.into_iter().chain(unbounded).collect()
 }
 
 /// That the longest tick of the trial probably takes longer than declared.

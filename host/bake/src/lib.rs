@@ -28,6 +28,7 @@ pub mod narrow;
 pub mod promise;
 pub mod range;
 pub mod ranges;
+mod room;
 pub mod setting;
 mod statics;
 #[cfg(test)]

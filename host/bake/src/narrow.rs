@@ -6,11 +6,22 @@ use signorini_kernel::{Error, error::Array};
 
 use signorini_condense::CondensedModel;
 use signorini_condense::ranges::split::Split;
+use signorini_problem::Exclusion;
 use signorini_problem::scalar::Scalar;
 
 /// Numbers in the scalar `R`.
 pub fn narrow<R: Scalar>(numbers: &[f64]) -> Vec<R> {
     numbers.iter().map(|&x| R::narrow(x)).collect()
+}
+
+/// Rows for [`signorini_device::exclusions`], each over its largest factor.
+pub(crate) fn exclusions<R: Scalar>(rows: &[Exclusion]) -> Vec<R> {
+    let of = |row: &Exclusion| {
+        let largest = row.factors.iter().fold(f64::MIN_POSITIVE, |most, of| most.max(of.abs()));
+        let numbers = std::iter::once(&row.slack).chain(&row.factors);
+        numbers.map(|number| R::narrow(number / largest)).collect::<Vec<_>>()
+    };
+    rows.iter().flat_map(of).collect()
 }
 
 pub(crate) fn pairs<R: Scalar>(all: &[[f64; 2]]) -> Vec<[R; 2]> {

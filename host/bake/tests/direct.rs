@@ -45,7 +45,7 @@ pub fn directly(
     inputs: &[f64],
 ) -> Result<(Problem, Solution, BTreeMap<String, Option<f64>>)> {
     let now = problem.with_inputs(inputs)?;
-    let options = Options { solver: SolverKind::Direct, ..Options::default() };
+    let options = Options { solver: SolverKind::Direct, averages: true, ..Options::default() };
     let solution = solve(&now, &options)?;
     let values = outputs(&now, &solution)?;
     Ok((now, solution, values))

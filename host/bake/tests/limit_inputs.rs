@@ -9,7 +9,7 @@ use signorini_device::tick::Limits;
 use signorini_kernel::Error;
 use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::Problem;
-use signorini_problem::fixtures::limited::crossing;
+use signorini_problem::fixtures::limited::{crossing, fading};
 use signorini_problem::fixtures::{changed, on_grid};
 use signorini_problem::inputs::{InputSpace, drawn};
 use signorini_problem::scalar::Scalar;
@@ -216,9 +216,9 @@ fn refused_and_kept<R: Scalar>() -> Result<()> {
     let (first, _) = controller.tick_within(&narrow(&inputs), to_the_end()).expect("a tick");
     let u = controller.u().to_vec();
     // lo = −1 − leak/2 and hi = 6 supply, beside 0.3 x in both.
-    for [supply, leak] in [[-0.2, 0.0], [0.0, -2.1], [1.0, -15.0]] {
+    for ([supply, leak], input) in [([-0.2, 0.0], 0), ([0.0, -2.1], 1), ([1.0, -15.0], 1)] {
         let tried = controller.tick(&narrow(&[supply, leak, 0.0, -3.0]));
-        assert_eq!(tried.err(), Some(Error::EmptyRange { contact: 0 }), "{supply} {leak}");
+        assert_eq!(tried.err(), Some(Error::EmptyRange { input }), "{supply} {leak}");
         assert_eq!(controller.u(), u);
         assert!(problem.with_inputs(&[supply, leak, 0.0, -3.0]).is_err());
     }
@@ -258,9 +258,37 @@ fn ranges_that_leave_no_flux_are_refused_with_the_corner() -> Result<()> {
     Ok(())
 }
 
+fn fades<R: Scalar, const WIDTH: usize>(cells: Cells) -> Result<()> {
+    let (_, problem) = on_grid(&fading(), grid(8, cells))?;
+    let exact = problem.scene.exact.as_ref().expect("an exact solution");
+    let baked = Baked::<R>::new(&problem)?;
+    let mut controller = Controller::<R, WIDTH>::new(&baked);
+    for supply in [1.0, 0.05, 3.0] {
+        let now = problem.with_inputs(&[supply])?;
+        for sweeps in [0, 3, 30, u32::MAX] {
+            let limits = Limits { sweeps, ..to_the_end() };
+            let (_, report) = controller.tick_within(&narrow(&[supply]), limits).expect("a tick");
+            let bound = report.verdict.certificate().expect("a bound").total.wide();
+            let error = distance(exact, &now, &certified(&controller).admissible())?.combined;
+            GUARANTEE.check_at_most(format_args!("{supply}, {sweeps}"), error, bound);
+            let is_sharp = sweeps < u32::MAX || bound < 3.0 * error;
+            assert!(is_sharp, "{supply}, {sweeps}: {bound} for {error}");
+        }
+    }
+    Ok(())
+}
+
+/// Ends that meet at both corners for every supply within its range.
 #[test]
-fn a_span_that_varies_along_edges_has_no_bound() -> Result<()> {
-    let bent = SUPPLY.replace("pattern = \"6\"", "pattern = \"6 + x\"");
+fn a_span_that_fades_has_a_bound_within_ranges() -> Result<()> {
+    fades::<f64, TRIANGLES>(Cells::Triangles)?;
+    fades::<f32, TRIANGLES>(Cells::Triangles)?;
+    fades::<f64, QUADS>(Cells::Mixed)
+}
+
+#[test]
+fn a_span_that_varies_along_edges_has_no_bound_without_ranges() -> Result<()> {
+    let bent = unranged().replace("pattern = \"6\"", "pattern = \"6 + x\"");
     let (_, problem) = on_grid(&bent, grid(3, Cells::Triangles))?;
     let baked = Baked::<f64>::new(&problem)?;
     assert!(!baked.has_bound());

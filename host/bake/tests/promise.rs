@@ -10,11 +10,12 @@ use signorini_scene::setting::ModelKind;
 use signorini_solve::adaptive::{Allowed, Promise};
 use signorini_solve::{Options, solve};
 
-/// That the bound of the levee is at most `times` what a solve in f64 finds, with these inputs.
+/// That the bound of the levee is at most `times` what a solve in f64 finds, with these inputs and the average that a controller has.
 fn promise(problem: &Problem, times: f64) -> Promise {
     let allowed = [[0.0, 0.0], [5.0, -1.0], [2.0, 0.5]].map(|inputs| {
         let at = problem.with_inputs(&inputs).expect("inputs of its ranges");
-        let found = solve(&at, &Options::default()).expect("a solution");
+        let options = Options { averages: true, ..Options::default() };
+        let found = solve(&at, &options).expect("a solution");
         Allowed { inputs: inputs.to_vec(), bound: times * found.bound.expect("a bound").total }
     });
     let unknowns = problem.topology.counts.unknowns();

@@ -67,7 +67,8 @@ pub unsafe fn told(
         Err(error) => {
             let (why, culprit) = refusal(error);
             state.blame(culprit);
-            if matches!(why, Refusal::InputOutOfRange | Refusal::InputNotFinite) {
+            let kept = [Refusal::InputOutOfRange, Refusal::InputNotFinite, Refusal::Excluded];
+            if kept.contains(&why) {
                 state.close(seal);
             }
             why.code()

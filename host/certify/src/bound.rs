@@ -22,6 +22,8 @@ pub struct ErrorBound {
     pub algebraic: f64,
     /// Oscillation: the part of f, g and q that their means leave out.
     pub oscillation: f64,
+    /// The part of the oscillation that was enclosed and not resolved.
+    pub unresolved: f64,
     /// The part that rounding can have hidden.
     pub rounding: f64,
 }
@@ -30,10 +32,11 @@ impl ErrorBound {
     /// This bound in units in which `unit` stands for 1.
     #[must_use]
     pub fn times(self, unit: f64) -> Self {
-        let Self { total, of_u, duality_gap: gap, algebraic, oscillation, rounding } = self;
-        let [total, of_u, gap, algebraic, oscillation, rounding] =
-            [total, of_u, gap, algebraic, oscillation, rounding].map(|x| x * unit);
-        Self { total, of_u, duality_gap: gap, algebraic, oscillation, rounding }
+        let Self { total, of_u, duality_gap: gap, algebraic, oscillation, unresolved, rounding } =
+            self;
+        let [total, of_u, gap, algebraic, oscillation, unresolved, rounding] =
+            [total, of_u, gap, algebraic, oscillation, unresolved, rounding].map(|x| x * unit);
+        Self { total, of_u, duality_gap: gap, algebraic, oscillation, unresolved, rounding }
     }
 
     /// Widens the kernel's numbers.
@@ -45,6 +48,7 @@ impl ErrorBound {
             duality_gap: certificate.duality_gap.wide(),
             algebraic: certificate.algebraic.wide(),
             oscillation: certificate.oscillation.wide(),
+            unresolved: 0.0,
             rounding: certificate.rounding.wide(),
         }
     }
@@ -63,7 +67,8 @@ pub struct Certified {
 }
 
 impl Certified {
-    /// Certifies the iterate `u`.
+    /// Certifies the iterate `u`, with an s that is better than the average of u_h where that is worth it, unless it is to be
+    /// the average.
     ///
     /// # Errors
     /// Never for data of this problem.
@@ -71,12 +76,17 @@ impl Certified {
         problem: &Problem,
         parts: &Parts,
         assembled: &Assembled<R>,
-        data: &Data<R>,
+        (data, averages): (&Data<R>, bool),
         u: &[R],
     ) -> Result<Self, KernelError> {
         let mut certifier = Certifier::new(problem, parts, assembled)?;
-        let certificate = certifier.certify(parts, assembled, data, u)?;
-        let bound = certificate.as_ref().map(ErrorBound::new);
+        let mut certificate = certifier.certify(parts, assembled, data, u)?;
+        if let Some(found) = certificate.as_mut().filter(|_| !averages) {
+            *found = certifier.relaxed(assembled, data, u, *found)?;
+        }
+        let unresolved = data.unresolved();
+        let bound =
+            certificate.as_ref().map(|found| ErrorBound { unresolved, ..ErrorBound::new(found) });
         let no_bound = certifier.no_bound(data);
         Ok(Self { bound, no_bound, answer: certifier.answer() })
     }

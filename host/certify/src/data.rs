@@ -6,8 +6,9 @@ use signorini_kernel::Error as KernelError;
 
 use super::curved::{Curved as Bent, curved_edges};
 use super::ends::Ends;
+use super::imbalance::carried;
 use super::no_bound::NoBound;
-use super::oscillation::oscillation;
+use super::oscillation::{Oscillation, oscillation};
 use super::robin::{RobinPoints, robin};
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Assembled, Problem};
@@ -21,6 +22,7 @@ pub struct Data<R> {
     curved: Vec<Curved<R, u32>>,
     transfer: Vec<[[R; 2]; 8]>,
     oscillation: R,
+    unresolved: f64,
     no_bound: Option<NoBound>,
 }
 
@@ -35,6 +37,8 @@ pub struct Evaluated {
     pub transfer: Vec<RobinPoints>,
     /// √Σ osc², and what is left out of ψ and u_D.
     pub oscillation: f64,
+    /// The part of it that was enclosed and not resolved.
+    pub unresolved: f64,
     /// Why these data allow for no bound.
     pub no_bound: Option<NoBound>,
 }
@@ -64,11 +68,28 @@ impl Evaluated {
         // s is off by that much, and once more where u_h is compared with it.
         let left_out = 2.0 * (curved_edges.left_out + moved(&ends, problem));
         let curved = curved_edges.records;
-        let of_cells = oscillation(problem, time)?;
-        let squares: f64 = of_cells.iter().map(|osc| osc * osc).sum();
+        let Oscillation { of_cells, unresolved, pole } = oscillation(problem)?;
+        let norm =
+            |all: &mut dyn Iterator<Item = f64>| all.map(|osc| osc * osc).sum::<f64>().sqrt();
+        let whole = norm(&mut of_cells.iter().copied());
+        let resolved =
+            norm(&mut of_cells.iter().zip(&unresolved).map(|(all, missed)| all - missed));
         let transfer = robin(problem, time)?;
-        let no_bound = NoBound::of_data(problem, &ends, &curved, &transfer);
-        Ok(Self { ends, curved, transfer, oscillation: squares.sqrt() + left_out, no_bound })
+        let rough = pole.map(|(field, at, is_proved)| NoBound::not_square(field, at, is_proved));
+        let no_bound = rough.or_else(|| NoBound::of_data(problem, &ends, &curved, &transfer));
+        let (carried, no_way) = match carried(problem) {
+            Ok(carried) => (carried, None),
+            Err(reason) => (0.0, Some(reason)),
+        };
+        Ok(Self {
+            ends,
+            curved,
+            transfer,
+            // There is no bound where it is infinite.
+            oscillation: left_out + if whole.is_finite() { whole + carried } else { 0.0 },
+            unresolved: whole - resolved + carried,
+            no_bound: no_bound.or(no_way),
+        })
     }
 }
 
@@ -100,6 +121,7 @@ impl<R: Scalar> Data<R> {
             curved: curved.collect(),
             transfer: transfer.iter().map(|edge| edge.map(|point| point.map(R::narrow))).collect(),
             oscillation: R::narrow(data.oscillation),
+            unresolved: data.unresolved,
             no_bound: data.no_bound,
         }
     }
@@ -113,6 +135,11 @@ impl<R: Scalar> Data<R> {
     /// Oscillation: the part of f, g, q, ψ and u_D that their means leave out.
     pub fn oscillation(&self) -> R {
         self.oscillation
+    }
+
+    /// The part of the oscillation that was enclosed and not resolved.
+    pub fn unresolved(&self) -> f64 {
+        self.unresolved
     }
 
     /// Why these data allow for none.

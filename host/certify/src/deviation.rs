@@ -7,6 +7,7 @@ use super::ends::Ends;
 use super::energy::{CellEnergy, Sample};
 use signorini_problem::quadrature::bisected::mean_on_edge;
 use signorini_problem::quadrature::{DATA_POINTS, on_panels};
+use signorini_problem::rounding::extent;
 use signorini_problem::{Problem, Sum};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Field;
@@ -14,8 +15,10 @@ use signorini_scene::scene::Field;
 /// Least energy, as a part of that of the largest data, of data that a cell follows. Data of an edge below it are
 /// left out; by how much in all is said ([`Deviations::dropped`]).
 const ROUNDING: f64 = 1e-14;
+/// Roundings of a constant that was taken from all data, which a value less its chord may have.
+const OF_LEVEL: f64 = 4.0;
 
-/// Deviations above this part of the largest boundary datum are kept without weighing them.
+/// Deviations above this part of the range of the boundary data are kept without weighing them.
 const PLAIN: f64 = 1e-9;
 
 /// Distances, as parts of an edge, at which w has no curvature worth speaking of, and w′ no change.
@@ -34,6 +37,8 @@ pub struct Deviation<'s> {
     data: Sum<'s>,
     segment: [[f64; 2]; 2],
     ends: [f64; 2],
+    /// Size of the constant that was taken from all data.
+    level: f64,
 }
 
 /// The edges whose data are not affine.
@@ -51,7 +56,8 @@ impl<'s> Deviations<'s> {
         let counts = problem.topology.counts;
         let contact = (counts.free..).zip(ends.gap.iter().map(|&pair| (Field::Gap, pair)));
         let given = (counts.unknowns()..).zip(ends.given.iter().map(|&pair| (Field::Value, pair)));
-        let plain = PLAIN * ends.scale();
+        let level = OF_LEVEL * f64::EPSILON * problem.units.level();
+        let plain = level.max(PLAIN * ends.range());
         let (mut weighed, mut largest) = (Vec::new(), 0.0_f64);
         for (edge, (field, ends)) in contact.chain(given) {
             let (at, side) = problem.topology.first_side(edge);
@@ -60,20 +66,21 @@ impl<'s> Deviations<'s> {
             let data = Sum::on_edge(problem, edge, field, time);
             let segment = problem.segment(edge);
             let Some(data) = data.filter(|data| data.constant().is_none()) else { continue };
-            let deviation = Deviation { edge, data, segment, ends };
+            let deviation = Deviation { edge, data, segment, ends, level: problem.units.level() };
             let root = match deviation.samples(plain)? {
                 Some(samples) => energy.of_extension(side, &samples),
                 None => f64::INFINITY,
             };
-            weighed.push((deviation, root));
+            let of_level = if level > 0.0 { level * energy.of_vertices() } else { 0.0 };
+            weighed.push((deviation, root, of_level));
         }
         let mut dropped = 0.0;
-        weighed.retain(|(_, root)| {
-            let small = *root <= ROUNDING * largest && largest.is_finite();
+        weighed.retain(|(_, root, of_level)| {
+            let small = *root <= of_level.max(ROUNDING * largest) && largest.is_finite();
             dropped += if small { *root } else { 0.0 };
             !small
         });
-        Ok(Self { found: weighed.into_iter().map(|(deviation, _)| deviation).collect(), dropped })
+        Ok(Self { found: weighed.into_iter().map(|(deviation, ..)| deviation).collect(), dropped })
     }
 
     /// The deviation of an edge.
@@ -137,7 +144,14 @@ impl Deviation<'_> {
         };
         let places = f64::GAUSS[DATA_POINTS - 1].iter().map(of_place);
         let data = places.fold(self.ends[0].abs().max(self.ends[1].abs()), f64::max);
-        (ROUNDING * data).max(NOISES * self.noise())
+        (ROUNDING * (data + self.level)).max(NOISES * self.noise())
+    }
+
+    /// Rounding of w at t alone: of operations, and of places that are off by some ulps of the edge's coordinates.
+    pub fn rounding_at(&self, t: f64) -> f64 {
+        /// Ulps that a point of the edge may be off, its ends and what is added to them.
+        const PLACES: f64 = 8.0 * f64::EPSILON;
+        self.data.rounding_at(self.place(t), PLACES * extent(self.segment))
     }
 
     /// Second differences of w, which rounding that follows the data in steps shows as well, and first ones of w′ at once beside

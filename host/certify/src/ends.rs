@@ -3,12 +3,14 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::energy::CellEnergy;
-use signorini_problem::{Problem, Sum};
+use signorini_problem::{Problem, Sum, rounding};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Field;
 
-/// Difference that rounding may leave between two expressions for the same value, relative to the largest.
+/// Difference that rounding may leave between two expressions for the same value, relative to the range of all.
 const CONTINUOUS: f64 = 1e-9;
+/// Roundings of the largest number that it may be in any case.
+const ROUNDINGS: f64 = 64.0;
 
 /// Boundary data at the two ends of each edge, in the direction of the edge; the unit is that of u.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,68 +40,88 @@ impl Ends {
 
     /// The first vertex where u_D differs between two edges by more than rounding, with both values.
     pub fn jump(&self, problem: &Problem) -> Option<([f64; 2], [f64; 2])> {
-        let slack = CONTINUOUS * self.scale();
         let mut at_vertex = HashMap::new();
         let edges = problem.topology.counts.unknowns()..problem.topology.counts.edges();
-        let ends = edges
-            .zip(&self.given)
-            .flat_map(|(edge, values)| problem.ends[edge].into_iter().zip(values.iter().copied()));
-        ends.into_iter().find_map(|(vertex, value)| {
-            let first = *at_vertex.entry(vertex).or_insert(value);
+        let ends = edges.zip(&self.given).flat_map(|(edge, values)| {
+            problem.ends[edge].map(|of| (edge, of)).into_iter().zip(values)
+        });
+        let mut range = None;
+        ends.into_iter().find_map(|((edge, vertex), &value)| {
+            let (other, first) = *at_vertex.entry(vertex).or_insert((edge, value));
+            if value == first {
+                return None;
+            }
             let at = problem.mesh.vertices[vertex as usize];
-            let differ = (value - first).abs() > slack;
-            differ.then_some((at, [first, value]))
+            let range = *range.get_or_insert_with(|| rounding::range_of(problem));
+            let slack = rounding::slack(problem, range, [other, edge], vertex);
+            ((value - first).abs() > slack).then_some((at, [first, value]))
         })
     }
 
-    /// ‖A^½∇·‖ of what s misses of these data at vertices where they differ by rounding: u_D between two Dirichlet edges,
-    /// or u_D on a side of ψ that there is not. s takes one value there, which moves it by the difference in all cells around.
+    /// ‖A^½∇·‖ of what s misses of these data at vertices where no value meets all: u_D differs between two Dirichlet edges, or
+    /// what one edge asks from below lies above what another asks from above ([`Problem::asks`]), by rounding or in two sectors of
+    /// a pinch. s takes one value between both there, which moves it by the difference at most in all cells around.
     pub fn moved(&self, problem: &Problem) -> f64 {
-        let counts = problem.topology.counts;
-        let mut values = self.values(problem);
-        for (edge, pair) in (counts.free..).zip(&self.gap) {
-            let span = problem.loads.flux_range(edge - counts.free).span().length();
+        let mut asked = self.asked(problem);
+        for (edge, pair) in (problem.topology.counts.free..).zip(&self.gap) {
+            let [below, above] = problem.asks(edge);
             for (vertex, &psi) in problem.ends[edge].into_iter().zip(pair) {
-                let Some([low, high]) = values.get_mut(&vertex) else { continue };
-                // Where both ends of the flux are finite, u_D may be on either side.
-                match span {
-                    f64::INFINITY => *high = high.max(psi),
-                    f64::NEG_INFINITY => *low = low.min(psi),
-                    _ => {}
+                let [most, least] = asked.entry(vertex).or_insert(ANYTHING);
+                if below {
+                    *most = most.max(psi);
+                }
+                if above {
+                    *least = least.min(psi);
                 }
             }
         }
-        of_spread(problem, values)
+        of_excluded(problem, asked)
     }
 
-    /// Largest move of the first kind alone: one term of a sum may have u_D on any side of ψ.
+    /// Largest move between Dirichlet edges alone: one term of a sum may have u_D and ψ on any side.
     pub fn moved_on_dirichlet(&self, problem: &Problem) -> f64 {
-        of_spread(problem, self.values(problem))
+        of_excluded(problem, self.asked(problem))
     }
 
-    /// The least and the largest u_D at each vertex.
-    fn values(&self, problem: &Problem) -> BTreeMap<u32, [f64; 2]> {
-        let mut values = BTreeMap::<u32, [f64; 2]>::new();
+    /// The most that Dirichlet edges ask from below at each vertex, and the least that they ask from above.
+    fn asked(&self, problem: &Problem) -> BTreeMap<u32, [f64; 2]> {
+        let mut asked = BTreeMap::<u32, [f64; 2]>::new();
         for (edge, pair) in (problem.topology.counts.unknowns()..).zip(&self.given) {
             for (vertex, &value) in problem.ends[edge].into_iter().zip(pair) {
-                let [low, high] = values.entry(vertex).or_insert([value; 2]);
-                (*low, *high) = (low.min(value), high.max(value));
+                let [most, least] = asked.entry(vertex).or_insert(ANYTHING);
+                (*most, *least) = (most.max(value), least.min(value));
             }
         }
-        values
+        asked
     }
 
     /// The largest modulus of all these numbers.
-    pub fn scale(&self) -> f64 {
+    pub fn size(&self) -> f64 {
         let all = self.gap.iter().chain(&self.given).flatten();
         all.fold(0.0, |most: f64, value| most.max(value.abs()))
     }
+
+    /// max − min of all these numbers: a constant added to them changes nothing.
+    pub fn range(&self) -> f64 {
+        let all = || self.gap.iter().chain(&self.given).flatten().copied();
+        let [low, high] = [f64::min, f64::max].map(|of| all().reduce(of).unwrap_or(0.0));
+        high - low
+    }
+
+    /// The difference that rounding may leave between two expressions for one value.
+    pub fn slack(&self, problem: &Problem) -> f64 {
+        let rounding = ROUNDINGS * f64::EPSILON * (self.size() + problem.units.level());
+        rounding.max(CONTINUOUS * self.range())
+    }
 }
 
-/// ‖A^½∇·‖ of what s misses where values at vertices lie between these.
-fn of_spread(problem: &Problem, values: BTreeMap<u32, [f64; 2]>) -> f64 {
-    let spread = values.into_iter().map(|(vertex, [low, high])| (vertex, high - low));
-    of_moved(problem, &spread.collect())
+/// Asked from below and from above where nothing is.
+const ANYTHING: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
+/// ‖A^½∇·‖ of what s misses where the most that is asked from below lies above the least from above.
+fn of_excluded(problem: &Problem, asked: BTreeMap<u32, [f64; 2]>) -> f64 {
+    let excluded = asked.into_iter().filter(|(_, [most, least])| most > least);
+    of_moved(problem, &excluded.map(|(vertex, [most, least])| (vertex, most - least)).collect())
 }
 
 /// ‖A^½∇·‖ of the continuous function that is at most these numbers at these vertices, and 0 at the others.

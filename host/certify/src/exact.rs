@@ -9,7 +9,10 @@
 //! bound² = identity², whatever S and τ are, is a test of the bound from both sides. Nothing is
 //! clipped: where S or τ are not admissible, single terms are negative.
 
+mod fewer;
 mod two_sided;
+
+pub use fewer::of_fewer_points;
 
 use std::borrow::Cow;
 use std::iter::repeat;
@@ -66,7 +69,7 @@ pub fn distance_on(
 ) -> Result<Distance> {
     let deviations = &curved::followed(problem, admissible)?;
     let (u, lift) = (&Solution { exact, problem }, &Lifted { problem, deviations });
-    Integrands { exact, problem, admissible, deviations, u, lift, panels }.distance()
+    Integrands { exact, problem, admissible, deviations, u, lift, panels, fewer: 1 }.distance()
 }
 
 /// Fields that a distance is integrated from.
@@ -85,6 +88,8 @@ pub struct Integrands<'a, U, L> {
     pub lift: &'a L,
     /// Parts of a cell in each direction, each with a rule of its own.
     pub panels: u32,
+    /// Number that divides the points of each rule.
+    pub fewer: u32,
 }
 
 /// Values at a point of a cell.
@@ -173,7 +178,7 @@ impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
             true => points_on(self.problem.cells()),
             false => POINTS,
         };
-        on_panels(self.panels, &gauss(points))
+        on_panels(self.panels, &gauss(points / self.fewer as usize))
     }
 
     /// Calls `add` with the points of `rule` on a cell.
@@ -289,6 +294,6 @@ impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
                 tau: self.admissible.tau[edge] / length,
             })
         };
-        on_panels(self.panels * PANELS, &gauss(8)).into_iter().map(point).collect()
+        on_panels(self.panels * PANELS / self.fewer, &gauss(8)).into_iter().map(point).collect()
     }
 }

@@ -7,7 +7,7 @@
 //!   ends         ψ and u_D at the ends of edges      ─┐                                        │
 //!   deviation ─► curved   what lies above their chords ├─► data ─────────────────────────► certifier
 //!   energy       what is left out of either, by A    ─┤                                        │
-//!   oscillation  what the means of f, g, q leave out  ─┤                                       │
+//!   profile ─► local_flux, edge_flux ─► oscillation  what the means of f, g, q leave out  ─┤                                       │
 //!   robin        h and u_ext at points of edges       ─┘                                     bound
 //!   admissible ─┬► exact   the true distance to s and τ, from an exact solution
 //! ```
@@ -19,15 +19,22 @@ pub mod conductivity;
 pub mod curved;
 mod data;
 pub mod deviation;
+mod edge_flux;
 pub mod ends;
 pub mod energy;
 pub mod exact;
 pub mod forest;
+mod imbalance;
+mod legendre;
+mod local_flux;
 pub mod metric;
 mod no_bound;
 pub mod oscillation;
+mod profile;
+mod relaxed;
 pub mod robin;
 pub mod sampled;
+mod stretch;
 pub mod term;
 #[cfg(test)]
 mod tests;

@@ -9,7 +9,8 @@ use super::curved::{Curved, Rough};
 use super::ends::Ends;
 use super::robin::RobinPoints;
 use signorini_problem::scalar::Scalar;
-use signorini_problem::{Problem, spread};
+use signorini_problem::{Problem, excess_within_ranges};
+use signorini_scene::scene::{Field, Input};
 
 /// By how much a transfer coefficient may vary along an edge: where it nearly vanishes, ∫(τ·n)²/h is
 /// beyond 8 points, and infinite where it does.
@@ -26,7 +27,7 @@ impl NoBound {
     }
 
     /// Reasons that [`NoBound::of_data`] may find, for callers that have not kept it.
-    pub const OF_DATA: &str = "u_D jumps between two edges, u_D or ψ jumps inside one, a transfer coefficient nearly vanishes, the range of a contact flux does, or inputs change one that varies along an edge";
+    pub const OF_DATA: &str = "u_D jumps between two edges, u_D or ψ jumps inside one, a transfer coefficient nearly vanishes, or an input without a range changes the range of a contact flux that varies along an edge";
 
     /// Why these data allow for no bound, whatever the iterate.
     pub fn of_data(
@@ -36,31 +37,40 @@ impl NoBound {
         transfer: &[RobinPoints],
     ) -> Option<Self> {
         let rough = || curved.iter().find_map(|edge| Self::rough(problem, edge));
-        let jump = || ends.jump(problem).map(Self::values_differ);
+        let jump = || ends.jump(problem).map(|jump| Self::values_differ(problem, jump));
         let vanishes = || Self::transfer_vanishes(problem, transfer);
-        rough().or_else(jump).or_else(vanishes).or_else(|| Self::limit_varies(problem))
+        rough().or_else(jump).or_else(vanishes)
     }
 
     /// u_D has two values where two Dirichlet edges meet.
-    fn values_differ((at, [a, b]): ([f64; 2], [f64; 2])) -> Self {
+    fn values_differ(problem: &Problem, (at, values): ([f64; 2], [f64; 2])) -> Self {
+        let [a, b] = values.map(|value| problem.units.value(value));
         Self(format!(
             "the Dirichlet value jumps from {a} to {b} at {}: no function of finite energy has both values",
             place(at)
         ))
     }
 
-    /// The first contact edge on which hi − lo falls below half of its mean: only above that are all fluxes between the
-    /// means of both ends between the ends themselves, once one of these is moved to its mean.
-    fn limit_varies(problem: &Problem) -> Option<Self> {
-        let (free, time) = (problem.topology.counts.free, problem.time);
-        let falls =
-            |edge: &usize| spread(problem, *edge, time).is_some_and(|spread| spread.least < 0.5);
-        let edge = (free..free + problem.loads.spans.len()).find(falls)?;
+    /// The first contact edge whose range hi − lo inputs may close in a part of the edge: one of them has no range, so that ticks
+    /// refuse those values alone that close it in the mean.
+    pub fn of_ranges(problem: &Problem) -> Option<Self> {
+        let (free, has_input) =
+            (problem.topology.counts.free, problem.scene.limit_input().is_some());
+        let is_open =
+            |edge: &usize| excess_within_ranges(problem, *edge).is_some_and(f64::is_infinite);
+        let mut edges = free..free + if has_input { problem.topology.counts.contact } else { 0 };
+        let edge = edges.find(is_open)?;
+        let name = boundary(problem, edge);
+        let is_culprit = |input: &&Input| {
+            let is_end = matches!(input.field.value, Field::Flux | Field::Limit);
+            is_end && input.of.value == name && input.range.is_none()
+        };
+        let input = problem.scene.inputs.iter().find(is_culprit)?;
         Some(Self(format!(
-            "limit − flux of boundary.{} falls below half of its mean along the edge around {}: a finer mesh \
-             there gives a bound",
-            boundary(problem, edge),
-            middle(problem, edge)
+            "limit − flux of boundary.{name} varies along the edge around {}, and input.{} changes it without a range: \
+             with a range that leaves it room there is a bound",
+            middle(problem, edge),
+            input.name.value
         )))
     }
 
@@ -142,6 +152,37 @@ impl NoBound {
             "contact alone holds the part of the mesh around {}, and nothing touches there: no edge can take what \
              its fluxes leave unbalanced",
             place(Cell::of(problem, cell).middle())
+        ))
+    }
+
+    /// A load that has no finite square integral near a point, or is not proved to have one.
+    pub(super) fn not_square(field: Field, at: [f64; 2], is_proved: bool) -> Self {
+        let name = match field {
+            Field::Flux => "the flux",
+            Field::Limit => "the limit",
+            _ => "f",
+        };
+        let place = place(at);
+        Self(match is_proved {
+            true => format!(
+                "{name} is not square integrable near {place}: what its means leave out has no finite norm"
+            ),
+            false => format!(
+                "{name} can't be enclosed near {place}: what its means leave out is not known"
+            ),
+        })
+    }
+
+    /// So much of the loads' integrals may be missed, and nothing can take it.
+    pub(super) fn unbalanced(missed: f64) -> Self {
+        let reason = match missed.is_finite() {
+            true => {
+                format!("up to {missed:.2e} of the integrals of f, flux and limit is not resolved")
+            }
+            false => "f, flux or limit can't be enclosed somewhere".to_owned(),
+        };
+        Self(format!(
+            "{reason}, and no dirichlet or robin edge can take it: a finer mesh may give a bound"
         ))
     }
 

@@ -50,6 +50,8 @@ const MOST: usize = 256;
 const SETTLED: f64 = 1e-2;
 /// Differences below this part of √h u_ext are those of rounding: nothing is gained by bisecting for them.
 const ROUNDING: f64 = 1e-13;
+/// Roundings of a constant that was taken from u_ext, which are in it.
+const OF_LEVEL: f64 = 4.0;
 
 /// √2 ‖√h (u_ext − û)‖ on an edge of R, in the unit of ‖A^½∇u‖.
 ///
@@ -63,17 +65,23 @@ pub fn missed(problem: &Problem, edge: usize, time: f64) -> Result<f64> {
     if h.constant().is_some() && ambient.constant().is_some() {
         return Ok(0.0);
     }
-    // √h u_ext
+    // √h and √h u_ext
+    let root = |t: f64| -> Result<f64> {
+        let [x, y] = problem.along(edge, t);
+        Ok(h.finite(h.at(x, y), [x, y])?.max(0.0).sqrt())
+    };
     let weighted = |t: f64| -> Result<f64> {
         let [x, y] = problem.along(edge, t);
-        let h = h.finite(h.at(x, y), [x, y])?.max(0.0);
-        Ok(h.sqrt() * ambient.finite(ambient.at(x, y), [x, y])?)
+        Ok(root(t)? * ambient.finite(ambient.at(x, y), [x, y])?)
     };
     let known = f64::GAUSS[DATA_POINTS - 1].iter().map(|&[t, _]| Ok([t, weighted(t)?]));
     let known = known.collect::<Result<Vec<_>>>()?;
     let size = known.iter().fold(0.0, |most: f64, [_, value]| most.max(value.abs()));
     let square = |t: f64| Ok((weighted(t)? - interpolated(&known, t)).powi(2));
-    let square = integral(square, (ROUNDING * size).powi(2))?;
+    let level = OF_LEVEL * f64::EPSILON * problem.units.level();
+    let roots = f64::GAUSS[DATA_POINTS - 1].iter().map(|&[t, _]| root(t));
+    let noise = roots.collect::<Result<Vec<_>>>()?.into_iter().fold(0.0, f64::max) * level;
+    let square = integral(square, noise.max(ROUNDING * size).powi(2))?;
     Ok((2.0 * problem.lengths[edge] * square).sqrt())
 }
 

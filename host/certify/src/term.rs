@@ -14,10 +14,10 @@
 
 use super::curved::{Curved, curved};
 use super::data::Evaluated;
-use super::ends::Ends;
+use super::ends::{Ends, of_moved};
 use super::no_bound::NoBound;
 use super::robin::{RobinPoints, robin};
-use signorini_problem::{Loads, Problem, TransferPattern};
+use signorini_problem::{Loads, Problem, Room, TransferPattern, rooms};
 use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::term::{Term, left_with};
 use signorini_scene::scene::{Field, Input, Scene};
@@ -45,9 +45,6 @@ pub struct TermData {
     /// What the term adds to the spans of contact fluxes, with an entry for each contact edge; of the base, nothing where all
     /// are ∞.
     pub spans: Vec<f64>,
-    /// Whether inputs change an end of a flux, and hi − lo varies along an edge: which share of the mean it keeps there
-    /// depends on the inputs then.
-    pub span_varies: bool,
 }
 
 /// The terms of a full model: the base and one for each input, in their order.
@@ -66,7 +63,10 @@ pub fn full_terms(problem: &Problem) -> Result<Vec<TermData>> {
     }
     let term = |term: Term| {
         let alone = problem.restated(as_stated(&problem.scene)).left_with(&[term])?;
-        let data = at_all_corners(&alone)?;
+        let mut data = at_all_corners(&alone)?;
+        if term == 0 {
+            data.oscillation += 2.0 * of_moved(problem, &problem.moved_at_most());
+        }
         let input = term.checked_sub(1).filter(|&at| changes_transfer(&problem.scene.inputs[at]));
         Ok(TermData {
             transfer: robin(&alone, alone.time)?,
@@ -90,6 +90,17 @@ pub fn condensed_terms(problem: &Problem) -> Result<Vec<TermData>> {
     (0..=problem.scene.inputs.len()).map(term).collect()
 }
 
+/// Room that inputs leave in the ranges of contact fluxes, from all terms of a model.
+pub fn rooms_of(problem: &Problem, terms: &[TermData]) -> Vec<Room> {
+    if problem.scene.limit_input().is_none() {
+        return Vec::new();
+    }
+    let counts = problem.topology.counts;
+    let ends: Vec<[&[f64]; 2]> =
+        terms.iter().map(|term| [&term.loads().contact_flux[..], &term.spans[..]]).collect();
+    rooms(&problem.lengths[counts.free..counts.unknowns()], &ends)
+}
+
 impl TermData {
     /// None of the terms of a condensed model, for what is no load of the scene.
     ///
@@ -111,23 +122,14 @@ impl TermData {
         }
         let range = problem.range_term(term)?;
         alone.loads.contact_flux = range.fluxes;
-        Ok(Self { span_varies: range.varies, ..Self::of(alone, data, range.spans) })
+        let of_ranges = || NoBound::of_ranges(problem).filter(|_| term == 0);
+        let no_bound = data.no_bound.clone().or_else(of_ranges);
+        Ok(Self { no_bound, ..Self::of(alone, data, range.spans) })
     }
 
     fn of(problem: Problem, data: Evaluated, spans: Vec<f64>) -> Self {
-        let Evaluated { ends, curved, transfer, oscillation, no_bound } = data;
-        let (coefficient, span_varies) = (None, false);
-        Self {
-            problem,
-            ends,
-            curved,
-            transfer,
-            oscillation,
-            no_bound,
-            coefficient,
-            spans,
-            span_varies,
-        }
+        let Evaluated { ends, curved, transfer, oscillation, no_bound, .. } = data;
+        Self { problem, ends, curved, transfer, oscillation, no_bound, coefficient: None, spans }
     }
 
     /// Integrals and means.
@@ -137,7 +139,7 @@ impl TermData {
 
     /// Whether a full model with these data has a bound.
     pub fn has_bound(&self) -> bool {
-        self.no_bound.is_none() && !self.span_varies
+        self.no_bound.is_none()
     }
 
     /// Whether h and u_ext are constant along every edge.
@@ -162,9 +164,9 @@ fn as_stated(scene: &Scene) -> Scene {
 
 /// The data of a term with the most oscillation, and the first reason for no bound, of any coefficients within their ranges.
 fn at_all_corners(alone: &Problem) -> Result<Evaluated> {
-    let mut corners = corners(&alone.scene).map(|scene| Evaluated::new(&alone.restated(scene)));
+    let mut corners = corners(&alone.scene).map(|scene| Evaluated::of_term(&alone.restated(scene)));
     // Without such inputs there is one corner, the scene itself.
-    let first = corners.next().unwrap_or_else(|| Evaluated::new(alone))?;
+    let first = corners.next().unwrap_or_else(|| Evaluated::of_term(alone))?;
     corners.try_fold(first, |worst, there| {
         let there = there?;
         let oscillation = worst.oscillation.max(there.oscillation);

@@ -12,6 +12,7 @@ use super::evaluate::dot;
 use super::factor::column;
 use super::{CondensedModel, Corner, Form};
 use signorini_kernel::excess::Excess;
+use signorini_kernel::flux_range::{FluxRange, Span};
 
 /// An excess this far on a side that there is not, against the size of its terms, is rounding of its sum.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -208,14 +209,14 @@ impl Form {
         (0..self.ends.len()).map(of_edge).sum()
     }
 
-    /// mean⁺ (τ − least) + mean⁻ (greatest − τ). The end that is not the nearest one is only known up to the excess of spans;
-    /// on a side that there is not, s is but for rounding, which stands elsewhere.
+    /// mean⁺ (τ − least) + mean⁻ (greatest − τ), where the range of the edge is the widest that it may be along it. On a side that
+    /// there is not, s is but for rounding, which stands elsewhere.
     fn price(&self, above: f64, below: f64, tau: f64, [least, greatest]: [f64; 2]) -> f64 {
-        let rooms = [tau - least, greatest - tau];
-        let side = |excess: f64, own: f64, other: f64| {
-            let unseen = if own <= other { 0.0 } else { self.span_excess };
-            if excess > 0.0 && own.is_finite() { excess * (own + unseen) } else { 0.0 }
+        let range = FluxRange::new(0.0, Span::new(greatest - least));
+        let side = |excess: f64, room: f64| match excess > 0.0 && room.is_finite() {
+            true => excess * (room + range.unseen(room, self.span_excess)),
+            false => 0.0,
         };
-        side(above, rooms[0], rooms[1]) + side(below, rooms[1], rooms[0])
+        side(above, tau - least) + side(below, greatest - tau)
     }
 }

@@ -7,17 +7,17 @@
 //! ```
 //! At an inner vertex e is the linear interpolation between the middles of its two edges, at an end of
 //! the chain the extrapolation from the first two; where D begins, s = u_D, and what that lies above ψ
-//! is the excess of a corner.
+//! is the excess of a corner. Where the gaps of two boundaries differ s starts from a value that meets both ([`super::levels`]),
+//! the vertex is an end of the first edge whose ψ that is, and the other edge has a corner. With limits, which
+//! know one place for each end of an edge, s has that value for good.
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::levels::{level, ranges};
 use super::{Corner, Form, Vertex};
 use signorini_certify::TermData;
 use signorini_certify::ends::of_moved;
 use signorini_problem::Problem;
-
-/// Difference that rounding may leave between two expressions for the same value, relative to the largest.
-const ROUNDING: f64 = 1e-9;
 
 /// The boundary values of s.
 pub(super) struct Chain {
@@ -27,8 +27,8 @@ pub(super) struct Chain {
     pub gap: Vec<Vec<f64>>,
     /// The vertices that were released, and ψ there for each pattern.
     pub released: Vec<(u32, Vec<f64>)>,
-    /// Dirichlet vertices and u_D there for each pattern.
-    pub dirichlet: BTreeMap<u32, Vec<f64>>,
+    /// Vertices where s is given, and its value there for each pattern: u_D on D.
+    pub given: BTreeMap<u32, Vec<f64>>,
     /// Where s is off ψ for good.
     pub corners: Vec<Corner>,
     /// The vertex of each corner.
@@ -60,46 +60,55 @@ impl Chain {
         openings: &[f64],
         released: &BTreeSet<u32>,
     ) -> Result<Self, String> {
-        let dirichlet = given(problem, patterns);
+        let given = given(problem, patterns);
         let meetings = meetings(problem, patterns, edges);
+        let (ranges, is_limited) =
+            (ranges(problem, patterns.len()), !problem.loads.spans.is_empty());
         let mut chain = Self {
             contact: Vec::new(),
             gap: Vec::new(),
             released: Vec::new(),
-            dirichlet,
+            given,
             corners: Vec::new(),
             met: Vec::new(),
             moved: vec![BTreeMap::new(); patterns.len()],
             ends: Vec::new(),
         };
         for (&vertex, meeting) in &meetings {
-            let psi = common_gap(problem, patterns, vertex, meeting)?;
-            for (j, moved) in chain.moved.iter_mut().enumerate() {
-                let off = meeting.iter().map(|(_, other)| (other[j] - psi[j]).abs());
-                moved.insert(vertex, off.fold(0.0, f64::max));
-            }
-            match chain.dirichlet.get(&vertex) {
-                Some(given) => {
-                    let excess = excess(patterns, given, &psi);
-                    for (j, moved) in chain.moved.iter_mut().enumerate() {
-                        let dropped = (given[j] - psi[j]) - excess[j];
-                        moved.entry(vertex).and_modify(|most| *most += dropped.abs());
-                    }
-                    let edges = meeting.iter().filter(|_| excess.iter().any(|&part| part != 0.0));
-                    let corners = edges.map(|&(edge, _)| Corner {
-                        edge,
-                        excess: excess.iter().map(|part| part / openings[edge]).collect(),
-                        energy: of_moved(problem, &BTreeMap::from([(vertex, openings[edge])])),
+            let start = match chain.given.get(&vertex) {
+                Some(given) => given.clone(),
+                None => common_gap(problem, patterns, vertex, (meeting, edges), &ranges)?,
+            };
+            let is_free = !chain.given.contains_key(&vertex) && released.contains(&vertex);
+            let corners = chain.corners.len();
+            for (edge, psi) in meeting {
+                let excess = excess(patterns, &start, psi);
+                for (j, moved) in chain.moved.iter_mut().enumerate() {
+                    let dropped = ((start[j] - psi[j]) - excess[j]).abs();
+                    let most = moved.entry(vertex).or_insert(0.0);
+                    *most = most.max(dropped);
+                }
+                if !is_free && excess.iter().any(|&part| part != 0.0) {
+                    let opening = openings[*edge];
+                    chain.corners.push(Corner {
+                        edge: *edge,
+                        excess: excess.iter().map(|part| part / opening).collect(),
+                        energy: of_moved(problem, &BTreeMap::from([(vertex, opening)])),
                     });
-                    chain.corners.extend(corners);
-                    chain.met.resize(chain.corners.len(), vertex);
                 }
-                None if released.contains(&vertex) => chain.released.push((vertex, psi)),
-                None => {
-                    let place = place(problem, &meetings, vertex, edges, openings)?;
-                    chain.contact.push((vertex, place));
-                    chain.gap.push(psi);
-                }
+            }
+            chain.met.resize(chain.corners.len(), vertex);
+            let differ = chain.corners.len() > corners;
+            if is_free {
+                chain.released.push((vertex, start));
+            } else if differ && is_limited {
+                chain.given.entry(vertex).or_insert(start);
+            } else if !chain.given.contains_key(&vertex) {
+                let own = meeting.iter().position(|(_, psi)| differ && *psi == start);
+                let own = own.or(differ.then_some(0));
+                let place = place(problem, &meetings, vertex, (edges, openings), own)?;
+                chain.contact.push((vertex, place));
+                chain.gap.push(start);
             }
         }
         chain.ends = chain.places(problem, edges);
@@ -123,11 +132,7 @@ impl Chain {
 
     /// The vertices where s is not free.
     pub fn fixed(&self) -> BTreeSet<u32> {
-        self.contact
-            .iter()
-            .map(|(vertex, _)| *vertex)
-            .chain(self.dirichlet.keys().copied())
-            .collect()
+        self.contact.iter().map(|(vertex, _)| *vertex).chain(self.given.keys().copied()).collect()
     }
 }
 
@@ -154,54 +159,62 @@ fn meetings(problem: &Problem, patterns: &[TermData], edges: &[usize]) -> Meetin
     meetings
 }
 
-/// ψ at a vertex, the same from all its contact edges.
+/// ψ at a vertex, the same from all its contact edges but for rounding; else the value that meets all of them.
 fn common_gap(
     problem: &Problem,
     patterns: &[TermData],
     vertex: u32,
-    meeting: &[(usize, Vec<f64>)],
+    (meeting, edges): (&[(usize, Vec<f64>)], &[usize]),
+    ranges: &[[f64; 2]],
 ) -> Result<Vec<f64>, String> {
-    let [x, y] = problem.mesh.vertices[vertex as usize];
     let Some((_, first)) = meeting.first() else { return Ok(Vec::new()) };
-    for (_, other) in meeting {
-        let pairs = patterns.iter().zip(first.iter().zip(other));
-        if pairs.into_iter().any(|(p, (a, b))| (a - b).abs() > ROUNDING * p.ends.scale()) {
-            return Err(format!("the gap has a jump at ({x}, {y})"));
-        }
+    let is_same = |psi: &[f64]| excess(patterns, psi, first).iter().all(|&part| part == 0.0);
+    if meeting.iter().all(|(_, psi)| is_same(psi)) {
+        return Ok(first.clone());
     }
-    Ok(first.clone())
+    let free = problem.topology.counts.free;
+    let gaps = meeting.iter().map(|(at, psi)| (problem.asks(free + edges[*at]), &psi[..]));
+    level(gaps, ranges).map_err(|_| {
+        let [x, y] = problem.mesh.vertices[vertex as usize];
+        format!(
+            "the gaps of the contact boundaries that meet at ({x}, {y}) differ by what an input without a range changes: \
+             which is the larger one is not known beforehand"
+        )
+    })
 }
 
-/// u_D − ψ for each pattern; rounding is 0.
+/// s − ψ for each pattern; rounding is 0.
 fn excess(patterns: &[TermData], given: &[f64], psi: &[f64]) -> Vec<f64> {
     let difference = |(pattern, (given, psi)): (&TermData, (&f64, &f64))| {
         let excess = given - psi;
-        if excess.abs() > ROUNDING * pattern.ends.scale() { excess } else { 0.0 }
+        if excess.abs() > pattern.ends.slack(&pattern.problem) { excess } else { 0.0 }
     };
     patterns.iter().zip(given.iter().zip(psi)).map(difference).collect()
 }
 
-/// Where e comes from at a vertex.
+/// Where e comes from at a vertex: of two edges with one ψ from both, else from the side of the one of number `own`.
 fn place(
     problem: &Problem,
     meetings: &Meeting,
     vertex: u32,
-    edges: &[usize],
-    openings: &[f64],
+    (edges, openings): (&[usize], &[f64]),
+    own: Option<usize>,
 ) -> Result<Vertex, String> {
     let free = problem.topology.counts.free;
     let length = |at: usize| problem.lengths[free + edges[at]];
     let here: Vec<usize> = meetings[&vertex].iter().map(|&(at, _)| at).collect();
-    let (edges, weights, beside) = match here[..] {
-        [left, right] => {
+    let from = |end: usize, beside: [usize; 2]| {
+        let next = next_along(problem, meetings, vertex, edges, end);
+        let slope = next.map_or(0.0, |next| length(end) / (length(end) + length(next)));
+        ([end, next.unwrap_or(end)], [1.0 + slope, -slope], beside)
+    };
+    let (edges, weights, beside) = match (&here[..], own) {
+        (&[left, right], None) => {
             let whole = length(left) + length(right);
             ([left, right], [length(right) / whole, length(left) / whole], [left, right])
         }
-        [end] => {
-            let next = next_along(problem, meetings, vertex, edges, end);
-            let slope = next.map_or(0.0, |next| length(end) / (length(end) + length(next)));
-            ([end, next.unwrap_or(end)], [1.0 + slope, -slope], [end; 2])
-        }
+        (&[left, right], Some(own)) => from(here[own], [left, right]),
+        (&[end], _) => from(end, [end; 2]),
         _ => {
             let [x, y] = problem.mesh.vertices[vertex as usize];
             return Err(format!("more than two contact edges meet at ({x}, {y})"));

@@ -8,8 +8,7 @@
 
 use super::CondensedModel;
 use signorini_certify::TermData;
-use signorini_kernel::flux_range::settled;
-use signorini_problem::{Problem, spread};
+use signorini_problem::{Problem, excess_within_ranges};
 use signorini_reference::ReferenceError;
 
 impl CondensedModel {
@@ -23,16 +22,15 @@ impl CondensedModel {
         self.spans.iter().skip(1).flatten().any(|&span| span != 0.0)
     }
 
-    /// From the base of each edge to the other end of its flux; nothing where all are ∞. In a varying model a finite one is
-    /// negative where the inputs put the upper end below the lower one.
+    /// From the base of each edge to the other end of its flux; nothing where all are ∞. In a varying model a finite one is 0
+    /// where the inputs put the upper end below the lower one: by more than rounding they are refused.
     pub fn span_of(&self, p: &[f64]) -> Vec<f64> {
         let Some((constant, others)) = self.spans.split_first() else { return Vec::new() };
+        let is_varying = self.is_varying();
         let of_edge = |(at, &constant): (usize, &f64)| {
             let terms = || others.iter().zip(&p[1..]).map(|(column, p)| column[at] * p);
             let sum = terms().fold(constant, |sum, term| sum + term);
-            let size = terms().fold(constant.abs(), |sum, term| sum + term.abs());
-            let is_moved = sum < 0.0 && constant != sum;
-            if is_moved { settled(sum, size, p.len()).unwrap_or(sum) } else { sum }
+            if is_varying && sum.is_finite() { sum.max(0.0) } else { sum }
         };
         constant.iter().enumerate().map(of_edge).collect()
     }
@@ -70,8 +68,7 @@ impl CondensedModel {
         if !self.is_limited() {
             return Ok(());
         }
-        let spans = self.span_of(p);
-        if self.is_varying() && spans.iter().any(|&span| span < 0.0 && span.is_finite()) {
+        if self.rooms.iter().any(|room| room.view().check(&p[1..]).is_err()) {
             return Err(ReferenceError::Malformed("a limit lies below the flux at these inputs"));
         }
         let (load, ends) = (self.load_of(p), self.ends_of(p));
@@ -124,28 +121,12 @@ pub(super) fn in_unknowns(
     columns
 }
 
-/// Why a model whose ends inputs change has no bound: hi − lo varies along an edge.
-pub(super) fn varies(problem: &Problem, patterns: &[TermData]) -> Option<String> {
-    let input = problem.scene.limit_input()?;
-    let counts = problem.topology.counts;
-    let varies = |edge: usize| {
-        patterns.iter().any(|pattern| spread(&pattern.problem, edge, problem.time).is_some())
-    };
-    let edge = (counts.free..counts.unknowns()).find(|&edge| varies(edge))?;
-    let [a, b] = problem.segment(edge);
-    let [x, y] = [0, 1].map(|k| 0.5 * (a[k] + b[k]));
-    Some(format!(
-        "limit − flux varies along the edge around ({x}, {y}), and input.{} changes an end of a flux: what the bound misses \
-         there is not known for all inputs",
-        input.name.value
-    ))
-}
-
-/// By how much |E| (hi − lo) exceeds its mean somewhere on an edge, times the d of its unknown, at most.
+/// By how much |E| (hi − lo) exceeds its mean somewhere on an edge, whatever inputs are within their ranges, times the d of its
+/// unknown, at most.
 pub(super) fn excess(problem: &Problem, edges: &[usize], openings: &[f64]) -> f64 {
     let free = problem.topology.counts.free;
     let of_edge = |(edge, opening): (&usize, &f64)| {
-        spread(problem, free + edge, problem.time).map_or(0.0, |spread| spread.excess * opening)
+        excess_within_ranges(problem, free + edge).map_or(0.0, |excess| excess * opening)
     };
     edges.iter().zip(openings).map(of_edge).fold(0.0, f64::max)
 }

@@ -8,7 +8,7 @@ use super::best::{Table, complete};
 use super::block::{Block, Functions};
 use super::chain::Chain;
 use super::elimination::{Field, failed};
-use super::ends::{excess, varies};
+use super::ends::excess;
 use super::factor::{Source, energies, packed, stability, triangular};
 use super::laws::Laws;
 use super::residual::{blocks, jumps};
@@ -129,13 +129,10 @@ impl FormData<'_> {
 
     /// Why these data allow for no bound.
     fn obstacle(&self) -> Result<Option<String>> {
-        let Pieces { problem, parts, patterns, .. } = self.columns.pieces;
+        let Pieces { parts, patterns, .. } = self.columns.pieces;
         if parts.counts.contact > 1 {
             let reason = "contact alone holds more than one part of the mesh: what is mended in each would have to leave through an edge of its own";
             return Ok(Some(reason.to_owned()));
-        }
-        if let Some(reason) = varies(problem, patterns) {
-            return Ok(Some(reason));
         }
         let reason = patterns.iter().find_map(|pattern| pattern.no_bound.as_ref());
         Ok(reason.map(ToString::to_string))
@@ -147,7 +144,7 @@ impl FormData<'_> {
         let (inputs, contact) = (pieces.patterns.len(), openings.len());
         let columns = inputs + contact + chain.contact.len();
         let mut s = Table::new(functions.count(), columns);
-        for (&vertex, values) in &chain.dirichlet {
+        for (&vertex, values) in &chain.given {
             s.row_mut(vertex as usize)[..inputs].copy_from_slice(values);
         }
         for (at, ((vertex, place), gap)) in chain.contact.iter().zip(&chain.gap).enumerate() {

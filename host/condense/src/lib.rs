@@ -25,6 +25,7 @@
 //! (with limits what `bound` says instead of the second term, and x on any side that there is)
 //! and that of u_h is U|J(p, x, d)| more, ‖A^½∇_h(s − u_h)‖; with the mended amounts δ and the corrections d of s that `Form::correction` chooses.
 
+mod balance;
 mod best;
 mod block;
 mod bound;
@@ -36,6 +37,7 @@ mod factor;
 mod form;
 mod held;
 mod laws;
+mod levels;
 mod measures;
 mod model;
 mod modes;
@@ -52,17 +54,18 @@ use std::collections::BTreeSet;
 
 use faer::Mat;
 
+use balance::balances;
 use elimination::{Field, FieldLoads, columns, fields};
 use ends::{in_unknowns, spans};
 use form::FormData;
 use held::{held_alone, held_by_contact, held_by_one};
 use laws::Laws;
-pub use model::{CondensedModel, Corner, Form, Measure, Vertex};
+pub use model::{Balance, CondensedModel, Corner, Form, Measure, Vertex};
 pub use modes::{LawsForm, LeftOut, ModalModel, modal};
 pub use order::along_boundary;
 pub use recovery::{Recovery, recoverable};
 use signorini_certify::TermData;
-use signorini_certify::term::condensed_terms;
+use signorini_certify::term::{condensed_terms, rooms_of};
 use signorini_problem::{Approach, Parts, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Input;
@@ -155,6 +158,8 @@ impl<'p> Pieces<'p> {
             certificate: Err(String::new()),
             energy_unit: 1.0,
             held_by_contact: self.held_by_contact.clone(),
+            rooms: rooms_of(problem, patterns),
+            balances: balances(problem, &self.parts, patterns, &self.spans)?,
             opening: opening.clone(),
         };
         // Amplitudes of modes are no inputs of the scene.

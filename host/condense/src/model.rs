@@ -1,5 +1,7 @@
 //! A condensed model as numbers: matrix, loads, outputs, and the form of its error bound.
 
+use signorini_problem::Room;
+
 /// A condensed model, in f64.
 #[derive(Debug, Clone)]
 pub struct CondensedModel {
@@ -37,6 +39,23 @@ pub struct CondensedModel {
     pub energy_unit: f64,
     /// The unknowns of each part that nothing else holds: Ŝ is singular there.
     pub held_by_contact: Vec<Vec<usize>>,
+    /// Room that inputs leave in the ranges of fluxes.
+    pub rooms: Vec<Room>,
+    /// Loads that the fluxes of each such part have to balance.
+    pub balances: Vec<Balance>,
+}
+
+/// Sums of the loads on the mesh over a part that contact alone holds, as m factors of p.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Balance {
+    /// A cell of the part.
+    pub cell: usize,
+    /// With all contact fluxes at their least; empty where one has no end there.
+    pub least: Vec<f64>,
+    /// With all of them at their greatest; empty where one has no end there.
+    pub greatest: Vec<f64>,
+    /// The sizes of all terms, edge by edge.
+    pub size: Vec<f64>,
 }
 
 /// How an output follows from p, x and r̂, in the columns of the model.

@@ -116,8 +116,8 @@ pub struct ScenePanel {
     pub no_bound: Option<String>,
     /// How wrong they are, where that is known.
     pub error: Option<f64>,
-    /// The energy norm of the solution, which makes sizes of both.
-    pub energy: f64,
+    /// The energy norm of the solution, which makes sizes of both, and its formula.
+    pub energy: (f64, &'static str),
     /// The edges of the contact boundary C, by arc length.
     pub contact: Vec<ContactEdge>,
     /// The edges of the rest of the boundary.

@@ -93,10 +93,11 @@ const NORMS: [&str; 3] = [
 
 /// How the terms are weighed, the total as a part of the solution, and the truth.
 fn beside(panel: &ScenePanel, total: f64) -> Vec<String> {
-    let part = 100.0 * total / panel.energy;
+    let (energy, name) = panel.energy;
+    let part = 100.0 * total / energy;
     let size = part
         .is_finite()
-        .then(|| format!("The total is {} % of the solution’s energy norm ‖A^½∇u‖.", plain(part)));
+        .then(|| format!("The total is {} % of the solution’s energy norm {name}.", plain(part)));
     let truth = panel.error.map(|error| format!("In truth s and τ are {} off.", plain(error)));
     NORMS.map(str::to_owned).into_iter().chain(size).chain(truth).collect()
 }

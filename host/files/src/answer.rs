@@ -5,6 +5,7 @@ use std::path::Path;
 
 use super::atomic::write_atomically;
 use super::contact::contact;
+use super::digits::percent_above;
 use super::edges::edges_csv;
 use super::fields::{Drawn, picture};
 use super::vtu::contact_vtu;
@@ -12,9 +13,15 @@ use signorini_intervals::Found;
 use signorini_problem::Problem;
 use signorini_problem::threads::on_two_threads;
 use signorini_scene::error::Result;
+use signorini_solve::adaptive::{Dominant, Term};
 use signorini_solve::norms::{Errors, of_solution};
 use signorini_solve::outputs::outputs;
 use signorini_solve::{FreeLevel, Solution, SolverKind, free_levels};
+
+/// A bound above this part of the energy norm is warned of.
+const LARGE: f64 = 0.3;
+/// Roundings that a finished solve may leave.
+const FINISHED: f64 = 1000.0;
 
 /// A solution, and what follows from it.
 #[derive(Debug, Clone)]
@@ -23,7 +30,7 @@ pub struct Answer {
     pub problem: Problem,
     /// Its solution.
     pub solution: Solution,
-    /// (‖A^½∇s‖² + ∫_R h s²)^½, where there is a bound.
+    /// (‖A^½∇s‖² + ∫_R h (s − u_ext)²)^½, where there is a bound.
     pub energy_norm: Option<f64>,
     /// The solver that was asked for.
     pub asked: SolverKind,
@@ -47,9 +54,24 @@ impl Answer {
         asked: SolverKind,
         more: Option<String>,
     ) -> Result<Self> {
+        let is_told = more.is_some();
         let levels = free_levels(&problem, &solution)?;
         problem.warnings.extend(levels.iter().map(FreeLevel::sentence).chain(more));
+        let part = solution.relative_bound(energy_norm).filter(|part| *part > LARGE);
+        if let (Some(part), false) = (part, is_told) {
+            let dominant = Dominant::of(&problem, &solution)?;
+            // Of a solution that is constant up to the solver's last digits there is nothing to be said.
+            let is_finished = solution.algebraic_residual <= FINISHED * solution.scalar.epsilon();
+            if dominant.term != Term::Algebraic || !is_finished {
+                let size = match part < 1.0 {
+                    true => format!("{} % of the energy norm", percent_above(part)),
+                    false => "no less than the energy norm itself".to_owned(),
+                };
+                problem.warnings.push(dominant.warning(&problem, &solution, &size));
+            }
+        }
         let errors = of_solution(&problem, &solution)?;
+        problem.warnings.extend(contradiction(&solution, errors.as_ref()));
         let outputs = outputs(&problem, &solution)?;
         let mut intervals = signorini_intervals::of_outputs(&problem, &solution);
         signorini_intervals::estimate(&problem, &outputs, &mut intervals);
@@ -72,4 +94,18 @@ impl Answer {
         on_two_threads(&files, write, || ())?;
         write_atomically(&out.join("summary.json"), self.summary().json().as_bytes())
     }
+}
+
+/// That the measured error is above its bound by more than quadrature and rounding explain.
+fn contradiction(solution: &Solution, errors: Option<&Errors>) -> Option<String> {
+    let (bound, errors) = (solution.bound?, errors?);
+    let (combined, quadrature) = (errors.combined?, errors.quadrature?);
+    let explained = bound.total + quadrature + bound.rounding;
+    (combined > explained).then(|| {
+        format!(
+            "the error against [exact], {combined:.3e}, is above the bound, {:.3e}, by more than quadrature and rounding explain. \
+             Either [exact] is not the solution of these data, or the bound is wrong",
+            bound.total
+        )
+    })
 }

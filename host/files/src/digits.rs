@@ -1,10 +1,12 @@
 //! Results with the digits that their bound supports, for a terminal; files keep all of them.
 
-/// Digits of a result whose error may be this part of it: 1 at 75 %, 2 at 5 %, 4 at 0.1 %; 3 where nobody knows.
-pub fn supported(relative: Option<f64>) -> usize {
+/// Digits of a result down to the second one of its error; 3 where nobody knows that.
+pub fn supported(value: f64, error: Option<f64>) -> usize {
     const UNKNOWN: usize = 3;
     const MOST: f64 = 9.0;
-    relative.map_or(UNKNOWN, |part| (-part.log10()).floor().clamp(0.0, MOST - 1.0) as usize + 1)
+    let places = |error: f64| value.abs().log10().floor() - error.log10().floor() + 2.0;
+    let known = error.map(places).filter(|digits| !digits.is_nan());
+    known.map_or(UNKNOWN, |digits| digits.clamp(1.0, MOST) as usize)
 }
 
 /// `value` rounded to so many digits. What is far below `scale`, the size of what it was summed from, is 0.
@@ -47,10 +49,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_number_that_is_three_quarters_wrong_has_one_digit() {
-        let digits = [0.75, 0.05, 1e-3, 2.0, 0.0, 1e-30].map(|part| supported(Some(part)));
-        assert_eq!(digits, [1, 2, 4, 1, 9, 9]);
-        assert_eq!(supported(None), 3);
+    fn a_number_has_the_digits_that_its_error_has_two_of() {
+        let of = |value: f64, error: f64| supported(value, Some(error));
+        assert_eq!(
+            [of(11.6, 3.4), of(11.6, 25.0), of(0.4, 13.2), of(3.2e-5, 1.5e-6)],
+            [3, 2, 1, 3]
+        );
+        assert_eq!([of(1.0, 0.0), of(1.0, 1e-30), supported(1.0, None)], [9, 9, 3]);
+        assert_eq!(rounded(11.6123, of(11.6123, 3.4), 0.0), "11.6");
     }
 
     #[test]

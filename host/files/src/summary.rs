@@ -46,9 +46,10 @@ pub struct Summary {
     error_bound: Option<ErrorBound>,
     /// Why there is none.
     error_bound_reason: Option<String>,
-    /// (‖A^½∇s‖² + ∫_R h s²)^½, where there is a bound.
+    /// (‖A^½∇s‖² + ∫_R h (s − u_ext)²)^½, where there is a bound.
     energy_norm: Option<f64>,
-    /// `error_bound.total` over `energy_norm`; null where either is missing or the norm is 0.
+    /// `error_bound.total` over `energy_norm`; null where either is missing or the norm is not above
+    /// `error_bound.rounding`: the solution is constant up to rounding.
     relative_error_bound: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     errors: Option<Errors>,

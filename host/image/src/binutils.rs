@@ -42,17 +42,17 @@ impl Binutils {
         self.run(link.arg(whole).arg("-o").arg(object)).map(drop)
     }
 
-    /// An object that shows these exports alone.
+    /// An object that shows these exports alone, each with what its name is to end with.
     pub fn object(
         &self,
         whole: &Path,
         name: &str,
-        exports: &[&str],
+        exports: &[(&str, &str)],
         folder: &Path,
     ) -> Result<PathBuf, String> {
-        let last = exports.last().copied().unwrap_or_default();
+        let last = exports.last().map_or("", |(own, _)| own);
         let object = folder.join(format!("{name}_{last}.o"));
-        let names: Vec<_> = exports.iter().map(|own| format!("{name}_{own}")).collect();
+        let names: Vec<_> = exports.iter().map(|(own, _)| format!("{name}_{own}")).collect();
         self.linked(whole, &names, &object)?;
         let mut hide = self.command("objcopy");
         hide.arg("--strip-debug");
@@ -60,6 +60,11 @@ impl Binutils {
             hide.arg(format!("--keep-global-symbol={name}"));
         });
         self.run(hide.arg(&object))?;
+        let mut mark = self.command("objcopy");
+        names.iter().zip(exports).for_each(|(name, (_, end))| {
+            mark.arg(format!("--redefine-sym={name}={name}{end}"));
+        });
+        self.run(mark.arg(&object))?;
         needs_nothing(&symbols(self.prefix, &object)?).map(|()| object)
     }
 

@@ -4,7 +4,8 @@
 //!   module ─► cargo (host/c) ─► archive ─► ld -r: what the functions reach ─► objcopy: all other names become its own
 //!                └─ the tick with a deadline, the same way: an object of its own ─► ar: libNAME.a
 //! ```
-//! So that two such libraries link into one image, though each has a panic handler and parts of `core`. The panic handler asks
+//! Each name of the header ends with the [`mark`] of the module, in the header as in the library: those of different bakes do
+//! not link. So that two such libraries link into one image, though each has a panic handler and parts of `core`. The panic handler asks
 //! for a function that is defined nowhere: a library that needs more than memcpy and the like is refused.
 
 use std::fs::{self, File};
@@ -73,6 +74,15 @@ pub const EXPORTS: [&str; 13] = [
     "most_inputs",
 ];
 
+/// The end of all names of one bake: the scene's hash, and one of the module's text, which has the model and its numbers.
+pub fn mark(module: &str) -> String {
+    let scene = module.split("SCENE_HASH: u64 = 0x").nth(1).unwrap_or_default();
+    let scene: String = scene.chars().take_while(char::is_ascii_hexdigit).collect();
+    // FNV-1a.
+    let hash = |hash: u32, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193);
+    format!("_of_{scene}_{:08x}", module.bytes().fold(0x811c_9dc5, hash))
+}
+
 /// Those of the second object: host/c says why it is one.
 pub const EXPORTS_WITHIN: [&str; 1] = ["tick_within"];
 
@@ -85,6 +95,8 @@ pub struct Library {
     pub state: usize,
     /// Bytes of a report.
     pub report: usize,
+    /// Its [`mark`].
+    pub mark: String,
 }
 
 impl Library {
@@ -129,6 +141,7 @@ struct Bench<'a> {
     features: &'a [String],
     name: &'a str,
     on: &'a Machine,
+    mark: String,
     folder: PathBuf,
     scene: PathBuf,
     _turn: File,
@@ -149,7 +162,7 @@ impl<'a> Bench<'a> {
         let scene = folder.join("scene.rs");
         fs::write(&scene, module).map_err(|error| format!("{}: {error}", scene.display()))?;
         let tools = Binutils { prefix: if on.board.is_some() { ARM } else { "" } };
-        Ok(Self { tools, features, name, on, folder, scene, _turn: turn })
+        Ok(Self { tools, features, name, on, mark: mark(module), folder, scene, _turn: turn })
     }
 
     /// The archive of cargo, built with these features of host/c.
@@ -163,7 +176,10 @@ impl<'a> Bench<'a> {
 
     /// An object of `whole` that shows these exports alone.
     fn object(&self, whole: &Path, exports: &[&str]) -> Result<PathBuf, String> {
-        self.tools.object(whole, self.name, exports, &self.folder)
+        let is_of_header = |own: &&str| EXPORTS.contains(own) || EXPORTS_WITHIN.contains(own);
+        let marked = |own: &&str| if is_of_header(own) { self.mark.as_str() } else { "" };
+        let shown: Vec<_> = exports.iter().map(|own| (*own, marked(own))).collect();
+        self.tools.object(whole, self.name, &shown, &self.folder)
     }
 
     fn library(&self, whole: &Path, objects: &[PathBuf]) -> Result<Library, String> {
@@ -171,7 +187,7 @@ impl<'a> Bench<'a> {
         let [state, report] = self.tools.sizes(whole, self.name, &self.folder)?;
         let archive =
             fs::read(&archive).map_err(|error| format!("{}: {error}", archive.display()))?;
-        Ok(Library { archive, state, report })
+        Ok(Library { archive, state, report, mark: self.mark.clone() })
     }
 }
 
@@ -205,6 +221,16 @@ fn build_command(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_mark_tells_bakes_apart() {
+        let text = |number| {
+            format!("pub const SCENE_HASH: u64 = 0x0123_4567_89ab_cdef;\nstatic X: f32 = {number};")
+        };
+        let marks = [1, 2].map(|number| mark(&text(number).replace('_', "")));
+        assert!(marks.iter().all(|mark| mark.starts_with("_of_") && mark.len() <= 29), "{marks:?}");
+        assert_ne!(marks[0], marks[1]);
+    }
 
     #[test]
     fn flags_are_those_of_the_targets() {

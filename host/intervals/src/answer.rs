@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 use signorini_certify::{CertifiedFields, ErrorBound};
+use signorini_scene::scene::Quantity;
+use signorini_scene::scene::units::Units;
 use signorini_solve::{ScalarKind, Solution};
 
 /// An answer of a solve or a tick.
@@ -46,12 +48,15 @@ impl OutputBound {
         [self.center - self.plus_minus, self.center + self.plus_minus]
     }
 
-    /// In other units.
-    pub(super) fn times(self, unit: f64) -> Self {
+    /// From `units` to those of the scene.
+    pub(super) fn in_scene(self, units: &Units, of: Quantity) -> Self {
         let Self { center, plus_minus, estimate, exact, doubt, .. } = self;
-        let [center, plus_minus, doubt] = [center, plus_minus, doubt].map(|x| x * unit);
-        let [estimate, exact] = [estimate, exact].map(|x| x.map(|x| x * unit));
-        Self { center, plus_minus, estimate, exact, doubt, ..self }
+        let [plus_minus, doubt] = [plus_minus, doubt].map(|x| x * units.of_output(of));
+        let (center, exact) = (units.output(of, center), exact.map(|x| units.output(of, x)));
+        let estimate = estimate.map(|x| x * units.of_output(of));
+        // Another zero of u rounds the middle.
+        let rounding = if units.zero == 0.0 { 0.0 } else { f64::EPSILON * center.abs() };
+        Self { center, plus_minus: plus_minus + rounding, estimate, exact, doubt, ..self }
     }
 }
 

@@ -15,14 +15,11 @@ use super::answer::Answered;
 use signorini_certify::curved::peak;
 use signorini_certify::deviation::Deviations;
 use signorini_certify::ends::Ends;
-use signorini_problem::{Problem, spread};
+use signorini_problem::{Problem, excess};
 use signorini_scene::error::Result;
 
 /// Roundings of its scalar up to which a number is taken for another one; what that drops is counted.
 const ROUNDINGS: f64 = 64.0;
-
-/// How far u_D may be below ψ, as a part of the largest datum: what a scene is refused for begins there.
-const CORNERS: f64 = 1e-9;
 
 /// Bounds on one contact edge.
 #[derive(Debug, Clone, Copy)]
@@ -66,9 +63,11 @@ pub(super) fn contact_edges(
             bubble: s.bubbles[edge],
             peak: not_followed.map_or(Ok(0.0), peak)?,
         };
-        // What u_D lies below ψ by rounding, the oscillation counts.
-        let slack = epsilon * ends.scale();
-        let (above, dropped) = above.without(slack, CORNERS * ends.scale());
+        // What s lies below ψ by rounding of stored data, the bound's rounding counts; what u_D does, the oscillation.
+        let size = gap[0].abs().max(gap[1].abs());
+        let stored = 2.0 * answer.scalar.epsilon() * size;
+        let (above, dropped) =
+            above.without(epsilon * ends.size(), ends.slack(problem).max(stored));
         edges.push(ContactEdge::new(problem, edge, s.tau[edge], &above, dropped, epsilon));
     }
     Ok(edges)
@@ -167,8 +166,10 @@ impl ContactEdge {
         if least == most {
             return Self { clear: [f64::INFINITY; 2], left: [0.0; 2], ..none };
         }
-        if spread(problem, edge, problem.time).is_some() {
-            return none;
+        if let Some(excess) = excess(problem, edge, problem.time) {
+            // σ·n and τ·n = lo + θ (hi − lo) may both be where hi − lo is widest.
+            let widest = if most > least { 1.0 + excess / (most - least) } else { 1.0 };
+            return Self { left: left.map(|left| widest * left), ..none };
         }
         if above.is_zero() {
             let room = (-left[0]).min(left[1]).max(0.0);

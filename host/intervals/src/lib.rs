@@ -43,7 +43,7 @@ use signorini_problem::Problem;
 use signorini_problem::functional::wanted;
 use signorini_problem::threads::on_two_threads;
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Field, Input, Output};
+use signorini_scene::scene::Output;
 use signorini_solve::{SharedFactor, Solution};
 
 /// Beyond so many unknowns no intervals are worked out: each takes some solutions of a linear problem.
@@ -54,11 +54,10 @@ pub fn of_outputs(problem: &Problem, solution: &Solution) -> BTreeMap<String, Fo
     let Some((scaled, own)) = solution.in_its_units() else {
         return of_answer(problem, &solution.into());
     };
-    let mut all = of_answer(scaled, &(&own).into());
+    let mut all = of_answer(scaled, &own.into());
     for output in wanted(&problem.scene).iter() {
-        let unit = solution.units.of_output(output.quantity);
         if let Some(Ok(found)) = all.get_mut(&output.name.value) {
-            *found = found.clone().times(unit);
+            *found = found.clone().in_scene(&solution.units, output.quantity);
         }
     }
     all
@@ -80,8 +79,6 @@ pub fn of_answer(problem: &Problem, answer: &Answered) -> BTreeMap<String, Found
 pub struct Lasting {
     /// The factor of its matrix.
     factor: Option<SharedFactor>,
-    /// Doubt in the integrals of f.
-    source: Option<f64>,
 }
 
 impl Lasting {
@@ -93,11 +90,6 @@ impl Lasting {
         let scene = &problem.scene;
         if self.factor.is_none() || scene.transfer_input().is_some() {
             self.factor = SharedFactor::of(problem)?;
-        }
-        let is_source = |input: &Input| input.field.value == Field::Source;
-        let varies = scene.source.value.uses_time() || scene.inputs.iter().any(is_source);
-        if self.source.is_none() || varies {
-            self.source = values::doubt_of_source(problem).ok();
         }
         Ok(())
     }
@@ -131,7 +123,6 @@ fn intervals(
     }
     let Some(factor) = &lasting.factor else { return none("its linear problem has no factor") };
     let deviations = followed(problem, &answer.certified.admissible())?;
-    let source = lasting.source.map_or_else(|| values::doubt_of_source(problem), Ok)?;
     let known = Known {
         factor,
         problem,
@@ -140,7 +131,7 @@ fn intervals(
         residual: Residual::new(problem, answer, &deviations)?,
         deviations: &deviations,
         bound,
-        doubt: source + values::doubt_on_edges(problem)? + values::imbalance(problem, answer),
+        doubt: values::doubt(problem) + values::imbalance(problem, answer),
     };
     let found =
         |output: &Output| Ok(known.interval(output).unwrap_or_else(|error| Err(error.reason())));

@@ -7,11 +7,8 @@ use signorini_certify::curved;
 use signorini_certify::deviation::Deviations;
 use signorini_problem::field::CellField;
 use signorini_problem::functional::Functional;
-use signorini_problem::quadrature::bisected::{
-    cell_and_doubt, graded_mean, graded_over_quad, mean_on_edge, over_cell, quarters,
-};
-use signorini_problem::quadrature::gauss;
-use signorini_problem::threads::in_portions;
+use signorini_problem::quadrature::enclosed::Integral;
+use signorini_problem::quadrature::{gauss, mean_on_edge};
 use signorini_problem::{EdgeKind, Problem, Sum};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Condition, Field, Output};
@@ -19,8 +16,8 @@ use signorini_scene::scene::{Condition, Field, Output};
 /// Part of their size that the quadrature of smooth data may miss.
 pub(super) const INTEGRATED: f64 = 2e-9;
 
-/// Cells up to which f is integrated on their quarters too, and on thin parts along their sides where it may have kinks.
-const LOOKS: [usize; 2] = [20_000, 5_000];
+/// Part of loads that counts as resolved, twice.
+const RESOLVED: f64 = 2e-13;
 
 /// The value of an output, and what it may be off beside the error of s and τ.
 #[derive(Debug, Clone, Copy)]
@@ -53,28 +50,17 @@ fn integral(problem: &Problem, edge: usize, data: &Sum) -> Result<[f64; 2]> {
     if let Some(constant) = data.constant() {
         return Ok([constant, constant.abs()].map(|x| length * x));
     }
-    let [mean, doubt] = graded_mean(segment, &|x, y| data.at(x, y));
-    let size = mean_on_edge(segment, &|x, y| data.at(x, y).abs());
-    Ok([length * data.finite(mean, segment[0])?, length * (size + doubt / INTEGRATED)])
+    let Integral { value, missed } = data.mean_and_missed(segment)?;
+    let size = mean_on_edge(segment, |x, y| data.at(x, y).abs());
+    Ok([length * value, length * (size + missed / INTEGRATED)])
 }
 
-/// Doubt in the integrals of given fluxes, and of the ends of fluxes on C.
-///
-/// # Errors
-/// Data that are not finite.
-pub(super) fn doubt_on_edges(problem: &Problem) -> Result<f64> {
-    let mut sum = 0.0;
-    for edge in 0..problem.kinds.len() {
-        if let EdgeKind::Neumann | EdgeKind::Contact = problem.kinds[edge] {
-            for field in [Field::Flux, Field::Limit] {
-                let data = Sum::on_edge(problem, edge, field, problem.time);
-                if let Some(data) = data.filter(|data| data.constant().is_none()) {
-                    sum += INTEGRATED * integral(problem, edge, &data)?[1];
-                }
-            }
-        }
-    }
-    Ok(sum)
+/// Doubt in the integrals of f, of given fluxes and of the ends of fluxes on C: what is missed, and rounding.
+pub(super) fn doubt(problem: &Problem) -> f64 {
+    let loads = &problem.loads;
+    let cells = loads.triangles.iter().chain(&loads.quads).chain(&loads.contact_flux);
+    let given = loads.neumann.iter().map(|record| &record.flux);
+    loads.missed + RESOLVED * cells.chain(given).map(|load| load.abs()).sum::<f64>()
 }
 
 /// Sum of the loads of cells and of the fluxes through N that τ leaves: rounding.
@@ -87,34 +73,6 @@ pub(super) fn imbalance(problem: &Problem, answer: &Answered) -> f64 {
     problem.loads.neumann.iter().for_each(|record| given[record.edge as usize] = record.flux);
     let on_neumann = (0..given.len()).filter(|&edge| problem.kinds[edge] == EdgeKind::Neumann);
     cells + on_neumann.map(|edge| (tau[edge] - given[edge]).abs()).sum::<f64>()
-}
-
-/// Doubt in the integrals of f.
-///
-/// # Errors
-/// Data that are not finite.
-pub(super) fn doubt_of_source(problem: &Problem) -> Result<f64> {
-    let f = Sum::source(&problem.scene, problem.time);
-    if f.constant().is_some() {
-        return Ok(0.0);
-    }
-    let at = |x: f64, y: f64| f.at(x, y);
-    // A kink beside a corner, or a jump beside a side, no rule on the whole cell sees.
-    let [looks, grades] = LOOKS.map(|most| problem.cells() <= most);
-    let grades = grades && !f.is_smooth();
-    let of_cell = |at_cell| {
-        let cell = Cell::of(problem, at_cell);
-        let [load, doubt] = cell_and_doubt(cell, &at);
-        let [finer, more] = match cell {
-            _ if !looks => [load, 0.0],
-            Cell::Triangle([a, b, c]) if grades => graded_over_quad([a, b, c, c], &at),
-            Cell::Quad(corners) if grades => graded_over_quad(corners, &at),
-            _ => [quarters(&cell).map(|of| over_cell(of, &at)).iter().sum(), 0.0],
-        };
-        INTEGRATED * load.abs() + doubt + more + (finer - load).abs()
-    };
-    let sums = in_portions(problem.cells(), |cells| Ok(cells.map(of_cell).sum::<f64>()))?;
-    Ok(sums.iter().sum())
 }
 
 /// The mean of s over a part of the boundary. Where s follows data above their chord, theirs is integrated as the loads are.

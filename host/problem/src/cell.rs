@@ -107,6 +107,15 @@ impl Cell {
         }
     }
 
+    /// This cell with so many times its lengths, a power of 2.
+    #[must_use]
+    pub fn scaled(self, by: f64) -> Self {
+        match self {
+            Self::Triangle(corners) => Self::Triangle(corners.map(|corner| corner.map(|x| by * x))),
+            Self::Quad(corners) => Self::Quad(corners.map(|corner| corner.map(|x| by * x))),
+        }
+    }
+
     /// The mean of its corners.
     pub fn middle(&self) -> [f64; 2] {
         let corners = self.corners();

@@ -22,12 +22,15 @@ mod integrals;
 mod lacks;
 mod limits;
 mod loads;
+mod pinched;
 pub mod pointwise;
 pub mod progress;
 mod property;
 pub mod quadrature;
 pub mod random;
 mod restated;
+mod room;
+pub mod rounding;
 pub mod scalar;
 pub mod search;
 mod solvability;
@@ -38,18 +41,22 @@ pub mod threads;
 mod topology;
 mod transfer;
 mod warnings;
+mod widths;
 
 pub use assembled::Assembled;
 pub use binding::Binding;
+pub use corners::Exclusion;
 pub use integrals::{Coefficients, QuadCoefficient};
 pub use lacks::{Approach, Lack};
-pub use limits::{RangeTerm, Spread, spread};
+pub use limits::RangeTerm;
 pub use loads::Loads;
 pub use property::Property;
-pub use solvability::Parts;
+pub use room::{Room, rooms};
+pub use solvability::{BALANCE, Parts};
 pub use sum::Sum;
 pub use topology::{EdgeKind, Topology};
 pub use transfer::TransferPattern;
+pub use widths::{excess, excess_within_ranges};
 
 use std::sync::Arc;
 
@@ -61,6 +68,7 @@ use element_matrices::ElementMatrices;
 use quadrature::DATA_POINTS;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::{Mesh, shape};
+use signorini_scene::scene::units::Units;
 use signorini_scene::scene::{Boundary, Field, Input, Scene};
 use topology::wrong_mesh;
 
@@ -89,6 +97,8 @@ pub struct Problem {
     pub loads: Loads,
     /// The time t of the loads and of the exact solution.
     pub time: f64,
+    /// The units of all its numbers, in those of the scene as it was given.
+    pub units: Units,
     /// Findings that are no errors, but may not be meant: a sentence each.
     pub warnings: Vec<String>,
 }
@@ -103,6 +113,9 @@ impl Problem {
         let mesh = mesh.into();
         let binding = Binding::new(scene, &mesh)?;
         let (topology, ends) = number_edges(scene, &mesh, &binding)?;
+        if let Some(parted) = pinched::parted(&mesh, &topology, &ends) {
+            return Self::new(scene, parted);
+        }
         let count = topology.counts.edges();
         let outer = topology.half_edges.iter().zip(&ends).filter(|(pair, _)| pair[1] == u32::MAX);
         let outer: Vec<_> = outer.map(|(_, &ends)| ends).collect();
@@ -124,10 +137,12 @@ impl Problem {
             coefficients: Arc::new(coefficients),
             loads: Loads::default(),
             time: 0.0,
+            units: Units::default(),
             warnings: Vec::new(),
         };
         problem.set_time(0.0)?;
         transfer::check(&problem)?;
+        corners::check_within_ranges(&problem)?;
         problem.warnings = warnings::warnings(&problem);
         Ok(problem)
     }

@@ -7,8 +7,9 @@ use signorini_kernel::law::Law;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::mesh::edges::Edges;
 
-use super::{EdgeKind, Problem, Sum, limits};
+use super::{EdgeKind, Problem, Sum, limits, widths};
 use crate::cell::Cell;
+use crate::quadrature::enclosed::Integral;
 use crate::quadrature::mean_on_edge;
 use crate::scalar::Scalar;
 use signorini_scene::error::Result;
@@ -31,10 +32,14 @@ pub struct Loads<R = f64> {
     pub spans: Vec<R>,
     /// By how much |E| (hi − lo) may exceed its span; 0 where it is constant along every edge.
     pub span_excess: R,
+    /// By how much ends of fluxes were moved at most, since rounding had put the upper one below the lower one.
+    pub moved: R,
     /// Mean of ψ on each contact edge.
     pub gap: Vec<R>,
     /// Mean of u_D on each Dirichlet edge.
     pub dirichlet: Vec<R>,
+    /// The most that is missed of ∫f, ∫g, ∫q and their limits in all: out of balance, and seen by no mean.
+    pub missed: f64,
 }
 
 impl<R: Scalar> Loads<R> {
@@ -48,7 +53,7 @@ impl<R: Scalar> Loads<R> {
     pub fn law(&self) -> Law<'_, R> {
         // Those of a scene that is refused, or of a part of the loads, are none.
         let spans = Spans::new(&self.spans).unwrap_or(Spans::UNLIMITED);
-        Law::above(&self.gap).with_spans(spans.varying(self.span_excess))
+        Law::above(&self.gap).with_spans(spans.varying(self.span_excess).moved_by(self.moved))
     }
 
     /// ∫f over the cells.
@@ -79,9 +84,12 @@ impl Loads {
         let mut loads = Self::default();
         if !source.is_zero() {
             let triangles = problem.mesh.triangles.len();
-            let integral = |cell| source.over(Cell::of(problem, cell));
-            loads.triangles = (0..triangles).map(integral).collect::<Result<_>>()?;
-            loads.quads = (triangles..problem.cells()).map(integral).collect::<Result<_>>()?;
+            let cells: Vec<_> = (0..problem.cells()).map(|at| Cell::of(problem, at)).collect();
+            let all = source.over(&cells)?;
+            let values = |of: &[Integral]| of.iter().map(|integral| integral.value).collect();
+            loads.triangles = values(&all[..triangles]);
+            loads.quads = values(&all[triangles..]);
+            loads.missed = all.iter().map(|integral| integral.missed).sum();
         }
         for edge in 0..problem.ends.len() {
             if problem.kinds[edge] != EdgeKind::Interior {
@@ -91,10 +99,10 @@ impl Loads {
         if loads.spans.iter().all(|&span| span == f64::INFINITY) {
             loads.spans.clear();
         }
-        let spread = |edge| limits::spread(problem, edge, time).map_or(0.0, |spread| spread.excess);
         let contact = 0..loads.spans.len();
         let free = problem.topology.counts.free;
-        loads.span_excess = contact.map(|at| spread(free + at)).fold(0.0, f64::max);
+        let excess = contact.filter_map(|at| widths::excess(problem, free + at, time));
+        loads.span_excess = excess.fold(0.0, f64::max);
         Ok(loads)
     }
 
@@ -115,8 +123,10 @@ impl Loads {
             contact_flux: all(&self.contact_flux),
             spans: all(&self.spans),
             span_excess: R::narrow(self.span_excess),
+            moved: R::narrow(self.moved),
             gap: all(&self.gap),
             dirichlet: all(&self.dirichlet),
+            missed: self.missed,
         }
     }
 
@@ -136,7 +146,10 @@ impl Loads {
         match &boundary.condition {
             Condition::Dirichlet { value } => self.dirichlet.push(mean(Field::Value, value)?),
             Condition::Neumann { flux } => {
-                let flux = length * mean(Field::Flux, flux)?;
+                let flux = Sum::new(&problem.scene, name, Field::Flux, flux, time)
+                    .mean_and_missed(segment)?;
+                self.missed += length * flux.missed;
+                let flux = length * flux.value;
                 if flux != 0.0 {
                     self.neumann.push(Neumann { edge: index, flux });
                 }
@@ -156,8 +169,10 @@ impl Loads {
             }
             Condition::Contact { gap, .. } => {
                 self.gap.push(mean(Field::Gap, gap)?);
-                let ends = limits::ends(problem, edge, time)?;
-                let [base, span] = limits::base_and_span(ends, length);
+                let (ends, missed) = limits::ends(problem, edge, time)?;
+                let [base, span, moved] = limits::base_and_span(ends, length);
+                self.missed += length * missed;
+                self.moved = self.moved.max(moved);
                 self.contact_flux.push(base);
                 self.spans.push(span);
             }

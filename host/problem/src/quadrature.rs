@@ -4,6 +4,8 @@
 //! through the collapsed square, (x̂, ŷ) ↦ a + x̂ (1 − ŷ)(b − a) + ŷ (c − a): exact to degree 2n − 2.
 
 pub mod bisected;
+pub mod enclosed;
+pub mod refined;
 
 use std::sync::OnceLock;
 

@@ -88,6 +88,7 @@ impl Problem {
         let scene = units.scene(&self.scene);
         let coefficients = integrals::coefficients(&scene, &self.mesh, &self.binding)?;
         let mut problem = self.restated(scene);
+        problem.units = units.within(&self.units);
         problem.coefficients = Arc::new(coefficients);
         problem.set_time(self.time)?;
         Ok(problem)

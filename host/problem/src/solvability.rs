@@ -8,7 +8,7 @@ use super::{Loads, Problem};
 use signorini_scene::error::{InputError, Result};
 
 /// Loads whose sum is this small against their sizes are in balance: what quadrature leaves.
-const BALANCE: f64 = 1e-9;
+pub const BALANCE: f64 = 1e-9;
 
 /// The connected parts of a problem that has a solution.
 #[derive(Debug, Clone)]
@@ -139,5 +139,6 @@ fn refused(problem: &Problem, error: signorini_kernel::Error) -> InputError {
         ),
         other => (other.to_string(), "see the numbers of the scene".to_owned()),
     };
-    InputError::new(format!("boundary: {message}")).file(&problem.scene.path).hint(hint)
+    let refused = InputError::new(format!("boundary: {message}")).file(&problem.scene.path);
+    refused.hint(hint).because(error)
 }

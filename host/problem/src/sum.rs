@@ -3,9 +3,11 @@
 
 use super::Problem;
 use crate::cell::Cell;
-use crate::quadrature::{bisected, mean_on_edge};
+use crate::quadrature::enclosed::{self, Integral};
+use crate::quadrature::mean_on_edge;
 use signorini_scene::error::Result;
 use signorini_scene::expression::Expression;
+use signorini_scene::expression::enclosure::{Form, Growth, Region};
 use signorini_scene::scene::{Field, Input, Located, Scene};
 
 /// A field with its inputs: Σ weight · expression.
@@ -99,6 +101,52 @@ impl<'s> Sum<'s> {
         sums
     }
 
+    /// All values in a region.
+    pub fn enclose(&self, region: &Region) -> Form {
+        let base = self.base.value.enclose(region, self.time);
+        self.inputs.iter().fold(base, |sum, (weight, pattern)| {
+            sum.combined(1.0, &pattern.value.enclose(region, self.time), *weight)
+        })
+    }
+
+    /// The largest modulus of its analytic continuation around a region, see [`Region::missed`].
+    pub fn modulus(&self, region: &Region, rho: f64) -> f64 {
+        let of = |expression: &Expression| expression.modulus(region, rho, self.time);
+        let added = self.inputs.iter().map(|(weight, pattern)| weight.abs() * of(&pattern.value));
+        added.fold(of(&self.base.value), |sum, term| sum + term)
+    }
+
+    /// The first argument of a kink or a jump whose sign is not known in a region.
+    pub fn switch(&self, region: &Region) -> Option<Form> {
+        if self.is_smooth() {
+            return None;
+        }
+        let of = |expression: &Expression| expression.switch(region, self.time);
+        let mut all = self.inputs.iter().map(|(_, pattern)| &pattern.value);
+        of(&self.base.value).or_else(|| all.find_map(of))
+    }
+
+    /// How it grows in a region where it is not bounded, if that is known: an input's pattern may be unbounded where the rest is not.
+    pub fn growth(&self, region: &Region) -> Option<Growth> {
+        let of = |weight: f64, expression: &Expression| {
+            expression.times(weight).growth(region, self.time)
+        };
+        match &self.inputs[..] {
+            [] => self.base.value.growth(region, self.time),
+            [(weight, pattern)] if self.base.value.is_zero() => of(*weight, &pattern.value),
+            _ => None,
+        }
+    }
+
+    /// Its degree as a polynomial in x and y, infinite where it may be none.
+    pub fn degree(&self) -> f64 {
+        let of = |expression: &Expression| expression.degree(self.time);
+        self.inputs
+            .iter()
+            .map(|(_, of)| of)
+            .fold(of(&self.base.value), |degree, pattern| degree.max(of(&pattern.value)))
+    }
+
     /// The sum of the sizes of its terms there, of which rounding is a part.
     pub fn terms_at(&self, x: f64, y: f64) -> f64 {
         let base = self.base.value.eval(x, y, self.time).abs();
@@ -106,6 +154,14 @@ impl<'s> Sum<'s> {
             (weight * pattern.value.eval(x, y, self.time)).abs()
         };
         self.inputs.iter().map(added).fold(base, |sum, term| sum + term)
+    }
+
+    /// How far the value at a point may be off where its coordinates are by `off`, through that and the rounding of operations.
+    pub fn rounding_at(&self, point: [f64; 2], off: f64) -> f64 {
+        let base = self.base.value.rounding(point, off, self.time);
+        self.inputs.iter().fold(base, |sum, (weight, pattern)| {
+            sum + weight.abs() * pattern.value.rounding(point, off, self.time)
+        })
     }
 
     /// (∂/∂x, ∂/∂y)
@@ -125,22 +181,55 @@ impl<'s> Sum<'s> {
         })
     }
 
-    /// The mean over a segment, by the rule for edge data; that of a load on parts of it where it is not smooth.
+    /// The mean over a segment, by the rule for edge data; that of a load on parts of it where it is not resolved.
     pub fn mean(&self, segment: [[f64; 2]; 2]) -> Result<f64> {
-        if let (Some(constant), true) = (self.base.value.is_constant(), self.inputs.is_empty()) {
+        if self.is_load {
+            return Ok(self.mean_and_missed(segment)?.value);
+        }
+        if let Some(constant) = self.stated() {
             return self.finite(constant, segment[0]);
         }
-        let middle = [0, 1].map(|k| 0.5 * (segment[0][k] + segment[1][k]));
-        let mean = match self.is_load {
-            true => bisected::mean_on_edge(segment, &|x, y| self.at(x, y)),
-            false => mean_on_edge(segment, |x, y| self.at(x, y)),
-        };
-        self.finite(mean, middle)
+        self.finite(mean_on_edge(segment, |x, y| self.at(x, y)), middle(segment))
     }
 
-    /// The integral over a cell, by the rule for its data, on parts of it where they are not smooth.
-    pub fn over(&self, cell: Cell) -> Result<f64> {
-        self.finite(bisected::over_cell(cell, &|x, y| self.at(x, y)), cell.corners()[0])
+    /// The mean over a segment, and what is missed of it.
+    pub fn mean_and_missed(&self, segment: [[f64; 2]; 2]) -> Result<Integral> {
+        let mean = match self.stated() {
+            Some(value) => Integral { value, missed: 0.0 },
+            None => enclosed::mean_on_edge(self, segment),
+        };
+        self.finite(mean.value, middle(segment))?;
+        self.integrable(&mean, &Region::segment(segment))?;
+        Ok(mean)
+    }
+
+    /// Refuses a datum that is proved to have no finite integral.
+    fn integrable(&self, integral: &Integral, region: &Region) -> Result<()> {
+        let pole = || enclosed::pole(self, region, 1.0);
+        match if integral.missed.is_finite() { None } else { pole() } {
+            Some(([x, y], true)) => {
+                let message = format!("{} has no finite integral near ({x}, {y})", self.base.value);
+                let hint =
+                    "a load must be integrable: |x − a|^p for p > −1, a distance^p for p > −2";
+                Err(self.scene.error(self.base, message).hint(hint).into())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The constant that the scene states, without inputs.
+    fn stated(&self) -> Option<f64> {
+        self.base.value.is_constant().filter(|_| self.inputs.is_empty())
+    }
+
+    /// Integrals over cells, and what is missed of them.
+    pub fn over(&self, cells: &[Cell]) -> Result<Vec<Integral>> {
+        let all = enclosed::over_cells(self, cells);
+        for (integral, cell) in all.iter().zip(cells) {
+            self.finite(integral.value, cell.corners()[0])?;
+            self.integrable(integral, &enclosed::region(*cell))?;
+        }
+        Ok(all)
     }
 
     /// `value`, found near a point; an error at the field's place in the file if it is not finite.
@@ -152,4 +241,8 @@ impl<'s> Sum<'s> {
         let hint = "the expression must be finite wherever it is used";
         Err(self.scene.error(self.base, message).hint(hint).into())
     }
+}
+
+fn middle([a, b]: [[f64; 2]; 2]) -> [f64; 2] {
+    [0, 1].map(|k| 0.5 * (a[k] + b[k]))
 }

@@ -1,5 +1,7 @@
 //! Edges by number: the cells that they join, and the kind of each.
 
+use std::iter::successors;
+
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::error::CellId;
 use signorini_kernel::mesh::Mesh as KernelMesh;
@@ -98,8 +100,51 @@ impl Topology {
     /// The cell (triangles first) and the side of it that an edge is directed along; its normal
     /// points out of that cell.
     pub fn first_side(&self, edge: usize) -> (usize, usize) {
-        let triangles = self.of_triangles.len();
-        let half = self.half_edges[edge][0] as usize;
+        self.side(self.half_edges[edge][0])
+    }
+
+    /// The cells (triangles first) and sides of an inner edge.
+    pub fn sides_of(&self, edge: usize) -> [(usize, usize); 2] {
+        self.half_edges[edge].map(|half| self.side(half))
+    }
+
+    /// The cells of an inner edge, triangles first.
+    pub fn cells_of(&self, edge: usize) -> [usize; 2] {
+        self.sides_of(edge).map(|(at, _)| at)
+    }
+
+    /// Whether an edge has a cell on one side alone.
+    pub(super) fn is_outer(&self, edge: usize) -> bool {
+        self.half_edges[edge][1] == u32::MAX
+    }
+
+    /// The edges of the sector at `vertex` that the boundary edge `edge` is one side of, from there to the other side, each with the
+    /// cell behind it; `ends` are the ends of all edges.
+    pub(super) fn sector(
+        &self,
+        ends: &[[u32; 2]],
+        vertex: u32,
+        edge: usize,
+    ) -> impl Iterator<Item = (usize, Option<usize>)> {
+        successors(Some((edge, Some(self.first_side(edge).0))), move |&(edge, cell)| {
+            let of_cell = self.edges_of(cell?).iter().map(|&of| of as usize);
+            let mut others = of_cell.filter(|&of| of != edge && ends[of].contains(&vertex));
+            let next = others.next()?;
+            Some((next, self.beyond(next, cell?)))
+        })
+        // A fan that closes would end nowhere.
+        .take(ends.len())
+    }
+
+    /// The cell (triangles first) on the other side of an edge than `cell`; none beyond the boundary.
+    fn beyond(&self, edge: usize, cell: usize) -> Option<usize> {
+        let halves = self.half_edges[edge].into_iter().filter(|&half| half != u32::MAX);
+        halves.map(|half| self.side(half).0).find(|&other| other != cell)
+    }
+
+    /// The cell and the side of it that a half-edge is.
+    fn side(&self, half: u32) -> (usize, usize) {
+        let (triangles, half) = (self.of_triangles.len(), half as usize);
         match half.checked_sub(3 * triangles) {
             None => (half / 3, half % 3),
             Some(rest) => (triangles + rest / 4, rest % 4),

@@ -82,11 +82,11 @@ print(f"power {power.center:.1f} ± {power.plus_minus:.2g} W/m, guaranteed")
 # ## As exact as asked for
 
 # %%
-finer = signorini.solve(scene, mesh, max_error="2%")
+finer = signorini.solve(scene, mesh, max_error="1%")
 power = finer.outputs["power"]
 print(finer)
 print(f"power {power.center:.2f} ± {power.plus_minus:.2g} W/m, guaranteed")
-assert finer.relative_bound < 0.02 and power.plus_minus < result.outputs["power"].plus_minus
+assert finer.relative_bound < 0.01 and power.plus_minus < result.outputs["power"].plus_minus
 
 # %% [markdown]
 # ## A picture

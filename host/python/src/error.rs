@@ -4,24 +4,31 @@ use pyo3::create_exception;
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use signorini_scene::error::{Error, InputError};
+use signorini_solve::Ending;
 
 create_exception!(
     signorini,
     SceneError,
     PyValueError,
-    "The scene, its mesh or an argument is wrong.\n\nAttributes: message, file, line, key and hint; each is None where there is none."
+    "The scene, its mesh or an argument is wrong.\n\nAttributes: message, file, line, key, hint and, of a controller, refusal (no-solution, not-unique, excluded, empty-range or not-finite); each is None where there is none."
 );
 
 /// The exception of an error; `is_file` tells whether the scene is a file that a person can look into.
 pub fn raised(py: Python<'_>, error: Error, is_file: bool) -> PyErr {
+    let refused = Ending::refused(&error);
     match error {
-        Error::Input(error) => scene_error(py, &error, is_file),
+        Error::Input(error) => scene_error(py, &error, refused, is_file),
         Error::Io { path, cause } => PyOSError::new_err(format!("{}: {cause}", path.display())),
         Error::Check(what) => PyRuntimeError::new_err(what),
     }
 }
 
-fn scene_error(py: Python<'_>, error: &InputError, is_file: bool) -> PyErr {
+fn scene_error(
+    py: Python<'_>,
+    error: &InputError,
+    refused: Option<Ending>,
+    is_file: bool,
+) -> PyErr {
     let message = error.message();
     let place = if is_file { error.to_string() } else { message.to_owned() };
     let hint = error.said_hint();
@@ -36,6 +43,7 @@ fn scene_error(py: Python<'_>, error: &InputError, is_file: bool) -> PyErr {
     let _ = value.setattr("line", line);
     let _ = value.setattr("key", key(message));
     let _ = value.setattr("hint", hint);
+    let _ = value.setattr("refusal", refused.map(Ending::name));
     raised
 }
 

@@ -173,3 +173,48 @@ def test_intervals_of_ticks_hold_what_a_finer_mesh_says(name, error, scenes):
         for ticks in (own, baked):
             least, most = ticks.output_bounds[output].T
             assert ((least <= finer.outputs[output]) & (finer.outputs[output] <= most)).all(), output
+
+
+def test_loads_that_contact_cannot_hold(tmp_path):
+    scene = tmp_path / "pushed.toml"
+    scene.write_text("""
+mesh = "given.msh"
+[material.default]
+conductivity = 1
+[boundary.right]
+kind = "contact"
+[boundary.left]
+kind = "neumann"
+flux = -1
+[boundary.default]
+kind = "neumann"
+flux = 0
+[input.push]
+of = "left"
+field = "flux"
+pattern = 1
+range = [-3, 3]
+[output.power]
+kind = "force"
+""")
+    steps = np.linspace(0, 1, 5)
+    x, y = (grid.ravel() for grid in np.meshgrid(steps, steps))
+    at = np.arange(25).reshape(5, 5)
+    quads = np.stack([at[:-1, :-1], at[:-1, 1:], at[1:, 1:], at[1:, :-1]], axis=-1).reshape(-1, 4)
+    edges = {
+        "left": np.stack([at[:-1, 0], at[1:, 0]], axis=-1),
+        "right": np.stack([at[:-1, -1], at[1:, -1]], axis=-1),
+    }
+    mesh = (np.stack([x, y], axis=-1), {"quad": quads}, edges)
+    controller = signorini.Controller(scene, mesh)
+    before = controller(push=-1)
+    for push, why in ((2, "no-solution"), (1, "not-unique")):
+        with pytest.raises(signorini.SceneError) as raised:
+            controller(push=push)
+        assert raised.value.refusal == why
+    assert controller(push=-1) == before
+    for baked in (False, True):
+        ticks = signorini.tick(scene, mesh, times=[0, 1, 2, 3], inputs={"push": [-1, 2, 1, -1]}, baked=baked)
+        assert ticks.status.tolist()[1:3] == ["no-solution", "not-unique"]
+        assert np.isnan(ticks.outputs["power"][1:3]).all()
+        assert np.allclose(ticks.outputs["power"][[0, 3]], 2)

@@ -47,6 +47,8 @@ pub struct InputError {
     underlined: Option<SourceSpan>,
     /// The time of a scene at which it is wrong.
     time: Option<f64>,
+    /// Why the kernel refuses it.
+    cause: Option<signorini_kernel::Error>,
 }
 
 /// Lines beyond this many bytes are not shown: they would bury the message.
@@ -95,6 +97,12 @@ impl InputError {
     #[must_use]
     pub fn moved(self, file: &Path, line: usize) -> Self {
         Self { file: Some(file.to_owned()), line: Some(line), text: None, underlined: None, ..self }
+    }
+
+    /// Adds why the kernel refuses it.
+    pub fn because(mut self, cause: signorini_kernel::Error) -> Self {
+        self.cause = Some(cause);
+        self
     }
 
     /// The time of a scene at which it is wrong, if it is so at some times alone.
@@ -160,6 +168,14 @@ impl Error {
         match self {
             Self::Input(error) => error.message.clone(),
             Self::Io { .. } | Self::Check(_) => self.to_string(),
+        }
+    }
+
+    /// Why the kernel refuses the input, where it is the kernel that does.
+    pub fn cause(&self) -> Option<signorini_kernel::Error> {
+        match self {
+            Self::Input(error) => error.cause,
+            Self::Io { .. } | Self::Check(_) => None,
         }
     }
 

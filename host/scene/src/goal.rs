@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 pub enum Goal {
     /// So much, in the unit of ‖A^½∇u‖.
     Energy(f64),
-    /// This part of the energy norm ‖A^½∇s‖.
+    /// This part of the energy norm (‖A^½∇s‖² + ∫_R h (s − u_ext)²)^½.
     Part(f64),
 }
 

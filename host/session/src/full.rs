@@ -71,7 +71,9 @@ impl<R: Scalar, const WIDTH: usize> Session for Full<'_, R, WIDTH> {
             ran: if factored.is_some() { Ran::Factor } else { Ran::Sweeps },
             factored,
             outputs: outputs.iter().map(|x| x.wide()).collect(),
-            no_bound: NoBound::of_verdict(&report.verdict, at, || data.no_bound().cloned()),
+            no_bound: NoBound::of_verdict(&report.verdict, at, || {
+                data.no_bound().cloned().or_else(|| NoBound::of_ranges(at))
+            }),
             certified: match found.bound {
                 Some(_) => found.certified,
                 None => CertifiedFields::default(),

@@ -80,7 +80,7 @@ pub(super) fn by_factor<R: Scalar>(
         return Ok(None);
     }
     let unfit = unfit::<R>(&problem.scene);
-    let mut attempt = Attempt::<R>::new(problem, parts)?;
+    let mut attempt = Attempt::<R>::new(problem, parts, options)?;
     attempt.assembled.set_parts(parts);
     let system = attempt.assembled.system().map_err(&unfit)?;
     let diagonal = attempt.assembled.diagonal().map_err(&unfit)?;

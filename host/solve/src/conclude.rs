@@ -6,7 +6,7 @@ use signorini_kernel::solver::{Outcome, Status};
 use signorini_kernel::{Error as KernelError, Real, contact};
 
 use super::{
-    Ending, Factored, Ran, ScalarKind, Seconds, Solution, centre_floating, overflow, unfit,
+    Ending, Factored, Options, Ran, ScalarKind, Seconds, Solution, centre_floating, overflow, unfit,
 };
 use signorini_certify::{Certified, Data};
 use signorini_problem::progress::stage;
@@ -19,6 +19,8 @@ pub(super) struct Attempt<'p, R: Scalar> {
     pub problem: &'p Problem,
     pub parts: &'p Parts,
     pub assembled: Assembled<'p, R>,
+    /// [`Options::averages`]
+    pub averages: bool,
     /// Seconds that it took.
     pub assembly: f64,
     /// Started after the assembly.
@@ -37,11 +39,11 @@ pub(super) struct Solved<R> {
 
 impl<'p, R: Scalar> Attempt<'p, R> {
     /// Assembles `problem`.
-    pub fn new(problem: &'p Problem, parts: &'p Parts) -> Result<Self> {
+    pub fn new(problem: &'p Problem, parts: &'p Parts, options: &Options) -> Result<Self> {
         let mut clock = Clock::start();
         let assembled = Assembled::new(problem).map_err(unfit::<R>(&problem.scene))?;
-        let assembly = clock.lap();
-        Ok(Self { problem, parts, assembled, assembly, clock })
+        let (averages, assembly) = (options.averages, clock.lap());
+        Ok(Self { problem, parts, assembled, averages, assembly, clock })
     }
 
     /// u to begin with: what Dirichlet data and `start` say, and 0.
@@ -54,7 +56,7 @@ impl<'p, R: Scalar> Attempt<'p, R> {
 
     /// Fluxes, certificate and what is read off.
     pub fn conclude(self, solved: Solved<R>) -> Result<Solution> {
-        let Self { problem, parts, assembled, assembly, mut clock } = self;
+        let Self { problem, parts, assembled, averages, assembly, mut clock } = self;
         let unfit = unfit::<R>(&problem.scene);
         let Solved { outcome, ran, factored, u, low } = solved;
         if outcome.status == Status::NotFinite {
@@ -63,7 +65,8 @@ impl<'p, R: Scalar> Attempt<'p, R> {
         let solve = clock.lap();
         stage("fluxes and error bound");
         let data = Data::new(problem)?;
-        let certified = Certified::new(problem, parts, &assembled, &data, &u).map_err(&unfit)?;
+        let certified = Certified::new(problem, parts, &assembled, (&data, averages), &u);
+        let certified = certified.map_err(&unfit)?;
         let certificate = clock.lap();
         let read = read_off(problem, parts, &assembled, &outcome, [&u, &low], certified);
         let read = read.map_err(&unfit)?;

@@ -14,7 +14,7 @@ use signorini_scene::error::{InputError, Result};
 
 pub(super) fn directly(problem: &Problem, parts: &Parts, options: &Options) -> Result<Solution> {
     let unfit = unfit::<f64>(&problem.scene);
-    let attempt = Attempt::<f64>::new(problem, parts)?;
+    let attempt = Attempt::<f64>::new(problem, parts, options)?;
     let assembled = &attempt.assembled;
     let system = assembled.system().map_err(&unfit)?;
     let failed = |error: ReferenceError| {

@@ -4,8 +4,11 @@
 use std::sync::LazyLock;
 
 use serde::{Serialize, Serializer};
+use signorini_device::codes::{Refusal, refusal};
 use signorini_kernel::report::Ended;
 use signorini_kernel::solver::Status;
+
+use signorini_scene::error::Error;
 
 use super::{Factored, ScalarKind, Solution};
 
@@ -16,6 +19,8 @@ pub enum Ending {
     Solve(Status),
     /// A tick within its limits.
     Tick(Ended),
+    /// A tick that has no answer.
+    Refused(Refusal),
 }
 
 /// Before any work.
@@ -26,6 +31,11 @@ impl Default for Ending {
 }
 
 impl Ending {
+    /// The end of a tick that was refused with this error, where it was the kernel that did.
+    pub fn refused(error: &Error) -> Option<Self> {
+        error.cause().map(|cause| Self::Refused(refusal(&cause).0))
+    }
+
     /// The answer is as good as was asked for, or as rounding allows.
     pub fn is_success(self) -> bool {
         went_well(self.of_solve())
@@ -42,7 +52,7 @@ impl Ending {
             Self::Solve(status) => status,
             Self::Tick(Ended::Exact | Ended::Accurate | Ended::Settled) => Status::Converged,
             Self::Tick(Ended::OutOfSweeps | Ended::OutOfTime) => Status::OutOfSweeps,
-            Self::Tick(Ended::NotFinite) => Status::NotFinite,
+            Self::Tick(Ended::NotFinite) | Self::Refused(_) => Status::NotFinite,
         }
     }
 
@@ -56,6 +66,12 @@ impl Ending {
             Self::Solve(status) => status_name(status),
             // Codes count up from 0.
             Self::Tick(ended) => WORDS.get(ended.code() as usize).map_or("unknown", String::as_str),
+            Self::Refused(Refusal::NoSolution) => "no-solution",
+            Self::Refused(Refusal::NotUnique) => "not-unique",
+            Self::Refused(Refusal::EmptyRange) => "empty-range",
+            Self::Refused(Refusal::Excluded) => "excluded",
+            // What a scene's data or its scalar do not allow for.
+            Self::Refused(_) => "not-finite",
         }
     }
 }

@@ -1,9 +1,10 @@
 //! Energy norms of the bound's S: how large it is, and how far the discontinuous u_h lies from it.
 //!
 //! ```text
-//!   energy norm    (‖A^½∇S‖² + ∫_R h S²)^½            what a bound is compared with
+//!   energy norm    (‖A^½∇S‖² + ∫_R h (S − u_ext)²)^½  what a bound is compared with
 //!   nonconformity  ‖A^½∇_h(S − u_h)‖                  what the bound for u_h adds to that for S
 //! ```
+//! Neither changes where a constant is added to every datum of u: a bound is the same part of its norm in °C and in K.
 
 use signorini_certify::admissible::Admissible;
 use signorini_certify::cell::Cell;
@@ -28,12 +29,20 @@ pub fn of_solution(problem: &Problem, solution: &crate::Solution) -> Result<Opti
         return Ok(None);
     }
     if let Some((problem, own)) = solution.in_its_units() {
-        return Ok(of_solution(problem, &own)?.map(|norm| norm * solution.units.energy()));
+        return Ok(of_solution(problem, own)?.map(|norm| norm * solution.units.energy()));
     }
     norm(problem, &solution.certified.admissible()).map(Some)
 }
 
-/// (‖A^½∇S‖² + ∫_R h S²)^½ at the time of the problem.
+/// The norm in words.
+pub fn name(problem: &Problem) -> &'static str {
+    match problem.loads.robin.is_empty() {
+        true => "‖A^½∇s‖",
+        false => "(‖A^½∇s‖² + ∫_R h (s − u_ext)²)^½",
+    }
+}
+
+/// (‖A^½∇S‖² + ∫_R h (S − u_ext)²)^½ at the time of the problem.
 ///
 /// # Errors
 /// Data that are not finite.
@@ -42,8 +51,9 @@ pub fn norm(problem: &Problem, s: &Admissible) -> Result<f64> {
     let mut square = squares(problem, s, &deviations, None)?;
     let transfer = robin(problem, problem.time)?;
     for (record, points) in problem.loads.robin.iter().zip(&transfer) {
-        for (&[t, weight], [h, _]) in f64::GAUSS[DATA_POINTS - 1].iter().zip(points) {
-            square += weight * h * s.on_edge(problem, record.edge as usize, None, t)?.powi(2);
+        for (&[t, weight], [h, outside]) in f64::GAUSS[DATA_POINTS - 1].iter().zip(points) {
+            let s = s.on_edge(problem, record.edge as usize, None, t)?;
+            square += weight * h * (s - outside).powi(2);
         }
     }
     Ok(square.sqrt())

@@ -93,11 +93,11 @@ fn order<R: Scalar>(system: &System<R, u32>) -> Option<Vec<u32>> {
 }
 
 /// The kernel's memory for exchanges on S.
-pub type Exchanges<R> = Storage<Vec<Block<R>>, Vec<R>, Vec<bool>>;
+pub type Exchanges<R> = Storage<Vec<Block<R>>, Vec<R>, Vec<u8>>;
 
 /// Exchanges for this number of contact edges.
 pub fn exchanges<R: Real>(contact: usize) -> Exchanges<R> {
     let [blocks, numbers, flags] = storage::lengths(contact);
     let zero = [[R::ZERO; SIDE]; SIDE];
-    Storage::of(vec![zero; blocks], vec![R::ZERO; numbers], vec![false; flags])
+    Storage::of(vec![zero; blocks], vec![R::ZERO; numbers], vec![0; flags])
 }

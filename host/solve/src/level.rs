@@ -48,6 +48,11 @@ fn rounded(x: f64) -> f64 {
 /// # Errors
 /// Those of [`Parts::examine`].
 pub fn free_levels(problem: &Problem, solution: &Solution) -> Result<Vec<FreeLevel>> {
+    if let Some((problem, own)) = solution.in_its_units() {
+        let unit = solution.units.u;
+        let in_scene = |of: FreeLevel| FreeLevel { by: of.by.map(|by| by * unit), ..of };
+        return Ok(free_levels(problem, own)?.into_iter().map(in_scene).collect());
+    }
     if problem.loads.spans.is_empty() || solution.parts.contact == 0 || !solution.converged() {
         return Ok(Vec::new());
     }

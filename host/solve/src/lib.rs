@@ -37,7 +37,7 @@ pub use mixed::{Corrected, Mixed, mixed};
 pub use options::{Options, ScalarKind, SolverKind};
 pub use solution::{Seconds, Solution};
 pub use tuned::{Trials, tuned_omega};
-pub use units::{Scaled, choose as choose_units, choose_for_inputs, times};
+pub use units::{Scaled, choose as choose_units, choose_for_inputs, in_scene, times};
 
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::Edges;
@@ -74,11 +74,11 @@ pub fn solve(problem: &Problem, options: &Options) -> Result<Solution> {
 /// As for [`solve`].
 pub fn solve_from(problem: &Problem, options: &Options, start: &[f64]) -> Result<Solution> {
     let scaled = Scaled::new(problem, choose_units(problem)?)?;
-    let start: Vec<f64> = start.iter().map(|u| u / scaled.units.u).collect();
+    let (units, inverse) = (scaled.units, scaled.units.inverse());
+    let start: Vec<f64> = start.iter().map(|&u| inverse.value(u)).collect();
     let solution = solve_in_its_units(scaled.problem(), options, &start)?;
-    let units = scaled.units;
     let Some(other) = scaled.other() else { return Ok(solution) };
-    Ok(Solution { units, scaled: Some(other), ..times(&units, solution) })
+    Ok(in_scene(&other, &units, solution))
 }
 
 fn solve_in_its_units(problem: &Problem, options: &Options, start: &[f64]) -> Result<Solution> {
@@ -109,16 +109,39 @@ fn in_scalar<R: Scalar>(
 
 /// The kernel's refusal, in the scene's words.
 pub fn unfit<R: Scalar>(scene: &Scene) -> impl Fn(KernelError) -> Error + '_ {
-    |error| beyond(scene, format!("the scene does not fit {}: {error}", R::NAME))
+    |error| {
+        let refused = match error {
+            KernelError::NoSolution { .. } | KernelError::NotUnique { .. } => {
+                let hint = "without a Dirichlet or Robin boundary loads have to push every part onto its contact";
+                InputError::new(error.to_string()).file(&scene.path).hint(hint)
+            }
+            KernelError::EmptyRange { input } if input < scene.inputs.len() => {
+                let name = &scene.inputs[input].name.value;
+                let message = format!("input.{name}: it brings a limit below its flux");
+                InputError::new(message)
+                    .file(&scene.path)
+                    .hint("a flux lies between `flux` and `limit`, inputs included")
+            }
+            KernelError::Excluded { .. } => {
+                let message = "with these inputs two boundaries that meet exclude each other's values of u: a gap and a Dirichlet \
+                               value, or two gaps";
+                InputError::new(message)
+                    .file(&scene.path)
+                    .hint("declare ranges of the inputs: `bake` then says where")
+            }
+            _ => beyond(scene, format!("the scene does not fit {}: {error}", R::NAME)),
+        };
+        refused.because(error).into()
+    }
 }
 
 fn overflow<R: Scalar>(scene: &Scene) -> Error {
-    beyond(scene, format!("not-finite: the solution overflows {}", R::NAME))
+    beyond(scene, format!("not-finite: the solution overflows {}", R::NAME)).into()
 }
 
-fn beyond(scene: &Scene, message: String) -> Error {
+fn beyond(scene: &Scene, message: String) -> InputError {
     let hint = "scale the data so that they are neither tiny nor huge, or use --scalar f64";
-    InputError::new(message).file(&scene.path).hint(hint).into()
+    InputError::new(message).file(&scene.path).hint(hint)
 }
 
 fn by_kernel<R: Scalar>(
@@ -128,7 +151,7 @@ fn by_kernel<R: Scalar>(
     start: &[f64],
 ) -> Result<Solution> {
     let unfit = unfit::<R>(&problem.scene);
-    let mut attempt = Attempt::<R>::new(problem, parts)?;
+    let mut attempt = Attempt::<R>::new(problem, parts, options)?;
     attempt.assembled.set_parts(parts);
     let system = attempt.assembled.system().map_err(&unfit)?;
     let diagonal = attempt.assembled.diagonal().map_err(&unfit)?;

@@ -8,7 +8,7 @@ use signorini_kernel::Tensor;
 
 use signorini_certify::cell::{Cell, Jet};
 use signorini_certify::conductivity::{Conductivity, apply, dot, product};
-use signorini_certify::exact::{Distance, distance};
+use signorini_certify::exact::{Distance, distance, of_fewer_points};
 use signorini_certify::sampled::{Sampled, Solution};
 use signorini_certify::weighed::minus;
 use signorini_problem::Problem;
@@ -38,6 +38,9 @@ pub struct Errors {
     /// Number that the bound should equal, from the same place.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub identity: Option<f64>,
+    /// By how much `combined` differs with half of the points a direction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub quadrature: Option<f64>,
 }
 
 /// All errors of a solution, where the scene has an exact one.
@@ -47,13 +50,16 @@ pub struct Errors {
 pub fn of_solution(problem: &Problem, solution: &crate::Solution) -> Result<Option<Errors>> {
     let Some(exact) = &problem.scene.exact else { return Ok(None) };
     if let Some((problem, own)) = solution.in_its_units() {
-        return Ok(of_solution(problem, &own)?.map(|errors| errors.times(&solution.units)));
+        return Ok(of_solution(problem, own)?.map(|errors| errors.times(&solution.units)));
     }
     let errors = errors(exact, problem, &solution.u, &solution.flux)?;
     if solution.bound.is_none() {
         return Ok(Some(errors));
     }
-    Ok(Some(errors.with(distance(exact, problem, &solution.certified.admissible())?)))
+    let admissible = solution.certified.admissible();
+    let found = distance(exact, problem, &admissible)?;
+    let quadrature = Some((found.combined - of_fewer_points(exact, problem, &admissible)?).abs());
+    Ok(Some(Errors { quadrature, ..errors.with(found) }))
 }
 
 /// Integrates the errors of edge means `u` and edge fluxes `flux`.
@@ -101,6 +107,7 @@ impl Errors {
             energy: energy(self.energy),
             combined: self.combined.map(energy),
             identity: self.identity.map(energy),
+            quadrature: self.quadrature.map(energy),
         }
     }
 

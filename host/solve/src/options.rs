@@ -71,6 +71,8 @@ pub struct Options {
     pub to_the_floor: bool,
     /// Most sweeps allowed, where there are sweeps.
     pub max_sweeps: u32,
+    /// Whether s is the average of u_h, as a board has it, even where a better one is worth a few sweeps over the vertices.
+    pub averages: bool,
 }
 
 impl Default for Options {
@@ -81,6 +83,7 @@ impl Default for Options {
             tolerance: None,
             to_the_floor: false,
             max_sweeps: 1_000_000,
+            averages: false,
         }
     }
 }

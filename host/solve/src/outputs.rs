@@ -9,7 +9,6 @@ use signorini_problem::field::CellField;
 use signorini_problem::functional::Functional;
 use signorini_problem::{EdgeKind, Problem};
 use signorini_scene::error::Result;
-use signorini_scene::scene::units::Units;
 
 /// Answer that outputs are read off.
 #[derive(Debug, Clone, Copy)]
@@ -20,8 +19,6 @@ pub struct Reading<'a> {
     pub u: &'a [f64],
     /// ∫_E σ·n of each edge, by (15) or balanced.
     pub flux: &'a [f64],
-    /// Units of the numbers in `scalar`.
-    pub units: Units,
     /// The bound on its error, where there is one.
     pub bound: Option<f64>,
 }
@@ -36,9 +33,18 @@ pub fn outputs(problem: &Problem, solution: &Solution) -> Result<BTreeMap<String
         let length = ("contact_length".to_owned(), Some(solution.contact_length));
         return Ok([force, length].into());
     }
-    let Solution { scalar, ran, u, flux, units, bound, .. } = solution;
+    if let Some((problem, own)) = solution.in_its_units() {
+        let mut all = outputs(problem, own)?;
+        for output in &problem.scene.outputs {
+            if let Some(Some(value)) = all.get_mut(&output.name.value) {
+                *value = solution.units.output(output.quantity, *value);
+            }
+        }
+        return Ok(all);
+    }
+    let Solution { scalar, ran, u, flux, bound, .. } = solution;
     let bound = bound.map(|bound| bound.total);
-    let reading = Reading { scalar: ran.scalar_of_u(*scalar), u, flux, units: *units, bound };
+    let reading = Reading { scalar: ran.scalar_of_u(*scalar), u, flux, bound };
     let values = declared(problem, reading)?;
     let names = problem.scene.outputs.iter().map(|output| output.name.value.clone());
     Ok(names.zip(values).collect())
@@ -92,7 +98,7 @@ fn length_where(lengths: &[(usize, f64)], is_counted: impl Fn(usize) -> bool) ->
 impl Reading<'_> {
     /// The law on a contact edge with ψ as the scalar holds it, so that u_E = ψ_E can be asked.
     fn law(&self, problem: &Problem, contact: usize) -> EdgeLaw<f64> {
-        let gap = self.scalar.round(problem.loads.gap[contact] / self.units.u) * self.units.u;
+        let gap = self.scalar.round(problem.loads.gap[contact]);
         EdgeLaw::above(gap).with_span(problem.loads.flux_range(contact).span())
     }
 

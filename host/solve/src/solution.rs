@@ -8,7 +8,7 @@ use signorini_kernel::Real;
 use signorini_kernel::mesh::components::{PartCounts, Support};
 use signorini_kernel::mesh::geometry::{quad_area, triangle_area};
 
-use super::{Ending, Factored, Ran, ScalarKind, times};
+use super::{Ending, Factored, Ran, ScalarKind};
 use signorini_certify::{CertifiedFields, ErrorBound, NoBound};
 use signorini_problem::field::CellField;
 use signorini_problem::{Parts, Problem};
@@ -31,8 +31,8 @@ pub struct Solution {
     pub factored: Option<Factored>,
     /// The units in which it was solved; all numbers here are in the scene's.
     pub units: Units,
-    /// The problem in these units, where they are not the scene's.
-    pub scaled: Option<Arc<Problem>>,
+    /// Problem and solution in these units, where they are not the scene's.
+    pub own: Option<Arc<(Arc<Problem>, Solution)>>,
     /// The scaled complementarity residual.
     pub algebraic_residual: f64,
     /// The last relaxation factor; 0 for the direct solver.
@@ -85,10 +85,9 @@ impl Solution {
 
     /// This solution with its problem, both in the units of the solve; nothing where these are the scene's. Squares of the
     /// scene's numbers may overflow or vanish; those of the solve's do not.
-    pub fn in_its_units(&self) -> Option<(&Problem, Self)> {
-        let problem = self.scaled.as_deref()?;
-        let own = times(&self.units.inverse(), self.clone());
-        Some((problem, Self { scaled: None, ..own }))
+    pub fn in_its_units(&self) -> Option<(&Problem, &Self)> {
+        let (problem, solution) = self.own.as_deref()?;
+        Some((problem, solution))
     }
 
     /// With these contact edges active, one flag each.
@@ -117,10 +116,20 @@ impl Solution {
         defect.fold(0.0, f64::max) / self.largest_flux()
     }
 
-    /// The bound as a part of the energy norm of what it is the bound of; `None` where either is missing, or 0.
+    /// The bound as a part of the energy norm of what it is the bound of; `None` where either is missing, or where the solution
+    /// is constant up to rounding.
     pub fn relative_bound(&self, energy_norm: Option<f64>) -> Option<f64> {
+        if self.is_constant(energy_norm) {
+            return None;
+        }
         let relative = self.bound?.total / energy_norm?;
         relative.is_finite().then_some(relative)
+    }
+
+    /// Whether rounding may be all of the energy norm.
+    pub fn is_constant(&self, energy_norm: Option<f64>) -> bool {
+        let rounding = self.bound.map(|bound| bound.rounding);
+        matches!((energy_norm, rounding), (Some(norm), Some(rounding)) if norm <= rounding)
     }
 
     /// ‖A^½∇_h u_h‖, where the solve has converged: see [`CellField::energy`].
@@ -134,8 +143,10 @@ impl Solution {
 
     /// Mean of ψ over contact edge `at` in the scalar of u, so that u_E = ψ_E can be asked.
     pub fn gap(&self, problem: &Problem, at: usize) -> f64 {
-        let scalar = self.ran.scalar_of_u(self.scalar);
-        scalar.round(problem.loads.gap[at] / self.units.u) * self.units.u
+        if let Some((problem, own)) = self.in_its_units() {
+            return self.units.value(own.gap(problem, at));
+        }
+        self.ran.scalar_of_u(self.scalar).round(problem.loads.gap[at])
     }
 
     /// λ = σ·n − q, the mean over contact edge `at` (counted from the first one).

@@ -1,8 +1,11 @@
-//! The units in which a problem is solved: those in which its numbers are near 1.
+//! The units in which a problem is solved: those in which its numbers are near 1, and what is given of u near 0.
+//!
+//! A constant added to every datum of u is added to u, and nothing else changes. But numbers are rounded by their size: where the
+//! data are large against their differences, a constant is taken from all of them before they are narrowed.
 
 use std::sync::Arc;
 
-use signorini_problem::Problem;
+use signorini_problem::{Parts, Problem};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::units::Units;
 
@@ -11,15 +14,49 @@ use super::Solution;
 /// Numbers between 2^−20 and 2^20 are near enough: their squares and sums stay far from the limits of f32.
 const NEAR: i32 = 20;
 
-/// The units of `problem`; 1 and 1 where its numbers are near 1 anyhow.
+/// Data of u this far from 0, over their range, are moved there. From 2 on no digit of them is lost by that: the difference of
+/// two numbers within a factor of 2 is exact.
+const FAR: f64 = 4.0;
+
+/// The units of `problem`; 1, 1 and 0 where its numbers are near 1 anyhow.
 ///
 /// # Errors
 /// Numbers whose energy f64 cannot hold.
 pub fn choose(problem: &Problem) -> Result<Units> {
+    let zero = zero(problem);
+    if zero == 0.0 {
+        return powers(problem);
+    }
+    let moved = problem.in_units(&Units { zero, ..Units::default() })?;
+    Ok(Units { zero, ..powers(&moved)? })
+}
+
+/// The middle of what is given of u, in few digits; 0 where that is near 0 for its range, or where some part of the domain has
+/// nothing given: its u has a mean of 0.
+fn zero(problem: &Problem) -> f64 {
+    let loads = &problem.loads;
+    let outside = loads.robin.iter().filter(|law| law.coefficient > 0.0);
+    let given = loads.dirichlet.iter().chain(&loads.gap).copied();
+    let given = given.chain(outside.map(|law| law.ambient / law.coefficient));
+    let (low, high) =
+        given.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+    let (middle, range) = (0.5 * low + 0.5 * high, high - low);
+    if !middle.is_finite() || middle.abs() <= FAR * range {
+        return 0.0;
+    }
+    if !Parts::examine(problem).is_ok_and(|parts| parts.counts.floating == 0) {
+        return 0.0;
+    }
+    let digit = if range > 0.0 { exp2(range.log2().floor() as i32) } else { 0.0 };
+    if digit > 0.0 { (middle / digit).round() * digit } else { middle }
+}
+
+/// Units that leave the zero of u where it is.
+fn powers(problem: &Problem) -> Result<Units> {
     let [u, conductivity] = sizes(problem).map(power);
     // An even power, whose root is a power of two as well.
     let conductivity = conductivity & !1;
-    let units = Units { u: exp2(u), conductivity: exp2(conductivity) };
+    let units = Units { u: exp2(u), conductivity: exp2(conductivity), zero: 0.0 };
     let refused = |message: String, hint: &str| {
         Err(InputError::new(message).file(problem.scene.file()).hint(hint).into())
     };
@@ -54,20 +91,21 @@ pub fn choose(problem: &Problem) -> Result<Units> {
 const SILENT: f64 = 1e-6;
 
 /// The units of a module that answers for any inputs: those of its defaults, and where these make next to nothing those
-/// of 1 for each input whose default is 0. A large input would overflow the scalar otherwise.
+/// of 1 for each input whose default is 0. A large input would overflow the scalar otherwise. The zero of u stays: a module
+/// reads inputs that are added to the data.
 ///
 /// # Errors
 /// As for [`choose`].
 pub fn choose_for_inputs(problem: &Problem) -> Result<Units> {
     let values: Vec<_> = problem.scene.inputs.iter().map(|input| input.default).collect();
     if !values.contains(&0.0) {
-        return choose(problem);
+        return powers(problem);
     }
     let ones: Vec<_> = values.iter().map(|&value| if value == 0.0 { 1.0 } else { value }).collect();
     // Where 1 is not admissible, nothing is known of the inputs.
-    let Ok(with_ones) = problem.with_inputs(&ones) else { return choose(problem) };
+    let Ok(with_ones) = problem.with_inputs(&ones) else { return powers(problem) };
     let [[own, _], [of_inputs, _]] = [sizes(problem), sizes(&with_ones)];
-    choose(if own >= SILENT * of_inputs { problem } else { &with_ones })
+    powers(if own >= SILENT * of_inputs { problem } else { &with_ones })
 }
 
 /// The size of u, and that of A: the geometric mean of its extremes. What is given outside of transfer edges
@@ -131,15 +169,22 @@ impl<'p> Scaled<'p> {
     }
 }
 
+/// A solution of `problem`, which is stated in `units`, becomes one of the scene's that remembers both.
+pub fn in_scene(problem: &Arc<Problem>, units: &Units, solution: Solution) -> Solution {
+    let own = Some(Arc::new((problem.clone(), solution.clone())));
+    Solution { units: *units, own, ..times(units, solution) }
+}
+
 /// A solution in `units` becomes one in the scene's; with their inverse, the other way round.
 pub fn times(units: &Units, mut solution: Solution) -> Solution {
     let times = |numbers: &mut [f64], unit: f64| numbers.iter_mut().for_each(|x| *x *= unit);
-    times(&mut solution.u, units.u);
+    let values = |numbers: &mut [f64]| numbers.iter_mut().for_each(|u| *u = units.value(*u));
+    values(&mut solution.u);
     times(&mut solution.flux, units.flux());
     solution.contact_force *= units.flux();
     solution.bound = solution.bound.map(|bound| bound.times(units.energy()));
     let certified = &mut solution.certified;
-    times(&mut certified.vertices, units.u);
+    values(&mut certified.vertices);
     times(&mut certified.bubbles, units.u);
     times(&mut certified.tau, units.flux());
     times(&mut certified.indicators, units.energy() * units.energy());

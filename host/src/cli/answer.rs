@@ -11,9 +11,9 @@ use signorini_problem::Problem;
 use signorini_problem::functional::wanted;
 use signorini_problem::progress::{say, waiting, warn};
 use signorini_scene::error::Result;
+use signorini_scene::scene::{Output, Quantity};
 use signorini_solve::adaptive::Stop;
-use signorini_solve::norms::Errors;
-use signorini_solve::{Solution, SolverKind};
+use signorini_solve::{Solution, SolverKind, energy_norm};
 
 /// A solution and what is told of it.
 pub(super) struct Told {
@@ -46,9 +46,8 @@ impl Told {
 
     /// Writes the files of a solve, and says what is in them.
     pub fn write(&self, out: &Path) -> Result<()> {
-        let Answer { problem, solution, energy_norm, errors, .. } = &self.answer;
         self.answer.write(out)?;
-        report(problem, solution, *errors, *energy_norm);
+        report(&self.answer);
         output_lines(&self.answer).iter().for_each(|line| say(format_args!("{line}")));
         Ok(())
     }
@@ -62,12 +61,20 @@ fn output_lines(answer: &Answer) -> Vec<String> {
     iter::once("  outputs:".to_owned()).chain(lines).collect()
 }
 
-fn report(
-    problem: &Problem,
-    solution: &Solution,
-    errors: Option<Errors>,
-    energy_norm: Option<f64>,
-) {
+/// How far the contact force of u_h may be from the exact one, where an output that is this force has an interval.
+fn error_of_force(answer: &Answer) -> Option<f64> {
+    let force = answer.solution.contact_force;
+    let all = wanted(&answer.problem.scene);
+    let is_force = |of: &&Output| {
+        of.quantity == Quantity::Force && answer.outputs.get(&of.name.value) == Some(&Some(force))
+    };
+    let interval = |of: &Output| answer.intervals.get(&of.name.value)?.as_ref().ok();
+    let found = all.iter().filter(is_force).find_map(interval)?;
+    Some(found.plus_minus + (found.center - force).abs())
+}
+
+fn report(answer: &Answer) {
+    let Answer { problem, solution, energy_norm, errors, .. } = answer;
     let counts = problem.topology.counts;
     say(format_args!(
         "  {} unknowns, {} of {} contact edges active",
@@ -76,13 +83,14 @@ fn report(
         counts.contact
     ));
     say(format_args!("  {}", solution.ending()));
-    let digits = supported(solution.relative_bound(energy_norm));
+    let force = solution.contact_force;
+    let digits = supported(force, error_of_force(answer));
     say(format_args!(
         "  contact force {}, contact length {}",
-        rounded(solution.contact_force, digits, solution.largest_flux()),
-        rounded(solution.contact_length, digits.max(3), 0.0)
+        rounded(force, digits, solution.largest_flux()),
+        rounded(solution.contact_length, 3, 0.0)
     ));
-    report_bound(solution, energy_norm);
+    report_bound(problem, solution, *energy_norm);
     if let Some(errors) = errors {
         say(format_args!(
             "  true errors: |u − u_h|₁ {:.5e}, ‖u − u_h‖ {:.5e}, ‖σ − σ_h‖ {:.5e}, ‖A^½∇(u − u_h)‖ {:.5e}",
@@ -92,16 +100,19 @@ fn report(
 }
 
 /// How wrong each of the two functions can be, or why nobody knows.
-fn report_bound(solution: &Solution, energy_norm: Option<f64>) {
+fn report_bound(problem: &Problem, solution: &Solution, energy_norm: Option<f64>) {
     let Some(bound) = solution.bound else {
         let reason = solution.no_bound.as_ref().map_or_else(String::new, ToString::to_string);
         return say(format_args!("  no error bound: {reason}"));
     };
+    let name = energy_norm::name(problem);
     let part = |of: f64| match energy_norm {
-        // Of a constant solution, whose gradient is rounding, a percentage says nothing.
-        Some(norm) if norm > of => format!("{} % of ‖A^½∇s‖", percent_above(of / norm)),
-        Some(norm) if norm > 0.0 => format!("no less than ‖A^½∇s‖ itself, {norm:.2e}"),
-        _ => "‖A^½∇s‖ is 0".to_owned(),
+        _ if solution.is_constant(energy_norm) => {
+            "the solution is constant up to rounding".to_owned()
+        }
+        Some(norm) if norm > of => format!("{} % of {name}", percent_above(of / norm)),
+        Some(norm) => format!("no less than {name} itself, {norm:.2e}"),
+        None => format!("{name} is not known"),
     };
     say(format_args!("  error bounds in the energy norm, guaranteed:"));
     say(format_args!(

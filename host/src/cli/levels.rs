@@ -61,7 +61,7 @@ pub(super) fn why(stop: &Stop, solution: &Solution) -> Option<String> {
 
 /// The exit status: 3 where the goal was not reached.
 pub(super) fn status(stop: &Stop) -> u8 {
-    if *stop == Stop::Reached { 0 } else { 3 }
+    if stop.is_success() { 0 } else { 3 }
 }
 
 fn line(level: &Level) -> String {

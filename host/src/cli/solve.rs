@@ -53,7 +53,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     max_sweeps: Option<u32>,
     /// Refine the mesh where the error bound says, until the bound is at most this: in the unit of the energy norm, or with % a
-    /// part of the solution's. (`trade --max-error` is about the true error.) Writes refined.msh, levels.csv and levels.pvd too
+    /// part of `energy_norm` in summary.json. (`trade --max-error` is about the true error.) Writes refined.msh, levels.csv and levels.pvd too
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     max_error: Option<Goal>,
     /// With --max-error: most unknowns of a refined mesh [default: 1 000 000]

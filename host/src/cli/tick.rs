@@ -136,6 +136,8 @@ impl Arguments {
         write_atomically(&out.join("ticks.svg"), drawing.as_bytes())?;
         series.map_or(Ok(()), Series::close)?;
         report(&problem, &model, &ticks, &out);
+        warn(unsolvable(&ticks).as_slice());
+        warn(excluded(&ticks).as_slice());
         if !self.no_intervals && !self.baked && work > MOST_INTERVALS {
             say(format_args!(
                 "  no intervals of outputs: {work} unknowns times ticks are more than {MOST_INTERVALS}"
@@ -161,6 +163,31 @@ fn report(problem: &Problem, model: &str, ticks: &[TickRecord], out: &Path) {
     ));
     say(format_args!("  {}", endings(ticks)));
     say(format_args!("  written to {}", out.display()));
+}
+
+/// How many ticks have no solution or no single one, and when the first.
+fn unsolvable(ticks: &[TickRecord]) -> Option<String> {
+    let why = "have no solution or more than one, the first {}: contact alone holds a part of the domain, and the loads do not push it on";
+    refused(ticks, TickRecord::is_unsolvable, why)
+}
+
+/// How many ticks have data that exclude each other, and when the first.
+fn excluded(ticks: &[TickRecord]) -> Option<String> {
+    let why = "have data that exclude each other where boundaries meet, the first {}: no u is both above the one and below the other";
+    refused(ticks, TickRecord::is_excluded, why)
+}
+
+/// A sentence on the ticks that have no answer, with the place of the first in `why`.
+fn refused(ticks: &[TickRecord], is: fn(&TickRecord) -> bool, why: &str) -> Option<String> {
+    let refused = || ticks.iter().filter(|tick| is(tick));
+    let first = refused().next()?;
+    let place = format!("at t = {} ({})", first.time, first.status.name());
+    Some(format!(
+        "{} of {} ticks {}. Their rows are empty; each next one goes on from the last answer",
+        refused().count(),
+        ticks.len(),
+        why.replace("{}", &place),
+    ))
 }
 
 /// Why outputs have no interval, the first reason of each; lengths never have one.

@@ -21,8 +21,9 @@
 //!   inputs ─► load B p ─► Method: pivoting (exact) or sweeps ─► r ─► certificate ─► outputs
 //! ```
 //! [`crate::dense`] holds S and solves; [`factor`] and [`certificate`] bound the error; [`outputs`] are read off;
-//! [`storage`] owns the memory; `modes` are for a transfer coefficient that changes. `signorini bake` writes all of it.
+//! [`balance`] tells loads that contact cannot hold; [`storage`] owns the memory; `modes` are for a transfer coefficient that changes. `signorini bake` writes all of it.
 
+pub mod balance;
 pub mod candidate;
 pub mod certificate;
 pub mod dense;
@@ -40,6 +41,7 @@ use crate::dense::pivoting::settle;
 use crate::dense::ranges::Given;
 use crate::dense::tableau::InitialTableau;
 use crate::dense::{Iterate, sizes};
+use balance::Balance;
 use candidate::Candidate;
 use certificate::Form;
 use method::Method;
@@ -69,6 +71,8 @@ pub struct Condensed<'a, R> {
     pub limits: &'a [[R; 2]],
     /// How far it is to the other end of each flux.
     pub spans: SpanColumns<'a, R>,
+    /// The parts that contact alone holds.
+    pub parts: &'a [Balance<'a, R>],
     /// The outputs.
     pub outputs: &'a [Measure<'a, R>],
     /// Form that bounds the error; absent where there is no bound, or nobody asks for it.
@@ -104,8 +108,8 @@ impl<R: Real> Condensed<'_, R> {
     /// Solves for the inputs p, p_0 = 1 among them, from the last x and until the deadline, and bounds the error.
     ///
     /// # Errors
-    /// Inputs that are not finite, or so large that the answer or an output may overflow; arrays of the wrong
-    /// length. In any case the last answer stays: x and the method are what they were, bit for bit.
+    /// Inputs that are not finite, or so large that the answer or an output may overflow; inputs without a solution, or with
+    /// more than one; arrays of the wrong length. In any case the last answer stays: x and the method are what they were, bit for bit.
     pub fn tick<M: Method<R>, F: FnMut() -> u32>(
         &self,
         inputs: &[R],
@@ -117,7 +121,8 @@ impl<R: Real> Condensed<'_, R> {
         let matrix = self.matrix()?;
         self.combine(inputs, memory.load)?;
         self.check_magnitude(inputs, memory.load)?;
-        self.spans.combine(inputs, memory.load.len(), &mut memory.spans)?;
+        self.spans.combine(inputs, memory.load, &mut memory.spans)?;
+        self.parts.iter().try_for_each(|part| part.check(inputs))?;
         let spans = self.spans.of(memory.load.len(), &memory.spans);
         let given = Given::between(memory.load, spans, &[]);
         let progress = method.solve(&matrix, given, memory.iterate.reborrow(), deadline)?;

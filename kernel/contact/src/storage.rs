@@ -1,4 +1,5 @@
-//! Owned memory of exactly the size that a model needs: arrays that can be a `static`, or whatever else lends slices.
+//! Owned memory of exactly the size that a model needs: arrays that can be a `static`, or whatever else lends slices. Of any
+//! bits it is memory still: what a reset or a brown-out has left of it may make a tick wrong, and nothing worse.
 
 use super::method::{Pivots, Sweeps, TwoPhases};
 use super::spans::SpanBuffer;
@@ -8,6 +9,7 @@ use crate::dense::blocks::{Block, SIDE};
 use crate::dense::tableau::Tableau;
 use signorini_kernel::Real;
 use signorini_kernel::error::Error;
+use signorini_kernel::flags::restored;
 
 /// Iterate and scratch. Numbers and flags have [`crate::dense::blocks::padded`] contact edges, columns those of the
 /// bound's factor; spans are as many as contact edges with padding where inputs change them, none elsewhere.
@@ -21,12 +23,13 @@ pub struct Storage<Numbers, Flags, Columns, Spans> {
     spans: Spans,
     combination: Columns,
     sum: Columns,
-    has_begun: bool,
+    /// 0 before the first tick.
+    has_begun: u8,
 }
 
 /// [`Storage`] in arrays: P padded contact edges, C columns, S spans.
 pub type ArrayStorage<R, const P: usize, const C: usize, const S: usize = 0> =
-    Storage<[R; P], [bool; P], [R; C], [R; S]>;
+    Storage<[R; P], [u8; P], [R; C], [R; S]>;
 
 impl<R: Real, const P: usize, const C: usize, const S: usize> ArrayStorage<R, P, C, S> {
     /// Zeros, which take no room in flash: the first tick takes the model's x over.
@@ -35,12 +38,12 @@ impl<R: Real, const P: usize, const C: usize, const S: usize> ArrayStorage<R, P,
             x: [R::ZERO; P],
             residual: [R::ZERO; P],
             scratch: [R::ZERO; P],
-            open: [false; P],
+            open: [0; P],
             load: [R::ZERO; P],
             spans: [R::ZERO; S],
             combination: [R::ZERO; C],
             sum: [R::ZERO; C],
-            has_begun: false,
+            has_begun: 0,
         }
     }
 }
@@ -57,7 +60,7 @@ impl<Numbers: Clone, Flags, Columns: Clone, Spans> Storage<Numbers, Flags, Colum
             spans,
             combination: columns.clone(),
             sum: columns,
-            has_begun: false,
+            has_begun: 0,
         }
     }
 }
@@ -67,18 +70,18 @@ impl<Numbers, Flags, Columns, Spans> Storage<Numbers, Flags, Columns, Spans> {
     pub fn memory<R: Real>(&mut self, model: &Condensed<R>) -> Memory<'_, R>
     where
         Numbers: AsMut<[R]>,
-        Flags: AsMut<[bool]>,
+        Flags: AsMut<[u8]>,
         Columns: AsMut<[R]>,
         Spans: AsMut<[R]>,
     {
         let x = self.x.as_mut();
-        if !self.has_begun {
+        if self.has_begun == 0 {
             x.iter_mut().zip(model.x).for_each(|(x, &given)| *x = given);
-            self.has_begun = true;
+            self.has_begun = 1;
         }
         let (residual, scratch) = (self.residual.as_mut(), self.scratch.as_mut());
         Memory {
-            iterate: Iterate { x, residual, scratch, open: self.open.as_mut() },
+            iterate: Iterate { x, residual, scratch, open: restored(self.open.as_mut()) },
             load: self.load.as_mut(),
             spans: SpanBuffer::new(self.spans.as_mut()),
             combination: self.combination.as_mut(),
@@ -94,10 +97,10 @@ impl<Numbers, Flags, Columns, Spans> Storage<Numbers, Flags, Columns, Spans> {
         self.x.as_ref()
     }
 
-    /// The edges that the last tick left open, padding included.
-    pub fn open(&self) -> &[bool]
+    /// The edges that the last tick left open, as 1, padding included.
+    pub fn open(&self) -> &[u8]
     where
-        Flags: AsRef<[bool]>,
+        Flags: AsRef<[u8]>,
     {
         self.open.as_ref()
     }
@@ -112,7 +115,7 @@ impl<Numbers, Flags, Columns, Spans> Storage<Numbers, Flags, Columns, Spans> {
 
     /// Forgets all ticks: the next one takes the model's x over again.
     pub fn reset(&mut self) {
-        self.has_begun = false;
+        self.has_begun = 0;
     }
 }
 
@@ -123,24 +126,25 @@ pub struct TableauStorage<Blocks, Flags, Column> {
     blocks: Blocks,
     exchanged: Flags,
     columns: [Column; 2],
-    is_built: bool,
+    /// 0 where there is none.
+    is_built: u8,
 }
 
 /// [`TableauStorage`] in arrays: P padded contact edges, B blocks.
 pub type ArrayTableauStorage<R, const P: usize, const B: usize> =
-    TableauStorage<[Block<R>; B], [bool; P], [R; P]>;
+    TableauStorage<[Block<R>; B], [u8; P], [R; P]>;
 
 impl<R: Real, const P: usize, const B: usize> ArrayTableauStorage<R, P, B> {
     /// Nothing yet: the first tick takes the model's own over.
     pub const fn zeros() -> Self {
-        Self::of([[[R::ZERO; SIDE]; SIDE]; B], [false; P], [[R::ZERO; P]; 2])
+        Self::of([[[R::ZERO; SIDE]; SIDE]; B], [0; P], [[R::ZERO; P]; 2])
     }
 }
 
 impl<Blocks, Flags, Column> TableauStorage<Blocks, Flags, Column> {
     /// Before the first tick, in buffers of any contents.
     pub const fn of(blocks: Blocks, exchanged: Flags, columns: [Column; 2]) -> Self {
-        Self { blocks, exchanged, columns, is_built: false }
+        Self { blocks, exchanged, columns, is_built: 0 }
     }
 
     /// The exact method on `model`: at most so many exchanges a tick, and what follows where they do not
@@ -156,7 +160,7 @@ impl<Blocks, Flags, Column> TableauStorage<Blocks, Flags, Column> {
     ) -> Result<Pivots<'a, R>, Error>
     where
         Blocks: AsMut<[Block<R>]>,
-        Flags: AsMut<[bool]>,
+        Flags: AsMut<[u8]>,
         Column: AsMut<[R]>,
     {
         Ok(Pivots { tableau: self.tableau(model)?, start: model.start, most, sweeps })
@@ -172,7 +176,7 @@ impl<Blocks, Flags, Column> TableauStorage<Blocks, Flags, Column> {
     ) -> Result<TwoPhases<'a, R>, Error>
     where
         Blocks: AsMut<[Block<R>]>,
-        Flags: AsMut<[bool]>,
+        Flags: AsMut<[u8]>,
         Column: AsMut<[R]>,
     {
         Ok(TwoPhases { tableau: self.tableau(model)? })
@@ -181,21 +185,21 @@ impl<Blocks, Flags, Column> TableauStorage<Blocks, Flags, Column> {
     fn tableau<R: Real>(&mut self, model: &Condensed<R>) -> Result<Tableau<'_, R>, Error>
     where
         Blocks: AsMut<[Block<R>]>,
-        Flags: AsMut<[bool]>,
+        Flags: AsMut<[u8]>,
         Column: AsMut<[R]>,
     {
         let columns = self.columns.each_mut().map(Column::as_mut);
-        let (blocks, exchanged) = (self.blocks.as_mut(), self.exchanged.as_mut());
+        let (blocks, exchanged) = (self.blocks.as_mut(), restored(self.exchanged.as_mut()));
         let mut tableau = Tableau::new(model.contact, blocks, exchanged, columns)?;
-        if !self.is_built {
+        if self.is_built == 0 {
             tableau.reset(&model.start)?;
-            self.is_built = true;
+            self.is_built = 1;
         }
         Ok(tableau)
     }
 
     /// Forgets all ticks: the next one takes the model's tableau over again.
     pub fn reset(&mut self) {
-        self.is_built = false;
+        self.is_built = 0;
     }
 }

@@ -260,12 +260,12 @@ fn storage_takes_the_model_s_start_over_once() -> Result<(), Error> {
     storage.reset();
     assert_eq!(storage.memory(&model).iterate.x, given);
 
-    let mut vectors = Storage::of(vec![7.0; PADDED], vec![true; PADDED], vec![7.0; 3], []);
+    let mut vectors = Storage::of(vec![7.0; PADDED], vec![1; PADDED], vec![7.0; 3], []);
     let lent = vectors.memory(&model);
     lent.iterate.open[1] = false;
     lent.combination[2] = 0.5;
     assert_eq!(vectors.x::<f64>(), given);
-    assert_eq!(vectors.open()[..3], [true, false, true]);
+    assert_eq!(vectors.open()[..3], [1, 0, 1]);
     assert_eq!(vectors.combination::<f64>(), [7.0, 7.0, 0.5]);
 
     let mut tableau = ArrayTableauStorage::<f64, PADDED, 1>::zeros();

@@ -16,7 +16,7 @@ use signorini_contact::sides::{Baked, ON_GAP, Sides};
 use signorini_contact::spans::{SpanBuffer, SpanColumns};
 use signorini_contact::{Condensed, Memory};
 use signorini_kernel::Error;
-use signorini_kernel::flux_range::Spans;
+use signorini_kernel::flux_range::{Room, Spans};
 use signorini_kernel::limits::Deadline;
 use signorini_kernel::verdict::{Certificate, Verdict};
 use signorini_tolerances::kernel::LIMITED_FORM;
@@ -235,13 +235,14 @@ impl Drawn {
                 x if x > 0.0 => least,
                 _ => most,
             };
-            let is_lower = (tau - least).abs() <= (most - tau).abs();
-            let unseen = |is_nearest: bool| if is_nearest { 0.0 } else { self.span_excess };
+            // τ·n = least + θ (most − least) all along the edge, whose range is nowhere wider than this.
+            let width = most - least;
+            let widest = if width > 0.0 { 1.0 + self.span_excess / width } else { 1.0 };
             if least.is_finite() {
-                sum += 2.0 * mean(1.0) * (tau - least + unseen(is_lower));
+                sum += 2.0 * mean(1.0) * (tau - least) * widest;
             }
             if most.is_finite() {
-                sum += 2.0 * mean(-1.0) * (most - tau + unseen(!is_lower));
+                sum += 2.0 * mean(-1.0) * (most - tau) * widest;
             }
         }
         Some(sum)
@@ -331,7 +332,7 @@ fn supplied(spans: &[f64], supply: f64, buffer: &mut [f64; 8]) -> Result<[f64; 3
         contact: 2,
         matrix: &[block],
         load: &load,
-        spans: SpanColumns::new(spans),
+        spans: SpanColumns::new(spans).within(&[Room { terms: &[1.0, 0.5], size: 1.0 }]),
         outputs: &[Measure::Flux { of_inputs: &[], of_contact: &[], of_reaction: &weights }],
         ..bare()
     };
@@ -362,13 +363,19 @@ fn spans_follow_the_inputs() -> Result<(), Error> {
     assert_eq!(supplied(&spans, 4.0, buffer)?, [0.0, 0.0, 23.0]);
     assert_eq!(supplied(&spans, -2.0 - 4.0 * f64::EPSILON, buffer)?, [-3.0, 0.0, 20.0]);
     let before = *buffer;
-    assert_eq!(supplied(&spans, -2.1, buffer), Err(Error::EmptyRange { contact: 0 }));
+    assert_eq!(supplied(&spans, -2.1, buffer), Err(Error::EmptyRange { input: 0 }));
     assert_eq!(*buffer, before);
-    // Rounding of (m + 4) terms, at an input where both products count.
-    let least = -2.0 - 11.0 * 2.0 * f64::EPSILON;
-    assert!(supplied(&spans, least, buffer).is_ok());
-    let beyond = -2.0 - 14.0 * 2.0 * f64::EPSILON;
-    assert_eq!(supplied(&spans, beyond, buffer), Err(Error::EmptyRange { contact: 0 }));
+    // Terms of 1 + 1, 2⁻¹⁹ of which are rounding: lo = −3 + … and hi go to their mean.
+    let crossed = |slacks: f64| -2.0 - 4.0 * slacks / f64::from(1 << 19);
+    for slacks in [0.5, 0.99] {
+        let [x, _, _] = supplied(&spans, crossed(slacks), buffer)?;
+        let mean = -3.0 - slacks / f64::from(1 << 19);
+        assert!((x - mean).abs() < 1e-14 && buffer[0] == 0.0, "{x} {mean}");
+    }
+    for slacks in [1.01, 2.0] {
+        let beyond = supplied(&spans, crossed(slacks), buffer);
+        assert_eq!(beyond, Err(Error::EmptyRange { input: 0 }), "{slacks}");
+    }
     assert_eq!(supplied(&spans, 1.0, buffer)?, [-1.5, 0.0, 21.5]);
     let before = *buffer;
     // One column holds for all inputs, of either sign, and needs no room.

@@ -87,6 +87,7 @@ pub const fn bare<'a, R: Real>() -> Condensed<'a, R> {
         load: &[],
         limits: &[],
         spans: SpanColumns::UNLIMITED,
+        parts: &[],
         outputs: &[],
         certificate: None,
         has_bound: false,

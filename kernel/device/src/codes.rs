@@ -22,7 +22,7 @@ signorini_kernel::codes! {
         InputNotFinite = 6 c"INPUT_NOT_FINITE",
         /// Data, the answer or an output would overflow with these inputs.
         Overflow = 7 c"OVERFLOW",
-        /// Inputs bring the limit of a contact edge's flux below its least value: the culprit is the edge's number.
+        /// Inputs bring the limit of a contact flux below its least value: the culprit is the number of the one that leaves least room.
         EmptyRange = 8 c"EMPTY_RANGE",
         /// Inputs make a transfer coefficient negative: the culprit is the edge's number.
         NegativeCoefficient = 9 c"NEGATIVE_COEFFICIENT",
@@ -34,6 +34,9 @@ signorini_kernel::codes! {
         NoWayOut = 12 c"NO_WAY_OUT",
         /// Data and code do not belong together; never of a library as it was baked.
         Inconsistent = 13 c"INCONSISTENT",
+        /// With these inputs two boundary edges that meet exclude each other's values of u: a gap and a Dirichlet value, or two
+        /// gaps. The culprit is the number of their vertex among those where that can be.
+        Excluded = 14 c"EXCLUDED",
     }
 }
 
@@ -52,8 +55,9 @@ pub fn refusal(error: &Error) -> (Refusal, usize) {
         Error::InputOutOfRange { input } => (Refusal::InputOutOfRange, input),
         Error::NotFinite { of: Array::Inputs, at } => (Refusal::InputNotFinite, at),
         Error::NotFinite { .. } => (Refusal::Overflow, 0),
-        Error::EmptyRange { contact } => (Refusal::EmptyRange, contact),
+        Error::EmptyRange { input } => (Refusal::EmptyRange, input),
         Error::NegativeRobin { edge } => (Refusal::NegativeCoefficient, edge),
+        Error::Excluded { at } => (Refusal::Excluded, at),
         Error::NoSolution { .. } => (Refusal::NoSolution, 0),
         Error::NotUnique { .. } => (Refusal::NotUnique, 0),
         Error::NoWayOut { .. } => (Refusal::NoWayOut, 0),
@@ -103,7 +107,8 @@ mod tests {
         assert_eq!(refusal(&output), (Refusal::Overflow, 0));
         for (error, expected) in [
             (Error::InputOutOfRange { input: 2 }, (Refusal::InputOutOfRange, 2)),
-            (Error::EmptyRange { contact: 7 }, (Refusal::EmptyRange, 7)),
+            (Error::EmptyRange { input: 7 }, (Refusal::EmptyRange, 7)),
+            (Error::Excluded { at: 3 }, (Refusal::Excluded, 3)),
             (Error::NegativeRobin { edge: 9 }, (Refusal::NegativeCoefficient, 9)),
             (Error::NoSolution { cell: 1 }, (Refusal::NoSolution, 0)),
             (Error::NotUnique { cell: 1 }, (Refusal::NotUnique, 0)),

@@ -82,7 +82,7 @@ impl<R, Blocks, Flags, Column> Solver<R> for Exchanges<TableauStorage<Blocks, Fl
 where
     R: Real,
     Blocks: AsMut<[Block<R>]>,
-    Flags: AsMut<[bool]>,
+    Flags: AsMut<[u8]>,
     Column: AsMut<[R]>,
 {
     type Method<'a>
@@ -112,7 +112,7 @@ impl<R, Blocks, Flags, Column> Solver<R> for Phased<TableauStorage<Blocks, Flags
 where
     R: Real,
     Blocks: AsMut<[Block<R>]>,
-    Flags: AsMut<[bool]>,
+    Flags: AsMut<[u8]>,
     Column: AsMut<[R]>,
 {
     type Method<'a>
@@ -148,7 +148,7 @@ impl<R, Numbers, Flags, Columns, Spans, M> controller::Storage<R>
 where
     R: Real,
     Numbers: AsMut<[R]>,
-    Flags: AsMut<[bool]>,
+    Flags: AsMut<[u8]>,
     Columns: AsMut<[R]>,
     Spans: AsMut<[R]>,
     M: Solver<R>,
@@ -186,7 +186,7 @@ impl<R, Numbers, Flags, Columns, Spans, Matrix, Inputs, M> controller::Storage<R
 where
     R: Real,
     Numbers: AsMut<[R]>,
-    Flags: AsMut<[bool]>,
+    Flags: AsMut<[u8]>,
     Columns: AsMut<[R]>,
     Spans: AsMut<[R]>,
     Matrix: AsRef<[Block<R>]> + AsMut<[Block<R>]>,

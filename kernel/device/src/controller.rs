@@ -1,13 +1,13 @@
 //! The controller of a baked scene: one set of methods, whatever its model.
 //!
 //! ```text
-//!   Inputs ─► ranges ─► cold start? ─► Storage::tick on the model ─► Answer { outputs, report }
+//!   Inputs ─► ranges ─► exclusions ─► cold start? ─► Storage::tick on the model ─► Answer { outputs, report }
 //! ```
 //! A module of `signorini bake` names its [`Scene`]: constants, types, and the memory that the model needs. The desk plays the
 //! same controller on arrays that it owns. What a model does in a tick stands where its memory does: in
 //! [`crate::condensed`] and in `device::full`'s `controller`.
 
-use crate::ranges::check;
+use crate::{exclusions, ranges};
 use signorini_kernel::limits::{Deadline, Limits};
 use signorini_kernel::report::Report;
 use signorini_kernel::{Error, Real};
@@ -25,6 +25,11 @@ pub trait Scene {
 
     /// The range of each input; empty where none is declared.
     fn ranges(&self) -> &[[Self::Scalar; 2]];
+
+    /// Rows that inputs without a range have to meet ([`crate::exclusions`]).
+    fn exclusions(&self) -> &[Self::Scalar] {
+        &[]
+    }
 
     /// When a tick ends.
     fn limits(&self) -> Limits<Self::Scalar>;
@@ -151,8 +156,8 @@ impl<S: Scene> Controller<S> {
     /// Answers for these inputs, from where the last tick ended or, where the scene asks for a cold start, from its beginning.
     ///
     /// # Errors
-    /// Inputs outside their ranges, that are not finite, or so large that data, answers or outputs may overflow; the
-    /// last answer stays.
+    /// Inputs outside their ranges, with which boundary edges exclude each other, that are not finite, or so large that data, answers or
+    /// outputs may overflow; the last answer stays.
     pub fn tick(&mut self, inputs: S::Inputs) -> Result<Answer<S::Outputs, S::Scalar>, Error> {
         let limits = self.scene.limits();
         self.tick_within(inputs, limits, &mut Deadline::never())
@@ -172,7 +177,8 @@ impl<S: Scene> Controller<S> {
     ) -> Result<Answer<S::Outputs, S::Scalar>, Error> {
         // By its own type: the length of a slice would be no constant of the tick's code.
         let terms = &inputs.terms();
-        check(terms.as_ref().get(1..).unwrap_or_default(), self.scene.ranges())?;
+        ranges::check(terms.as_ref().get(1..).unwrap_or_default(), self.scene.ranges())?;
+        exclusions::check(terms.as_ref(), self.scene.exclusions())?;
         if self.scene.is_cold() {
             self.storage.reset();
         }

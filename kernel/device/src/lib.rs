@@ -49,6 +49,7 @@ pub mod condensed;
 #[cfg(feature = "workspace")]
 pub mod condition;
 pub mod controller;
+pub mod exclusions;
 #[cfg(feature = "mesh")]
 pub mod full;
 pub mod intervals;

@@ -13,6 +13,7 @@ mod certificate;
 mod condensed_reports;
 mod conditions;
 mod conforming;
+mod damaged;
 mod degenerate;
 mod equilibrium;
 mod factored_ticks;

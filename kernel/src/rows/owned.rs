@@ -24,7 +24,8 @@ impl<R: Real, I: Index, const WIDTH: usize, T: AsMut<[Row<R, I, WIDTH>]>> LayOut
 
 /// Memory for the rows of one mesh; can initialise a `static`.
 ///
-/// `laid_out` tells which numbering the offsets belong to by its sizes: every offset names an entry of an
+/// Its bits may be any: what a tick finds there may be from before a reset. An offset that is none of the mesh has all of
+/// them laid out anew, and everything else is set before it is read. `laid_out` tells which numbering the offsets belong to by its sizes: every offset names an entry of an
 /// array over `laid_out.edges()` edges. Zeros, as it starts and as a failed pass leaves it, belong to no mesh.
 #[derive(Debug)]
 pub struct OwnedRows<R, I, const WIDTH: usize, const UNKNOWNS: usize> {
@@ -48,7 +49,7 @@ impl<R: Real, I: Index, const WIDTH: usize, const UNKNOWNS: usize>
     /// As for [`Rows::new`].
     pub fn of(&mut self, edges: &Edges<I>) -> Result<Rows<'_, R, I, WIDTH>, Error> {
         let counts = edges.counts();
-        if self.laid_out != counts {
+        if self.laid_out != counts || !are_inside(&self.rows, counts) {
             self.laid_out = EdgeCounts::default();
             Rows::new(edges, &mut self.rows)?;
             self.laid_out = counts;
@@ -65,7 +66,7 @@ impl<R: Real, I: Index, const WIDTH: usize, const UNKNOWNS: usize>
         let (of, needed) = (crate::error::Array::Rows, counts.unknowns());
         let rows = self.rows.get_mut(..needed);
         let rows = rows.ok_or(Error::Capacity { of, needed, limit: UNKNOWNS })?;
-        if self.laid_out != counts {
+        if self.laid_out != counts || !are_inside(rows, counts) {
             self.laid_out = EdgeCounts::default();
             Rows::new(edges, rows)?;
             self.laid_out = counts;
@@ -77,6 +78,21 @@ impl<R: Real, I: Index, const WIDTH: usize, const UNKNOWNS: usize>
     pub fn forget(&mut self) {
         self.laid_out = EdgeCounts::default();
     }
+}
+
+/// Whether every offset names an entry of an array over the edges: it is at most that of the last, and a multiple of an entry's size, which
+/// is a power of two.
+fn are_inside<R, I: Index, const WIDTH: usize>(
+    rows: &[Row<R, I, WIDTH>],
+    counts: EdgeCounts,
+) -> bool {
+    let (mut largest, mut bits) = (0, 0);
+    for offset in rows.iter().flat_map(|row| row.offsets) {
+        largest = offset.at().max(largest);
+        bits |= offset.at();
+    }
+    let size = size_of::<R>();
+    bits % size == 0 && largest / size < counts.edges().max(1)
 }
 
 impl<R: Real, I: Index, const WIDTH: usize, const UNKNOWNS: usize> LayOut<R, I, WIDTH>

@@ -270,7 +270,8 @@ static void words(void) {
     CHECK(strcmp(NAMED(error_name)(OK), "OK") == 0);
     CHECK(strcmp(NAMED(error_name)(CODE(FOREIGN_STATE)), "FOREIGN_STATE") == 0);
     CHECK(strcmp(NAMED(error_name)(CODE(INCONSISTENT)), "INCONSISTENT") == 0);
-    CHECK(strcmp(NAMED(error_name)(CODE(INCONSISTENT) + 1), "UNKNOWN") == 0);
+    CHECK(strcmp(NAMED(error_name)(CODE(EXCLUDED)), "EXCLUDED") == 0);
+    CHECK(strcmp(NAMED(error_name)(CODE(EXCLUDED) + 1), "UNKNOWN") == 0);
     CHECK(strcmp(NAMED(error_name)(-1), "UNKNOWN") == 0);
     CHECK(strcmp(NAMED(status_name)(CODE(OUT_OF_TIME)), "OUT_OF_TIME") == 0);
     CHECK(strcmp(NAMED(status_name)(99), "UNKNOWN") == 0);

@@ -107,6 +107,7 @@ pub fn of_any_arrays<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
         load: &load,
         limits: &limits,
         spans: SpanColumns::new(&spans),
+        parts: &[],
         outputs: &outputs,
         certificate,
         has_bound: true,

@@ -23,12 +23,12 @@ table! {
         "panels of 2⁻¹⁷ around it";
     BISECTED_KINK: "integral of a kink by bisection", 1e-9,
         "two levels agree to 1e-9";
-    BISECTED_LINE: "integral of a kink across cells by bisection", 1e-4,
-        "the number of cuts is limited";
-    GRADED: "integral of a jump beside a side by thin parts", 1e-4,
-        "the number of cuts is limited";
-    GUARANTEE: "how far the distance is above the bound on thin cells, relative", 1e-6,
-        "quadrature of the norms";
+    ENCLOSED: "what is missed of integrals over cells and edges, of sizes near 1", 3e-12,
+        "1e-13 of ∫|f| in each of some parts, and rounding";
+    ENCLOSED_LINE: "what is missed of a jump along a circle", 1e-4,
+        "the number of parts is limited";
+    GUARANTEE: "how far the distance is above the bound, relative", 1e-14,
+        "none is seen above it: rounding alone";
     POINTS: "Robin data at the points of an edge", 1e-13,
         "sums of 8 points";
     NARROW_BUMP: "what 8 points miss of a bump or layer, relative", 2e-3,
@@ -59,6 +59,8 @@ table! {
         "linear functions on few cells";
     OSCILLATION: "oscillation of a cell against integrals on paper", 1e-14,
         "exact rules for polynomials";
+    LOCAL_FLUX: "fluxes inside a cell against their definition", 1e-12,
+        "sums of 64 polynomials of degree 8, whose values are below 100";
     AGREEMENT: "u of mixed precision and of the factor against other solvers, over the largest", 1e-10,
         "as good as the solves, of condition up to 10⁵";
     FACTOR_NARROW: "u of the factor in f32 against f64, over the largest", 2e-6,
@@ -83,6 +85,12 @@ table! {
         "rounding times the condition of the mesh";
     CARRIED: "an affine u carried to a finer mesh, its mean over an edge", 2e-12,
         "a residual of 1e-13 of the range of u, 6, times the condition of a small mesh";
+    ZERO: "figures with a constant added to every datum of u, relative", 1e-9,
+        "the constant is a thousand ranges, of which rounding is 1e-13, times the condition of a small mesh";
+    ZERO_SWEPT: "figures of ticks with a constant added to every datum of u, relative", 1e-7,
+        "sweeps end at a share of the bound, one of them earlier or later";
+    ZERO_NARROW: "figures in f32 with a constant of twenty ranges added to every datum of u, relative", 3e-4,
+        "the data are narrowed with another zero: 6e-8, times the condition of a small mesh";
     TRANSFER: "a wall with a transfer coefficient that an input sets, against its resistances in series", 3e-12,
         "u is affine, and exact in the elements: sweeps end at 4√n ε = 1e-14 of its size 2, times the condition of a small mesh, 100";
     DUVAUT: "a wall above a heater with a limit, against its closed form", 1e-11,

@@ -9,7 +9,7 @@ use crate::caught::caught;
 use crate::modules::{ROWS, Row, row};
 use crate::setup;
 use crate::steps::Steps;
-use signorini_image::library::{EXPORTS, EXPORTS_WITHIN, Library};
+use signorini_image::library::{EXPORTS, EXPORTS_WITHIN, Library, mark};
 use signorini_image::objects::{ARM, symbols};
 
 const ALWAYS: [Kind; 3] = [FORMATTING, ALLOCATOR, PANIC];
@@ -44,7 +44,9 @@ fn names(row: &Row, word: &str) -> Result<Vec<String>, String> {
     let package = row.package(word)?;
     let symbols = symbols(ARM, &package.library())?;
     let exports = EXPORTS.iter().chain(&EXPORTS_WITHIN);
-    let mut exports: Vec<_> = exports.map(|own| format!("{}_{own}", package.name)).collect();
+    let text = std::fs::read_to_string(row.module()?.file()).map_err(|error| error.to_string())?;
+    let mark = mark(&text);
+    let mut exports: Vec<_> = exports.map(|own| format!("{}_{own}{mark}", package.name)).collect();
     let shown = symbols.iter().filter(|symbol| symbol.is_shown());
     let mut shown: Vec<_> = shown.map(|symbol| symbol.name.clone()).collect();
     exports.sort_unstable();

@@ -169,12 +169,12 @@ mod tests {
 
     #[test]
     fn a_second_refusal_is_named() {
-        let one = "fn hi(a: A) -> R { settled(a).ok_or(Error::EmptyRange { contact }) }";
-        let reader = "fn code(e: Error) -> C { match e { Error::EmptyRange { contact } => 8 } }";
+        let one = "fn hi(a: A) -> R { settled(a).ok_or(Error::EmptyRange { input }) }";
+        let reader = "fn code(e: Error) -> C { match e { Error::EmptyRange { input } => 8 } }";
         let kernel = [("kernel/src/a.rs", one), ("kernel/src/b.rs", reader)];
         assert_eq!(broken(empty_ranges, &kernel), Vec::<String>::new());
         let second =
-            "impl A { fn lo() -> R { if lo > hi { return Err(EmptyRange { contact: 0 }); } } }";
+            "impl A { fn lo() -> R { if lo > hi { return Err(EmptyRange { input: 0 }); } } }";
         assert_eq!(broken(empty_ranges, &[kernel[0], ("host/a.rs", second)]), ["host/a.rs: lo"]);
     }
 

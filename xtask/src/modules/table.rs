@@ -110,7 +110,7 @@ pub const ROWS: [Row; 20] = [
     },
     Row {
         scene: "tests/firmware/scenes/levee-swept.toml",
-        size: Some(("levee, on triangles", 30 * KIB)),
+        size: Some(("levee, on triangles", 31 * KIB)),
         audit: Some(Audit::TRIANGLES),
         c: STATES,
         ..FULL

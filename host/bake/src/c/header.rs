@@ -10,12 +10,12 @@ use signorini_kernel::report::Ended;
 use super::comment::{MARK, as_is, comment, wrapped};
 use super::names::field;
 use super::words::{
-    ASSERT, CLOSING, FUNCTIONS, INPUT_VALUES, PLUS_MINUS, REPORT, STATE, SYMBOLS, USE,
+    ASSERT, CLOSING, FUNCTIONS, INPUT_VALUES, MARKS, PLUS_MINUS, REPORT, STATE, SYMBOLS, USE,
 };
 use crate::item::Item;
 use crate::module_api::{ModuleApi, UNITS};
 use signorini_image::chosen::Chosen;
-use signorini_image::library::{Library, Machine};
+use signorini_image::library::{EXPORTS, EXPORTS_WITHIN, Library, Machine};
 
 /// The subject of the header.
 pub(super) struct Header<'a> {
@@ -155,10 +155,19 @@ impl Header<'_> {
         )
     }
 
+    /// Definitions by which a header and the library of another bake do not link.
+    fn marks(&self) -> String {
+        let mark = &self.library.mark;
+        let define =
+            |own: &str| format!("#define name_{own} name_{}\n", as_is(&format!("{own}{mark}")));
+        let names: String = EXPORTS.into_iter().chain(EXPORTS_WITHIN).map(define).collect();
+        format!("{MARKS}{names}")
+    }
+
     fn functions(&self) -> String {
         let empty = self.api.inputs.is_empty();
         let inputs = if empty { "" } else { INPUT_VALUES };
-        format!("{FUNCTIONS}{inputs}")
+        format!("{}{FUNCTIONS}{inputs}", self.marks())
     }
 }
 
@@ -187,111 +196,4 @@ fn enumeration(name: &str, doc: &str, codes: &[Code], meanings: &[&str]) -> Stri
 }
 
 #[cfg(test)]
-mod tests {
-    use std::process::Command;
-
-    use super::super::names::{KEYWORDS_OF_C, KEYWORDS_OF_CPP, MACROS};
-    use super::*;
-    use crate::choice::{Choice, Wanted};
-    use crate::emit::emit;
-    use crate::item::items;
-    use crate::tests::standard;
-    use signorini_image::library::MACHINES;
-
-    /// The header of a standard scene for this machine, with the sizes of a state and a report; `outputs` stand in it instead of
-    /// the scene's own, where there are any.
-    fn header_with(name: &str, state: usize, report: usize, outputs: &[&str]) -> String {
-        let problem = standard(name, |_| ());
-        let chosen = Choice::<f32>::new(&problem, Wanted::default()).expect("a model");
-        let mut chosen = emit(&problem, &chosen).chosen;
-        let (mut api, on) = (ModuleApi::new(&problem), &MACHINES[MACHINES.len() - 1]);
-        if !outputs.is_empty() {
-            let docs = outputs.iter().map(|_| "One of many.".to_owned());
-            api.outputs = items(outputs.iter().copied(), docs);
-            chosen.without_interval = vec![None; outputs.len()];
-        }
-        let library = Library { archive: Vec::new(), state, report };
-        Header { name, api: &api, chosen: &chosen, library: &library, on }.text()
-    }
-
-    fn header(name: &str, state: usize, report: usize) -> String {
-        header_with(name, state, report, &[])
-    }
-
-    fn compiled(header: &str) -> Result<(), String> {
-        compiled_by("cc", "-std=c99", header)
-    }
-
-    /// Words of a compiler of the desk on a text.
-    fn compiled_by(compiler: &str, age: &str, text: &str) -> Result<(), String> {
-        let folder = tempfile::tempdir().expect("a folder");
-        std::fs::write(folder.path().join("main"), text).expect("a file");
-        let language = if compiler == "c++" { "c++" } else { "c" };
-        let said = Command::new(compiler)
-            .args([
-                age,
-                "-Wall",
-                "-Wextra",
-                "-Wpedantic",
-                "-Werror",
-                "-fsyntax-only",
-                "-x",
-                language,
-                "main",
-            ])
-            .current_dir(folder.path())
-            .output()
-            .expect("a C compiler");
-        match said.status.success() {
-            true => Ok(()),
-            false => Err(String::from_utf8_lossy(&said.stderr).into_owned()),
-        }
-    }
-
-    /// The header behind all headers of C: no field is called as a keyword or a macro.
-    #[test]
-    fn it_holds_every_word_of_c_and_cpp() {
-        let words = [KEYWORDS_OF_C, KEYWORDS_OF_CPP, MACROS].map(str::split_whitespace);
-        let words: Vec<_> = words.into_iter().flatten().collect();
-        assert!(words.len() > 150 && words.contains(&"co_await"), "{words:?}");
-        // 12 numbers and words, and an interval for each output.
-        let text = header_with("levee", 624, 48 + 4 * words.len(), &words);
-        let before: String = [
-            "assert", "complex", "errno", "math", "signal", "stdalign", "stdio", "stdlib",
-            "threads", "time",
-        ]
-        .iter()
-        .map(|name| format!("#if __has_include(<{name}.h>)\n#include <{name}.h>\n#endif\n"))
-        .collect();
-        for age in ["-std=gnu99", "-std=gnu17", "-std=gnu2x"] {
-            assert_eq!(compiled_by("cc", age, &(before.clone() + &text)), Ok(()), "{age}");
-        }
-        let before = before.replace("complex.h", "iso646.h").replace("threads.h", "wchar.h");
-        for age in ["-std=gnu++11", "-std=gnu++20", "-std=gnu++23"] {
-            assert_eq!(compiled_by("c++", age, &(before.clone() + &text)), Ok(()), "{age}");
-        }
-    }
-
-    #[test]
-    fn it_is_c_and_asserts_the_sizes_of_the_library() {
-        // Three outputs: 12 numbers and words of 4 bytes, and three intervals.
-        let levee = header("levee", 624, 60);
-        assert_eq!(compiled(&levee), Ok(()));
-        assert!(compiled(&header("levee", 624, 64)).is_err_and(|why| why.contains("report_has")));
-        assert!(
-            compiled(&levee.replace("words[78]", "words[77]"))
-                .is_err_and(|why| why.contains("state_has"))
-        );
-        for line in [
-            "levee_error levee_init(levee_state *state);",
-            "extern const levee_inputs levee_default_inputs;",
-            "    LEVEE_INPUT_OUT_OF_RANGE = 5,",
-            "     * contact set has none. */",
-            "#define LEVEE_WORST_EXCHANGES 10u",
-        ] {
-            assert!(levee.lines().any(|of| of == line), "{line}");
-        }
-        assert!(!levee.contains("name_") && !levee.contains(MARK));
-        assert_eq!(compiled(&header("slab", 8, 60)), Ok(()));
-    }
-}
+mod tests;

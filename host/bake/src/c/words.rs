@@ -59,7 +59,12 @@ pub(super) const STATE: &str = "
 /* The memory of one controller. It depends on no address: it may be copied, kept over a reset, put elsewhere, or written to a file.
  * Bytes between its fields may be any, so that two states that are alike may differ in them.
  * To keep one: name_seal_state, then take its bytes. To go on with it: put the bytes back, name_check_state, tick.
- * A tick trusts its state. Where memory may have been damaged, check first: a tick on damaged bytes may read anywhere. */
+ * A tick trusts its state. Where memory may have been damaged, check first: a tick on damaged bytes may answer wrongly, though it reads
+ * and writes nowhere else. */
+";
+
+pub(super) const MARKS: &str = "
+/* The names in the library: a program with the header of one bake and the library of another does not link. */
 ";
 
 pub(super) const FUNCTIONS: &str = "

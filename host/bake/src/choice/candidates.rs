@@ -7,6 +7,7 @@ use crate::budget::{Budget, Needs};
 use crate::condensed::{self, Modes, Work};
 use crate::costs::Costs;
 use crate::dense::{AN_ENTRY, Done};
+use crate::narrow::exclusions;
 use crate::setting::checked;
 use crate::trial::{self, Trial};
 use signorini_condense::CondensedModel;
@@ -107,6 +108,7 @@ fn condensed_as<R: Scalar>(
     };
     let baked = baked.map_err(unfit)?;
     let mut baked = baked.with_setting(setting);
+    baked.exclusions = exclusions(&origin.exclusions);
     let costs = Costs::measured();
     let price = baked.price(entries(condensate, baked.modes.as_ref()), exact);
     let spaces = condensate.defaults.iter().zip(&condensate.ranges).take(baked.inputs).skip(1);

@@ -8,7 +8,7 @@ use signorini_condense::ranges::reduced::Reduced;
 use signorini_condense::ranges::released::released;
 use signorini_condense::ranges::sides::Sides;
 use signorini_condense::{CondensedModel, ModalModel, Recovery, modal, recoverable};
-use signorini_problem::{Approach, Problem};
+use signorini_problem::{Approach, Exclusion, Problem};
 use signorini_reference::ReferenceError;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
@@ -32,6 +32,8 @@ pub struct Origin {
     pub modes: Option<ModalModel>,
     /// What is proved of those for all values of the coefficient.
     pub followed: Option<FollowedRanges>,
+    /// Conditions that inputs without a range have to meet.
+    pub exclusions: Vec<Exclusion>,
 }
 
 impl Origin {
@@ -66,7 +68,18 @@ impl Origin {
             reduced = Reduced::new(&whole, sides.clone());
         }
         let has_all_edges = wanted.has_all_edges;
-        Ok(Self { whole, recovery, sides, reduced, clear, has_all_edges, modes, followed })
+        let exclusions = problem.exclusions();
+        Ok(Self {
+            whole,
+            recovery,
+            sides,
+            reduced,
+            clear,
+            has_all_edges,
+            modes,
+            followed,
+            exclusions,
+        })
     }
 
     /// The model that is baked.

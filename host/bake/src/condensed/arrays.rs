@@ -5,15 +5,15 @@ use signorini_contact::certificate::Corner;
 use signorini_contact::dense::blocks::{Block, SIDE, padded};
 use signorini_contact::dense::rule::{Phases, Rule as _};
 use signorini_contact::method::Sweeps;
-use signorini_contact::outputs::Output;
-use signorini_contact::sides;
-use signorini_contact::spans::SpanColumns;
+use signorini_contact::{outputs::Output, sides, spans::SpanColumns};
 use signorini_kernel::{Error, error::Array};
 
+use super::balance::Balance;
 use super::bound::{Bound, Ends};
 use super::modes::{Modes, Scaled};
 use super::start::{InitialState, best_omega};
 use crate::narrow::{filled_up, is_monotone, matrix, narrow, pairs, spans};
+use crate::room::Room;
 use signorini_condense::{CondensedModel, ModalModel};
 use signorini_image::chosen::WorstCase;
 use signorini_problem::inputs::ranges;
@@ -70,8 +70,14 @@ pub struct Baked<R: Scalar> {
     pub(super) limits: Vec<[R; 2]>,
     /// By columns: one where no input changes a span, else one for each input; empty where no flux has a limit.
     pub(super) spans: Vec<R>,
+    /// Room that inputs leave in spans that they change.
+    pub(super) rooms: Vec<Room<R>>,
+    /// Of parts that contact alone holds.
+    pub(super) parts: Vec<Balance<R>>,
     /// Of the inputs without the constant; empty where no range is declared.
     pub(super) ranges: Vec<[R; 2]>,
+    /// Rows that inputs without a range have to meet.
+    pub(crate) exclusions: Vec<R>,
     pub(super) outputs: Vec<Output<Vec<R>, R>>,
     pub(super) bound: Result<Bound<R>, String>,
 }
@@ -106,7 +112,10 @@ impl<R: Scalar> Baked<R> {
             load: condensate.load.iter().flat_map(|column| filled_up(column)).collect(),
             limits: pairs(&condensate.limits),
             spans: spans(condensate)?,
+            rooms: condensate.rooms.iter().map(Room::new).collect(),
+            parts: condensate.balances.iter().map(Balance::new).collect(),
             ranges: ranges(condensate.ranges.get(1..).unwrap_or_default()),
+            exclusions: Vec::new(),
             outputs: condensate.outputs.iter().map(|of| of.map(|c| narrow(c), R::narrow)).collect(),
             bound,
         };
@@ -252,22 +261,19 @@ impl<R: Scalar> Baked<R> {
             .iter()
             .map(|(edge, excess, energy)| Corner { edge: *edge, excess, energy: *energy })
             .collect();
-        let certificate = self.bound.as_ref().ok().map(|bound| bound.form(&corners));
-        let Self { contact, matrix, load, limits, spans, .. } = self;
-        let (x, start) = (&self.start.x, self.start.view());
+        let rooms: Vec<_> = self.rooms.iter().map(Room::view).collect();
+        let parts: Vec<_> = self.parts.iter().map(Balance::view).collect();
         then(&Condensed {
-            contact: *contact,
-            matrix,
-            x,
-            start,
-            load,
-            limits,
-            spans: match spans.is_empty() {
-                true => SpanColumns::UNLIMITED,
-                false => SpanColumns::new(spans),
-            },
+            contact: self.contact,
+            matrix: &self.matrix,
+            x: &self.start.x,
+            start: self.start.view(),
+            load: &self.load,
+            limits: &self.limits,
+            spans: SpanColumns::new(&self.spans).within(&rooms),
+            parts: &parts,
             outputs: &outputs,
-            certificate,
+            certificate: self.bound.as_ref().ok().map(|bound| bound.form(&corners)),
             has_bound: self.has_bound,
         })
     }

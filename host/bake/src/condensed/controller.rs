@@ -82,6 +82,10 @@ impl<R: Scalar> Scene for Desk<'_, R> {
         &self.0.ranges
     }
 
+    fn exclusions(&self) -> &[R] {
+        &self.0.exclusions
+    }
+
     fn limits(&self) -> Limits<R> {
         Limits { error: R::ZERO, share: R::ZERO, sweeps: self.0.sweeps.most }
     }
@@ -96,8 +100,8 @@ impl<R: Scalar> Scene for Desk<'_, R> {
 }
 
 /// Iterate and scratch.
-type Shared<R> = Storage<Vec<R>, Vec<bool>, Vec<R>, Vec<R>>;
-type Modal<R> = ModalStorage<Vec<R>, Vec<bool>, Vec<R>, Vec<R>, Vec<Block<R>>, Vec<R>, R>;
+type Shared<R> = Storage<Vec<R>, Vec<u8>, Vec<R>, Vec<R>>;
+type Modal<R> = ModalStorage<Vec<R>, Vec<u8>, Vec<R>, Vec<R>, Vec<Block<R>>, Vec<R>, R>;
 
 /// The memory of either kind of model.
 #[derive(Debug)]
@@ -113,9 +117,9 @@ impl<R: Scalar> DeskStorage<R> {
         let n = padded(baked.contact);
         let blocks = vec![[[R::ZERO; SIDE]; SIDE]; count(baked.contact)];
         let spans = zeros(baked.varying_spans());
-        let mut shared = Storage::of(zeros(n), vec![false; n], zeros(baked.columns()), spans);
+        let mut shared = Storage::of(zeros(n), vec![0; n], zeros(baked.columns()), spans);
         baked.with_model(|model| _ = shared.memory(model));
-        let tableau = TableauStorage::of(blocks.clone(), vec![false; n], [zeros(n), zeros(n)]);
+        let tableau = TableauStorage::of(blocks.clone(), vec![0; n], [zeros(n), zeros(n)]);
         let solver = DeskSolver { solver: baked.solver(), tableau, has_begun_anew: false };
         match &baked.modes {
             None => Self::Plain(ControllerStorage { iterate: shared, solver }),
@@ -172,7 +176,7 @@ impl<R: Scalar> controller::Storage<R> for DeskStorage<R> {
 #[derive(Debug)]
 struct DeskSolver<R: Scalar> {
     solver: arrays::Solver,
-    tableau: TableauStorage<Vec<Block<R>>, Vec<bool>, Vec<R>>,
+    tableau: TableauStorage<Vec<Block<R>>, Vec<u8>, Vec<R>>,
     /// Whether this tick has another matrix than the one before.
     has_begun_anew: bool,
 }

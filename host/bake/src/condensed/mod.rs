@@ -7,6 +7,7 @@
 //! ```
 
 mod arrays;
+mod balance;
 mod bound;
 mod controller;
 mod modes;

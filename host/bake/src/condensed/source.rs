@@ -116,6 +116,7 @@ fn controller<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         ends,
         limits: &format!("Limits {{ error: 0.0, share: 0.0, sweeps: {sweeps} }}"),
         has_ranges: face.has_ranges(),
+        exclusions: baked.exclusions.iter().map(|number| format!("{number:?}")).collect(),
         is_cold: baked.cold,
         storage: &storage,
         zeros: &zeros,

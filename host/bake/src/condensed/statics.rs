@@ -10,15 +10,17 @@ use signorini_contact::outputs::Measure;
 use signorini_contact::{Condensed, sides};
 
 use super::arrays::{Baked, Solver};
+use super::balance;
+use crate::room::{self, Room};
 use crate::statics::{Statics, lines, named, record, tall_record};
 use signorini_problem::scalar::Scalar;
 
 /// Items of the kernel that they may use.
 pub(super) const NAMES: &str = "\
-    contact::Condensed contact::certificate::Corner contact::certificate::Form \
+    contact::Condensed contact::balance::Balance contact::certificate::Corner contact::certificate::Form \
     contact::certificate::Vertex contact::factor::Factor contact::modes::Modal \
     contact::outputs::Measure contact::sides::Baked contact::sides::Sides \
-    contact::spans::SpanColumns contact::dense::tableau::InitialTableau";
+    contact::spans::SpanColumns kernel::flux_range::Room contact::dense::tableau::InitialTableau";
 
 /// Everything in flash; `outputs` are their names.
 pub(super) fn written<'n, R: Scalar>(
@@ -55,9 +57,15 @@ fn condensed<'n, R: Scalar>(of: &Condensed<R>, names: impl Iterator<Item = &'n s
         ("load", to.numbers("LOAD", "B by columns: what each input, the constant first, does.", of.load)),
         ("limits", to.array::<[R; 2]>("WITHIN", "Where openings are kept, scaled.", "[Scalar; 2]", of.limits)),
         ("spans", match baked.is_limited() {
-            true => format!("SpanColumns::new({})", to.numbers("SPANS", "How far it is to the other end of each flux, by columns.", &baked.spans)),
+            true => {
+                let columns = to.numbers("SPANS", "How far it is to the other end of each flux, by columns.", &baked.spans);
+                let rooms: Vec<_> = baked.rooms.iter().map(Room::view).collect();
+                let rooms = room::written(&rooms, to);
+                format!("SpanColumns::new({columns}).within({rooms})")
+            }
             false => "SpanColumns::UNLIMITED".to_owned(),
         }),
+        ("parts", balance::written(of.parts, to)),
         ("outputs", lines(of.outputs.iter().zip(names).map(|(of, name)| measure(of, name, to)))),
         ("certificate", of.certificate.as_ref().map_or("None".to_owned(), |form| certificate(form, baked, to))),
         ("has_bound", of.has_bound.to_string()),

@@ -205,7 +205,7 @@ fn outputs_in<R: Scalar>(units: Units) -> Result<Vec<f64>> {
 /// Condensed models have a unit of energy: squares may leave the range as long as the answers are within it.
 #[test]
 fn other_units_change_no_digit() -> Result<()> {
-    let powers = |u, a| Units { u: 2f64.powi(u), conductivity: 2f64.powi(a) };
+    let powers = |u, a| Units { u: 2f64.powi(u), conductivity: 2f64.powi(a), zero: 0.0 };
     let near = outputs_in::<f32>(Units::default())?;
     assert!(near[1] > 0.0 && near[2] > 0.0, "{near:?}");
     for units in [powers(0, -100), powers(0, 100), powers(-60, 0), powers(60, 40)] {
@@ -222,7 +222,7 @@ fn other_units_change_no_digit() -> Result<()> {
 fn what_is_too_far_from_1_is_not_condensed() -> Result<()> {
     let choice = |u: i32, conductivity: i32, kind| {
         let (scene, problem) = on_grid(NAMES, grid(3, Cells::Mixed))?;
-        let units = Units { u: 2f64.powi(u), conductivity: 2f64.powi(conductivity) };
+        let units = Units { u: 2f64.powi(u), conductivity: 2f64.powi(conductivity), zero: 0.0 };
         let scene = units.inverse().scene(&scene);
         let problem = Problem::new(&scene, problem.mesh)?;
         Choice::<f64>::new(&problem, Wanted { model: kind, ..Wanted::default() })

@@ -17,11 +17,11 @@ pub struct Visited {
 
 impl Visited {
     /// With these edges open, padded, and these multipliers of the factor's columns.
-    pub(super) fn new<R: PartialEq + Default>(open: &[bool], multipliers: &[R]) -> Self {
+    pub(super) fn new<R: PartialEq + Default>(open: &[u8], multipliers: &[R]) -> Self {
         let (mut blocks, mut used) = (0, 0);
         for (row, group) in open.chunks(SIDE).enumerate() {
             blocks += used;
-            if group.contains(&true) {
+            if group.contains(&1) {
                 (blocks, used) = (blocks + row + 1, used + 1);
             }
         }
@@ -38,12 +38,12 @@ mod tests {
 
     #[test]
     fn all_that_is_not_zero_counts() {
-        let all = Visited::new(&[true; 24], &[1.0, 0.0, 2.0]);
+        let all = Visited::new(&[1; 24], &[1.0, 0.0, 2.0]);
         // The whole square of blocks, and columns of 1 and 3 entries.
         assert_eq!(all, Visited { blocks: 9, entries: 4, order: 3, follows: false });
         // The first of two groups: the half of the square that it meets.
-        let mut half = [false; 16];
-        half[3] = true;
+        let mut half = [0; 16];
+        half[3] = 1;
         assert_eq!(Visited::new(&half, &[0.0]).blocks, 2);
     }
 }

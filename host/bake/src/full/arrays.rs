@@ -61,6 +61,8 @@ pub struct Baked<R: Scalar> {
     /// Where the numbers above are not in the scene's units.
     pub(super) scale: Option<Scale<R>>,
     pub(super) factored: Option<Factored<R>>,
+    /// Rows that inputs without a range have to meet.
+    pub(super) exclusions: Vec<R>,
 }
 
 /// How its ticks are solved.
@@ -211,6 +213,7 @@ impl<R: Scalar> Baked<R> {
             how,
             scale: None,
             factored: None,
+            exclusions: Vec::new(),
         }
     }
 

@@ -6,6 +6,7 @@ use super::arrays::{Baked, Scale};
 use super::controller::Controller;
 use super::factored::Factored;
 use crate::module_api::ModuleApi;
+use crate::narrow::exclusions;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Approach, Problem};
 use signorini_scene::error::{InputError, Result};
@@ -34,7 +35,8 @@ impl<R: Scalar> Baked<R> {
             true => None,
             false => Some(Scale::new(&problem.own.scene, problem.units)?),
         };
-        Ok(Self { scale, ..Self::in_its_units(problem.problem(), face)? })
+        let exclusions = exclusions(&problem.own.exclusions());
+        Ok(Self { scale, exclusions, ..Self::in_its_units(problem.problem(), face)? })
     }
 
     /// What 1 stands for in [`Controller::u`] and the other arrays of a controller.

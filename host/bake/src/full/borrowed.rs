@@ -3,7 +3,7 @@
 use signorini_bound::conforming::VertexData;
 use signorini_device::full::{Base, CurvedSum, Full, Functional, Lengths};
 use signorini_kernel::assembly::CellLoads;
-use signorini_kernel::flux_range::Spans;
+use signorini_kernel::flux_range::{Room, Spans};
 
 use super::arrays::Baked;
 use super::data::Data;
@@ -29,9 +29,10 @@ impl<R: Scalar> Baked<R> {
         let sums: Vec<_> = sums
             .map(|of| CurvedSum { edge: of.edge, parts: &of.parts, energy: &of.energy })
             .collect();
+        let rooms: Vec<_> = self.data.rooms.iter().map(|room| room.view()).collect();
         take(&Full {
             discretization: self.discretization(),
-            base: self.data.base(&sums),
+            base: self.data.base(&sums, &rooms),
             patterns: &patterns,
             oscillation: &self.data.oscillation,
             outputs: &outputs,
@@ -44,7 +45,11 @@ impl<R: Scalar> Baked<R> {
 }
 
 impl<R: Scalar> Data<R> {
-    fn base<'a>(&'a self, curved_sums: &'a [CurvedSum<'a, R, u32>]) -> Base<'a, R, u32> {
+    fn base<'a>(
+        &'a self,
+        curved_sums: &'a [CurvedSum<'a, R, u32>],
+        rooms: &'a [Room<'a, R>],
+    ) -> Base<'a, R, u32> {
         Base {
             loads: CellLoads { triangles: &self.triangles, quads: &self.quads },
             neumann: &self.neumann,
@@ -54,6 +59,7 @@ impl<R: Scalar> Data<R> {
                 true => Spans::UNLIMITED,
                 false => Spans::baked(&self.spans, self.span_excess),
             },
+            rooms,
             gap: &self.gap,
             dirichlet: &self.dirichlet,
             ends: VertexData { gap: &self.gap_ends, given: &self.dirichlet_ends },

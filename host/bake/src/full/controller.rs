@@ -22,7 +22,7 @@ type Arrays<R, const WIDTH: usize> = Storage<
     R,
     Vec<Row<R, u32, WIDTH>>,
     Vec<R>,
-    Vec<bool>,
+    Vec<u8>,
     Vec<Neumann<R, u32>>,
     Vec<Robin<R, u32>>,
     Vec<Curved<R, u32>>,
@@ -43,7 +43,7 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
         let arrays = Storage::of(
             vec![Row::EMPTY; lengths.rows],
             vec![R::ZERO; lengths.numbers.sum()],
-            vec![false; lengths.active],
+            vec![0; lengths.active],
             vec![Neumann::default(); lengths.neumann],
             vec![Robin::default(); lengths.robin],
             vec![Curved::default(); lengths.curved],
@@ -159,6 +159,10 @@ impl<R: Scalar, const WIDTH: usize> Scene for Desk<'_, R, WIDTH> {
 
     fn ranges(&self) -> &[[R; 2]] {
         &self.ranges
+    }
+
+    fn exclusions(&self) -> &[R] {
+        &self.baked.exclusions
     }
 
     fn limits(&self) -> Limits<R> {

@@ -10,9 +10,11 @@ use super::bent::{Bent, bent};
 use super::pattern::{Pattern, fluxes};
 use crate::narrow::{narrow, pairs};
 use crate::range::wider;
+use crate::room::Room;
 use signorini_certify::TermData;
-use signorini_problem::Problem;
+use signorini_certify::term::rooms_of;
 use signorini_problem::scalar::Scalar;
+use signorini_problem::{Problem, excess_within_ranges};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Field, Scene};
 
@@ -26,6 +28,7 @@ pub(super) struct Data<R> {
     pub contact_flux: Vec<R>,
     pub spans: Vec<R>,
     pub span_excess: R,
+    pub rooms: Vec<Room<R>>,
     pub gap: Vec<R>,
     pub gap_ends: Vec<[R; 2]>,
     pub dirichlet: Vec<R>,
@@ -60,7 +63,8 @@ impl<R: Scalar> Data<R> {
             robin: base.loads().robin.iter().map(robin).collect(),
             contact_flux: narrow(&base.loads().contact_flux),
             spans: narrow(&base.spans),
-            span_excess: R::narrow(base.loads().span_excess),
+            span_excess: R::narrow(span_excess(problem)),
+            rooms: rooms_of(problem, parts).iter().map(Room::new).collect(),
             gap: narrow(&base.loads().gap),
             gap_ends: pairs(&base.ends.gap),
             dirichlet: narrow(&base.loads().dirichlet),
@@ -99,7 +103,7 @@ impl<R: Scalar> Data<R> {
             }
         };
         let source = self.varies(Field::Source);
-        let flux = self.patterns.iter().any(Pattern::moves_contact_flux);
+        let flux = !self.rooms.is_empty() || self.patterns.iter().any(Pattern::moves_contact_flux);
         fit(&mut self.triangles, source, problem.mesh.triangles.len());
         fit(&mut self.quads, source, problem.mesh.quads.len());
         fit(&mut self.contact_flux, flux, problem.topology.counts.contact);
@@ -141,6 +145,13 @@ fn robin<R: Scalar>(law: &Robin<f64, u32>) -> Robin<R, u32> {
     Robin { edge: law.edge, coefficient, ambient }
 }
 
+/// The largest excess of a contact edge, see [`excess_within_ranges`]; what is infinite leaves no bound.
+fn span_excess(problem: &Problem) -> f64 {
+    let counts = problem.topology.counts;
+    let edges = (counts.free..counts.unknowns()).filter_map(|at| excess_within_ranges(problem, at));
+    edges.filter(|excess| excess.is_finite()).fold(0.0, f64::max)
+}
+
 /// The Neumann edges on which some part of the data has a flux, ascending.
 fn with_flux(parts: &[TermData]) -> Vec<u32> {
     let mut edges: Vec<u32> = parts
@@ -155,7 +166,7 @@ fn with_flux(parts: &[TermData]) -> Vec<u32> {
 /// Of each part, what f, g and q leave out and, where inputs change ψ or u_D, what rounding does to its
 /// boundary values: the kernel's own allowance knows only their sum, which may be a small difference.
 fn oscillation<R: Scalar>(problem: &Problem, parts: &[TermData], k: Stiffness<R>) -> Vec<R> {
-    let moves = |part: &TermData| part.ends.scale() > 0.0;
+    let moves = |part: &TermData| part.ends.size() > 0.0;
     let varies = parts.iter().skip(1).any(moves);
     let perturbation = |part| if varies { perturbation(problem, part, k) } else { 0.0 };
     parts.iter().map(|part| R::narrow(part.oscillation + perturbation(part))).collect()

@@ -14,13 +14,14 @@ use signorini_kernel::{Index, Tensor};
 use super::arrays::Baked;
 use super::linear::{outputs, patterns};
 use crate::module_api::ModuleApi;
+use crate::room;
 use crate::statics::{Statics, lines, record, tall_record};
 use crate::text::array;
 use signorini_problem::scalar::Scalar;
 
 /// Items of the kernel that they may use.
 pub(super) const NAMES: &str = "\
-    kernel::assembly::CellLoads contact::dense::tableau::InitialTableau \
+    kernel::assembly::CellLoads kernel::flux_range::Room contact::dense::tableau::InitialTableau \
     kernel::mesh::boundary::Neumann kernel::mesh::boundary::Robin bound::cells::Cell \
     bound::cells::Cells bound::cells::Quad bound::cells::Triangle bound::certificate::Curved \
     bound::certificate::Discretization bound::certificate::Metric bound::certificate::Stability \
@@ -161,6 +162,7 @@ fn base<R: Scalar, I: Index>(of: &Base<R, u32>, to: &mut Statics) -> String {
         ("robin", robin),
         ("contact_flux", contact_flux),
         ("spans", spans),
+        ("rooms", room::written(of.rooms, to)),
         ("gap", gap),
         ("dirichlet", dirichlet),
         ("ends", record("VertexData", [("gap", gap_ends), ("given", given)])),

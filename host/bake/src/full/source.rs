@@ -71,6 +71,7 @@ fn controller<R: Scalar>(baked: &Baked<R>) -> String {
         ends: ends(baked),
         limits: &format!("Limits {{ error: {error:?}, share: {share:?}, sweeps: {sweeps} }}"),
         has_ranges: baked.face.has_ranges(),
+        exclusions: baked.exclusions.iter().map(|number| format!("{number:?}")).collect(),
         is_cold: how.cold,
         storage: &storage,
         zeros: &zeros,

@@ -28,7 +28,6 @@ use signorini_problem::Problem;
 use signorini_problem::functional::wanted;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::scene::Scene;
-pub use why::conflict;
 use why::{coefficient, nothing_proved};
 
 use counts::largest_bound;

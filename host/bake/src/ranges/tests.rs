@@ -1,6 +1,6 @@
 //! Runs, reasons and reach on the standard scenes.
 
-use super::{conflict, constants, found, reach::Reach, runs::runs, section};
+use super::{constants, found, reach::Reach, runs::runs, section};
 use crate::choice::{Choice, Wanted};
 use crate::condensed::Controller;
 use crate::tests::standard as problem;
@@ -217,29 +217,6 @@ fn ranges_that_a_scalar_cannot_hold_or_solve_for_are_refused() {
     assert_eq!(wide, "");
     assert!(refused(1e306).1.contains("its loads are too large for f64"));
     assert_eq!(refused(1e20), (String::new(), String::new()));
-}
-
-/// u_D = 0 beside a gap of −0.1 that an input lifts by up to so much.
-#[test]
-fn a_gap_that_rises_above_a_value_beside_it_is_told() {
-    for (most, conflicts) in [(0.05, None), (0.1, None), (0.3, Some("by up to 2.0000e-1"))] {
-        let text = format!(
-            "
-mesh = \"grid\"
-material.default.conductivity = \"1\"
-boundary.dirichlet = {{ kind = \"dirichlet\", value = \"0\" }}
-boundary.contact = {{ kind = \"contact\", gap = \"-0.1\" }}
-input.lift = {{ of = \"contact\", field = \"gap\", pattern = \"1\", range = [0.0, {most}] }}
-"
-        );
-        let (_, problem) = on_grid(&text, grid(4, Cells::Triangles)).expect("a sound scene");
-        let choice = choice(&problem, false);
-        let said = conflict(choice.condensed().expect("condensed").1);
-        match conflicts {
-            None => assert_eq!(said, None, "{most}"),
-            Some(part) => assert!(said.is_some_and(|said| said.contains(part)), "{most}"),
-        }
-    }
 }
 
 /// Without a bound, too: rounding of f32 would move the solution by percents.

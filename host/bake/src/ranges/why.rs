@@ -1,13 +1,9 @@
-//! What ranges do not allow: why nothing is proved of the contact edges, and inputs for which a Dirichlet value lies
-//! below the gap beside it, where the scene has no solution.
+//! Why nothing is proved of the contact edges for the ranges of inputs.
 
 use crate::choice::Origin;
+use signorini_condense::ModalModel;
 use signorini_condense::ranges::split::Split;
-use signorini_condense::{Corner, ModalModel};
 use signorini_scene::scene::Scene;
-
-/// u_D this far below ψ, against the size of its terms, is rounding.
-const ROUNDING: f64 = 1e-9;
 
 /// A sentence that names the inputs or the reason; nothing where something is proved.
 pub(super) fn nothing_proved(scene: &Scene, origin: &Origin) -> Option<String> {
@@ -50,27 +46,4 @@ pub(super) fn coefficient<'s>(scene: &'s Scene, modes: &ModalModel) -> &'s str {
 /// Whether an entry off the diagonal pushes.
 fn has_positive_entries(matrix: &[f64], n: usize) -> bool {
     matrix.iter().enumerate().any(|(at, &entry)| at / n != at % n && entry > 0.0)
-}
-
-/// A sentence with the largest depth of a Dirichlet value below the gap beside it, for inputs within their ranges;
-/// nothing where there is none, or an input has no range.
-pub fn conflict(origin: &Origin) -> Option<String> {
-    let whole = &origin.whole;
-    let form = whole.certificate.as_ref().ok()?;
-    let below = |corner: &Corner| {
-        // With a limit the flux may be at it, and u below the gap.
-        if whole.end_columns(corner.edge)[1][0].is_finite() {
-            return None;
-        }
-        let terms = || corner.excess.iter().zip(&whole.ranges).filter(|(e, _)| **e != 0.0);
-        let least: f64 = terms().map(|(e, [lo, hi])| (e * lo).min(e * hi)).sum();
-        let size: f64 = terms().map(|(e, [lo, hi])| (e * lo).abs().max((e * hi).abs())).sum();
-        let is_below = least.is_finite() && least < -ROUNDING * size;
-        is_below.then(|| -least * whole.opening[corner.edge])
-    };
-    let deepest = form.corners.iter().filter_map(below).reduce(f64::max)?;
-    Some(format!(
-        "warning: for some inputs within their ranges a Dirichlet value lies below the gap beside it, by up to {deepest:.4e}: the \
-         scene has no solution there, and a tick no error bound. Narrow the ranges."
-    ))
 }

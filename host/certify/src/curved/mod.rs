@@ -122,8 +122,7 @@ struct Extension<'d, 's> {
     cell: Cell,
     conductivity: Conductivity<'s>,
     panels: Panels,
-    /// Corrections added to w and w′ at all points.
-    mended: [f64; 2],
+    mended: Mended,
 }
 
 impl<'d, 's> Extension<'d, 's> {
@@ -131,14 +130,15 @@ impl<'d, 's> Extension<'d, 's> {
         let (at, side) = problem.topology.first_side(deviation.edge);
         let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
         let panels = Panels::along(deviation)?;
-        let mended = mended(deviation, &panels)?;
+        let mended = Mended::new(deviation, &panels)?;
         Ok(Self { deviation, at, side, cell, conductivity, panels, mended })
     }
 
     /// w and w′ at t.
     fn sample(&self, t: f64) -> Result<[f64; 2]> {
         let [w, slope] = self.deviation.at(t)?;
-        Ok([w + self.mended[0], slope + self.mended[1]])
+        let [by, by_slope] = self.mended.change;
+        Ok([w + by, slope + by_slope])
     }
 
     /// ∇v at a point of its cell.
@@ -166,14 +166,20 @@ impl<'d, 's> Extension<'d, 's> {
         Ok(record)
     }
 
-    /// ‖A^½∇·‖ of what the panels' points leave out.
+    /// ‖A^½∇·‖ of what the panels' points leave out, and of what mending changes beyond rounding.
     fn missed(&self, problem: &Problem) -> Result<f64> {
         let energy = CellEnergy::of(problem, self.at);
         let found = energy.of_extension(self.side, &self.panels.missed(self.deviation)?);
         // Near a singular place w′ is nearly all of ∇v.
         let unit = |t| Sample { t, weight: 1.0, w: 0.0, slope: 1.0 };
         let slope = energy.of_extension(self.side, &[unit(0.0), unit(1.0)]);
-        Ok(found + slope * self.panels.beyond.sqrt())
+        let beyond = found + slope * self.panels.beyond.sqrt();
+        if !self.mended.is_counted {
+            return Ok(beyond);
+        }
+        let [w, slope] = self.mended.change;
+        let change = gauss(POINTS).into_iter().map(|[t, weight]| Sample { t, weight, w, slope });
+        Ok(beyond + energy.of_extension(self.side, &change.collect::<Vec<_>>()))
     }
 
     /// The rule in η: on triangles ∇v does not depend on it, so that with constant A one point for
@@ -213,18 +219,36 @@ impl<'d, 's> Extension<'d, 's> {
     }
 }
 
-/// Corrections that make samples of w and w′ those of one function but for rounding: ∫w′ = 0, for w is 0 at both ends, and
-/// ∫w = −∫t w′. Both are small differences of data, each rounded on its own, and their products with the fluxes of s and τ
-/// nearly cancel. Nothing where more than rounding is amiss.
-fn mended(deviation: &Deviation, panels: &Panels) -> Result<[f64; 2]> {
-    let (mut mean, mut rise, mut lever) = (0.0, 0.0, 0.0);
-    for [t, weight] in panels.rule() {
-        let [w, slope] = deviation.at(t)?;
-        mean += weight * w;
-        rise += weight * slope;
-        lever += weight * t * slope;
+/// Corrections that make samples of w and w′ those of one function: ∫w′ = 0, for w is 0 at both ends, and ∫w = −∫t w′. Both are
+/// small differences of data, each rounded on its own, and their products with the fluxes of s and τ nearly cancel.
+///
+/// The records are those of a field g in the place of ∇v, and ∫g·τ = w̄ (τ_E + κ∫f) holds for the mended one alone. That of the
+/// samples themselves would be off by a difference of large terms where a value at an end is, by 10⁻¹⁶ say, that of another
+/// branch of the data. What mending changes is added to the bound, by the triangle inequality, unless it is rounding of w;
+/// what panels may miss of a kink stays.
+struct Mended {
+    /// Corrections of w and w′ at all points.
+    change: [f64; 2],
+    is_counted: bool,
+}
+
+impl Mended {
+    fn new(deviation: &Deviation, panels: &Panels) -> Result<Self> {
+        let (mut mean, mut rise, mut lever, mut energy) = (0.0, 0.0, 0.0, 0.0);
+        for [t, weight] in panels.rule() {
+            let [w, slope] = deviation.at(t)?;
+            energy += weight * slope * slope;
+            mean += weight * w;
+            rise += weight * slope;
+            lever += weight * t * slope;
+        }
+        let change: [f64; 2] = [0.5 * rise - lever - mean, -rise];
+        let is_below = |most: f64| change.iter().all(|change| change.abs() <= most);
+        let is_rounding = is_below(deviation.rounding());
+        // Each panel may miss so much.
+        let is_resolved =
+            !is_rounding && is_below(panels::MISSING * energy.sqrt() * panels.ends.len() as f64);
+        let change = if is_resolved { [0.0; 2] } else { change };
+        Ok(Self { change, is_counted: !is_rounding && !is_resolved })
     }
-    let change = [0.5 * rise - lever - mean, -rise];
-    let most = deviation.rounding();
-    Ok(if change.iter().all(|change| change.abs() <= most) { change } else { [0.0; 2] })
 }

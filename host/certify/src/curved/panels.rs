@@ -5,7 +5,8 @@
 //!   |∫ₐᵇ w′ dt − (w(b) − w(a))| ≤ 10⁻⁹ (∫₀¹ w′² dt)^½,
 //! ```
 //! on all of it and on both of its halves: what they miss of a kink or of a layer, however thin it is, is missing
-//! in the integral. Other panels are bisected, level by level.
+//! in the integral. Other panels are bisected, level by level. Where a rise is still missing that no energy explains, w jumps, or
+//! has a kink right beside a vertex: they are bisected on, as far as coordinates tell places apart. A kink is found then.
 //!
 //! Their points miss the energy of v − ṽ all the same, ṽ made from the polynomials through those points: the rule of 8 points is
 //! exact for squares of polynomials of degree 7, so the records are those of ṽ, and
@@ -25,10 +26,12 @@ use signorini_scene::error::Result;
 pub const PANELS: u32 = 4;
 /// Most bisections of a panel: a layer of 10⁻⁶ of the edge is then a few panels wide.
 const LEVELS: u32 = 24;
+/// Most bisections where else w would jump: panels are about an ulp of the coordinates wide.
+const FINEST: u32 = 24;
 /// Most panels: data that are rough everywhere are integrated by as many, and no finer.
 const MOST: usize = 128;
 /// Largest part of a rise that may be missing.
-const MISSING: f64 = 1e-9;
+pub(super) const MISSING: f64 = 1e-9;
 
 /// A subdivision of \[0, 1\] along an edge.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,28 +65,25 @@ impl Panels {
         let mut open: Vec<[f64; 2]> =
             regular.ends.windows(2).map(|ends| [ends[0], ends[1]]).collect();
         let mut ends = regular.ends;
-        for _ in 0..LEVELS {
-            let mut coarse = Vec::new();
-            for panel in open {
-                if !rise.is_found(panel, tolerance)? {
-                    coarse.push(panel);
-                }
-            }
-            open = coarse;
-            if open.is_empty() || ends.len() + open.len() > MOST {
-                break;
-            }
-            ends.extend(open.iter().map(middle));
-            open = open.iter().flat_map(halves).collect();
-        }
+        rise.bisect(&mut ends, &mut open, |_| tolerance, LEVELS)?;
+        let found = Self::judged(&rise, ends.clone(), &open)?;
+        let Some(Rough::Jump(_)) = found.rough else { return Ok(found) };
+        let explained = |panel| tolerance.max(rise.explained(panel));
+        rise.bisect(&mut ends, &mut open, explained, FINEST)?;
+        let finer = Self::judged(&rise, ends, &open)?;
+        Ok(if finer.rough.is_none() { finer } else { found })
+    }
+
+    /// Panels with these ends, in some of which the rise of w is not found yet.
+    fn judged(rise: &Rise, mut ends: Vec<f64>, open: &[[f64; 2]]) -> Result<Self> {
         ends.sort_by(f64::total_cmp);
         let mut found = Self { ends, rough: None, beyond: 0.0 };
-        match beyond(deviation, &open)? {
+        match beyond(rise.deviation, open)? {
             Ok(energy) => found.beyond = energy,
             Err(steep) => found.rough = Some(steep),
         }
         if found.rough.is_none() {
-            found.rough = rise.jumps(&open, &found.rule())?.map(Rough::Jump);
+            found.rough = rise.jumps(open, &found.rule())?.map(Rough::Jump);
         }
         Ok(found)
     }
@@ -184,6 +184,36 @@ impl Rise<'_, '_> {
             rest -= (b - a) * weight * self.deviation.at(a + (b - a) * t)?[1];
         }
         Ok(rest.abs())
+    }
+
+    /// Bisects the `open` panels in which the rise is not found, up to so many times; their middles are new `ends`.
+    fn bisect(
+        &self,
+        ends: &mut Vec<f64>,
+        open: &mut Vec<[f64; 2]>,
+        tolerance: impl Fn([f64; 2]) -> f64,
+        levels: u32,
+    ) -> Result<()> {
+        for _ in 0..levels {
+            let mut coarse = Vec::new();
+            for &panel in open.iter() {
+                if !self.is_found(panel, tolerance(panel))? {
+                    coarse.push(panel);
+                }
+            }
+            *open = coarse;
+            if open.is_empty() || ends.len() + open.len() > MOST {
+                break;
+            }
+            ends.extend(open.iter().map(middle));
+            *open = open.iter().flat_map(halves).collect();
+        }
+        Ok(())
+    }
+
+    /// The part of the rise on a panel that rounding explains.
+    fn explained(&self, [a, b]: [f64; 2]) -> f64 {
+        self.deviation.rounding_at(a) + self.deviation.rounding_at(b)
     }
 
     fn is_found(&self, panel: [f64; 2], tolerance: f64) -> Result<bool> {

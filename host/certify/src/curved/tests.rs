@@ -464,3 +464,49 @@ fn what_the_points_miss_is_told() -> Result<()> {
     assert!(record.missed > 0.0 && record.missed < record.energy.sqrt(), "{record:?}");
     Ok(())
 }
+
+/// A kink of the gap right beside a vertex, where Gmsh has put it: its energy is that of w in closed form, however near it is.
+#[test]
+fn a_kink_right_beside_a_vertex_is_found() -> Result<()> {
+    for by in [1e-9, 1e-11, 1.256e-12, 1e-13] {
+        for at in [-by, by] {
+            let mut mesh = grid(2, Cells::Triangles);
+            mesh.vertices[2] = [at, 0.0];
+            let text = fixtures::changed(PARABOLA, &[("-x^2", "min(-x, 0)"), ("20 + 1e6*y", "1")]);
+            let (_, problem) = fixtures::on_grid(&text, mesh.clone())?;
+            assert_eq!(Data::<f64>::new(&problem)?.no_bound(), None, "{at}");
+            let records = curved(&problem, 0.0)?;
+            let crosses = |of: &&Curved| {
+                let [[a, _], [b, _]] = problem.segment(of.edge as usize);
+                a * b < 0.0
+            };
+            let record = records.iter().find(crosses).expect("the edge over x = 0");
+            let edge = record.edge as usize;
+            let ([[a, _], [b, _]], (cell, side)) =
+                (problem.segment(edge), problem.topology.first_side(edge));
+            let (kink, ends) = (a / (a - b), [a, b].map(|x| (-x).min(0.0)));
+            let sample = |[t, weight]: [f64; 2]| {
+                let x = a + t * (b - a);
+                let w = (-x).min(0.0) - (ends[0] + t * (ends[1] - ends[0]));
+                let slope = if x > 0.0 { a - b } else { 0.0 } - (ends[1] - ends[0]);
+                Sample { t, weight, w, slope }
+            };
+            let part = |[start, end]: [f64; 2]| {
+                let rule = gauss(POINTS).into_iter();
+                rule.map(move |[t, w]| [start + t * (end - start), w * (end - start)])
+            };
+            let samples: Vec<_> =
+                [[0.0, kink], [kink, 1.0]].into_iter().flat_map(part).map(sample).collect();
+            let expected = CellEnergy::of(&problem, cell).of_extension(side, &samples);
+            let (found, missed) = (record.energy.sqrt(), record.missed);
+            assert!((found - expected).abs() <= 1.01 * missed, "{at}: {found} {expected} {missed}");
+            assert!(missed < 0.5 * expected, "{at}: {missed} {expected}");
+            // A jump is one however small it is.
+            let text = text.replace("min(-x, 0)", "min(-x, 0) + 1e-9*sign(x + 0.7)");
+            let (_, problem) = fixtures::on_grid(&text, mesh)?;
+            let reason = Data::<f64>::new(&problem)?.no_bound().cloned().expect("a jump");
+            assert!(reason.to_string().contains("jumps"), "{reason}");
+        }
+    }
+    Ok(())
+}

@@ -7,13 +7,12 @@ use signorini_scene::error::Result;
 use signorini_scene::scene::Field;
 
 impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
-    /// The contact term of an edge where one of both ends, and the other with it, is moved by c to its mean:
+    /// The contact term of an edge, where τ has for its flux the mean of τ*·n = lo + θ (hi − lo) = τ·n − c:
     /// ```text
-    ///   2∫[(σ·n − lo)(S − ψ)⁺ + (hi − σ·n)(ψ − S)⁺ + (τ·n − lo − c)(u − ψ)⁺ + (hi + c − τ·n)(ψ − u)⁺ − c (S − u)]
-    ///   + 2∫ (most − (hi − lo)) (S − ψ)∓
+    ///   2∫[(σ·n − lo)(S − ψ)⁺ + (hi − σ·n)(ψ − S)⁺ + (τ*·n − lo)(u − ψ)⁺ + (hi − τ*·n)(ψ − u)⁺ − c (S − u)]
+    ///   + 2∫ (most − (hi − lo)) (θ (S − ψ)⁺ + (1 − θ)(ψ − S)⁺)
     /// ```
-    /// The last term is where hi − lo varies: on the side of the end that was not moved by c, the bound has for hi − lo the largest
-    /// value that it may have.
+    /// The last term is where hi − lo varies: the bound has for hi − lo the largest value that it may have.
     pub(super) fn two_sided(&self, edge: usize) -> Result<Weighed> {
         let ends = [Field::Flux, Field::Limit].map(|field| self.data(edge, field));
         let ([Some(least), Some(most)], Some(gap)) = (ends, self.data(edge, Field::Gap)) else {
@@ -23,14 +22,21 @@ impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
         let range = problem.loads.flux_range(edge - problem.topology.counts.free);
         let means = range.ends().map(|end| end / length);
         let tau = self.admissible.tau[edge] / length;
-        let is_least = (tau - means[0]).abs() <= (means[1] - tau).abs();
+        let theta = match (means[0].is_finite(), means[1].is_finite()) {
+            (true, true) if means[0] < means[1] => (tau - means[0]) / (means[1] - means[0]),
+            (is_finite, _) => f64::from(u8::from(!is_finite)),
+        };
         let largest = means[1] - means[0] + problem.loads.span_excess / length;
         let varies = problem.loads.span_excess > 0.0 && largest.is_finite() && means[0] < means[1];
         let term = |point: EdgePoint| {
             let [x, y] = point.x;
             let (ends, psi) = ([least.at(x, y), most.at(x, y)], gap.at(x, y));
             let EdgePoint { weight, u, s, sigma, tau, .. } = point;
-            let c = if is_least { means[0] - ends[0] } else { means[1] - ends[1] };
+            let moved = |end: usize, share: f64| match share == 0.0 {
+                true => 0.0,
+                false => share * (means[end] - ends[end]),
+            };
+            let c = moved(0, 1.0 - theta) + moved(1, theta);
             let mut sum = twice(weight, [s, u], [0.0, c]);
             for (flux, end, value) in [(sigma, ends, s), (tau, ends.map(|end| end + c), u)] {
                 if end[0].is_finite() && (value > psi || !end[1].is_finite()) {
@@ -39,8 +45,9 @@ impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
                     sum = plus(sum, twice(weight, [flux, end[1]], [value, psi]));
                 }
             }
-            if varies && (s < psi) == is_least {
-                let spans = [largest, ends[1] - ends[0]];
+            if varies {
+                let share = if s < psi { 1.0 - theta } else { theta };
+                let spans = [share * largest, share * (ends[1] - ends[0])];
                 sum = plus(sum, twice(weight, spans, [s.max(psi), s.min(psi)]));
             }
             Ok(sum)

@@ -118,6 +118,8 @@ impl Build<'_> {
                 .map_err(Clone::clone),
             energy_unit: whole.energy_unit,
             held_by_contact: Vec::new(),
+            rooms: whole.rooms.clone(),
+            balances: whole.balances.clone(),
         }
     }
 

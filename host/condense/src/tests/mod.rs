@@ -1,6 +1,7 @@
 //! Condensed models against the full solver, and what has none.
 
 mod equality;
+mod gaps;
 mod limits;
 mod limits_bound;
 mod limits_same;

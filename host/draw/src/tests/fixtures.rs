@@ -62,7 +62,7 @@ pub fn panel(n: u32, mixed: bool) -> ScenePanel {
         bound: Some(bound()),
         no_bound: None,
         error: Some(0.19),
-        energy: 2.0,
+        energy: (2.0, "‖A^½∇s‖"),
         contact: (0..2 * n).map(edge).collect(),
         boundary: vec![BoundaryEdge { ends: [at(0, 0), at(0, n)], kind: BoundaryKind::Dirichlet }],
         sentence: Some(

@@ -67,6 +67,8 @@ pub(super) fn condensed(
         certificate: Err("left out".to_owned()),
         energy_unit: 1.0,
         held_by_contact: held_by_contact(&floating, &schur),
+        rooms: Vec::new(),
+        balances: Vec::new(),
         edges,
     };
     Ok((Quadratic { matrix, ticks, answers, floating }, condensate))

@@ -10,7 +10,7 @@ use signorini_draw::{
 };
 use signorini_problem::field::CellField;
 use signorini_problem::{EdgeKind, Problem};
-use signorini_solve::Solution;
+use signorini_solve::{Solution, energy_norm};
 
 /// Points per edge at which the exact multiplier is drawn.
 const SAMPLES: usize = 9;
@@ -21,6 +21,7 @@ const FROM_FAER: &str = "largest distance of u to faer’s, over the range of u"
 pub fn panel(problem: &Problem, solution: &Solution, case: &KnownScene) -> ScenePanel {
     let cells = 0..problem.mesh.triangles.len() + problem.mesh.quads.len();
     let flux = |cell| CellField::new(problem, cell, &solution.u, &solution.flux).middle_flux();
+    let norm = energy_norm::of_solution(problem, solution).ok().flatten();
     ScenePanel {
         name: case.name.clone(),
         title: case.title.clone(),
@@ -34,7 +35,7 @@ pub fn panel(problem: &Problem, solution: &Solution, case: &KnownScene) -> Scene
         bound: solution.bound.map(terms),
         no_bound: solution.no_bound.as_ref().map(ToString::to_string),
         error: case.f64.certified.error(),
-        energy: case.energy,
+        energy: (norm.unwrap_or(f64::NAN), energy_norm::name(problem)),
         contact: walk(problem).iter().map(|place| contact_edge(problem, solution, place)).collect(),
         boundary: boundary(problem),
         sentence: case.outputs.sentence.clone(),
@@ -43,7 +44,7 @@ pub fn panel(problem: &Problem, solution: &Solution, case: &KnownScene) -> Scene
 }
 
 fn terms(bound: ErrorBound) -> BoundTerms {
-    let ErrorBound { total, of_u, duality_gap: gap, algebraic, oscillation, rounding } = bound;
+    let ErrorBound { total, of_u, duality_gap: gap, algebraic, oscillation, rounding, .. } = bound;
     BoundTerms { total, of_u, gap, algebraic, oscillation, rounding }
 }
 

@@ -101,7 +101,13 @@ class Controller:
         """Model, solver and scalar."""
 
     def __call__(self, **inputs: float) -> ControllerAnswer:
-        """One tick."""
+        """One tick.
+
+        Raises
+        ------
+        SceneError : inputs without an answer; its `refusal` says why (no-solution, not-unique, excluded, empty-range or not-finite).
+            The next call goes on from the last answer.
+        """
         unknown = set(inputs) - set(self.defaults)
         if unknown:
             names = ", ".join(self.defaults) or "none"

@@ -47,7 +47,7 @@ class Result:
     bound: Optional[float]
     """The error in the energy norm is at most this; None where there is no bound, and `summary["error_bound_reason"]` says why."""
     relative_bound: Optional[float]
-    """The same over the energy norm of the solution."""
+    """The same over `summary["energy_norm"]`; None where there is no bound, or where the solution is constant up to rounding."""
     indicators: np.ndarray
     """The share of each cell in the bound."""
     summary: Dict[str, Any]

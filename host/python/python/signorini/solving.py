@@ -46,7 +46,7 @@ def solve(
     mesh : instead of the scene's own: a Gmsh file, a `meshio.Mesh`, or arrays
         ``(points, {"triangle": …, "quad": …}, {"boundary": edges})``.
     inputs : values of the scene's inputs.
-    max_error : refine the mesh where the bound says until it is below this: "5%" of the energy norm, or an energy.
+    max_error : refine the mesh where the bound says until it is below this: "5%" of `energy_norm`, or an energy.
     max_unknowns : the largest mesh that may be tried for it.
     scalar, solver, tolerance, max_sweeps : as for `signorini solve`; the scene's own setting where left out.
     out : a folder for the files of `signorini solve`.

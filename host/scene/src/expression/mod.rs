@@ -17,10 +17,12 @@
 
 mod arithmetic;
 mod elementary;
+pub mod enclosure;
 mod lexer;
 mod operation;
 mod parser;
 mod program;
+mod rounded;
 #[cfg(test)]
 mod tests;
 
@@ -28,6 +30,7 @@ use std::fmt;
 use std::ops::Range;
 
 use program::{Numbers, Program};
+use rounded::{Rounded, Roundings};
 use thiserror::Error;
 
 pub use arithmetic::Arithmetic;
@@ -130,6 +133,14 @@ impl Expression {
         self.dual([x, y, t], [[dx, 0.0], [dy, 0.0]]).gradient[0]
     }
 
+    /// How far the value at a point and t may be off where its coordinates are by `off`, through that and the rounding of constants
+    /// and operations; what jumps there is none of it.
+    pub fn rounding(&self, point: [f64; 2], off: f64, t: f64) -> f64 {
+        let [x, y] = point.map(|value| Rounded { value: value + 0.0, off });
+        let t = Rounded { value: t, off: f64::EPSILON * t.abs() };
+        self.program.run(&Roundings(self.program.folded()), [x, y, t]).off
+    }
+
     /// The value and its derivatives along two ways, on which x and y change so fast.
     fn dual(&self, [x, y, t]: [f64; 3], [dx, dy]: [[f64; 2]; 2]) -> Dual {
         let at = [(x + 0.0, dx), (y + 0.0, dy), (t, [0.0, 0.0])];
@@ -156,6 +167,12 @@ impl Expression {
     #[must_use]
     pub fn times(&self, factor: f64) -> Self {
         Self { program: self.program.times(factor), ..self.clone() }
+    }
+
+    /// This less `subtracted`.
+    #[must_use]
+    pub fn minus(&self, subtracted: f64) -> Self {
+        Self { program: self.program.minus(subtracted), ..self.clone() }
     }
 
     /// Whether no operation of it has a kink, a jump or a pole anywhere: a polynomial, sines, exponentials.

@@ -34,6 +34,14 @@ pub(super) enum Binary {
     Max,
 }
 
+/// Values that the machine computes with, such as numbers, or numbers with their gradient.
+pub(super) trait Numbers {
+    type Number: Copy;
+    fn constant(&self, value: f64) -> Self::Number;
+    fn unary(&self, operation: Unary, a: Self::Number) -> Self::Number;
+    fn binary(&self, operation: Binary, a: Self::Number, b: Self::Number) -> Self::Number;
+}
+
 /// The operation behind a function name; `Fold` joins two or more arguments pairwise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Function {

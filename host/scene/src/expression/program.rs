@@ -6,7 +6,9 @@
 use std::array::from_fn;
 
 use super::elementary::Elementary;
+pub(super) use super::operation::Numbers;
 use super::operation::{Binary, Unary};
+use super::rounded::{Rounded, Roundings};
 
 /// The most operands that may wait on the stack.
 pub(super) const STACK: usize = 64;
@@ -28,14 +30,6 @@ pub(super) enum Variable {
     T = 2,
 }
 
-/// Values that the machine computes with, such as numbers, or numbers with their gradient.
-pub(super) trait Numbers {
-    type Number: Copy;
-    fn constant(&self, value: f64) -> Self::Number;
-    fn unary(&self, operation: Unary, a: Self::Number) -> Self::Number;
-    fn binary(&self, operation: Binary, a: Self::Number, b: Self::Number) -> Self::Number;
-}
-
 /// Steps that leave one value.
 ///
 /// Invariant: run from the first step, the stack never holds more than [`STACK`] values, each
@@ -43,11 +37,18 @@ pub(super) trait Numbers {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Program {
     steps: Vec<Step>,
+    /// How far a constant may be off that was computed from others, at most.
+    folded: f64,
 }
 
 impl Program {
     pub fn constant(value: f64) -> Self {
-        Self { steps: vec![Step::Constant(value)] }
+        Self { steps: vec![Step::Constant(value)], folded: 0.0 }
+    }
+
+    /// How far a constant may be off that was computed from others, at most.
+    pub fn folded(&self) -> f64 {
+        self.folded
     }
 
     /// The value, if the program is a constant.
@@ -79,7 +80,7 @@ impl Program {
 
     /// This program with t replaced by a number.
     pub fn at_time(&self, t: f64) -> Self {
-        let mut builder = Builder::default();
+        let mut builder = Builder { folded: self.folded, ..Builder::default() };
         for &step in &self.steps {
             let is_time = step == Step::Variable(Variable::T);
             builder.push(if is_time { Step::Constant(t) } else { step });
@@ -90,11 +91,29 @@ impl Program {
     /// This program times a number: the stack has room, since one value is all that is left on it.
     pub fn times(&self, factor: f64) -> Self {
         match self.value() {
-            Some(value) => Self::constant(value * factor),
+            Some(value) => {
+                let folded = self.folded * factor.abs();
+                Self { folded, ..Self::constant(value * factor) }
+            }
             None => {
                 let mut steps = self.steps.clone();
                 steps.extend([Step::Constant(factor), Step::Binary(Binary::Multiply)]);
-                Self { steps }
+                Self { steps, ..*self }
+            }
+        }
+    }
+
+    /// This program less a number, as [`Program::times`] has room for it.
+    pub fn minus(&self, subtracted: f64) -> Self {
+        match self.value() {
+            Some(value) => {
+                let folded = self.folded + f64::EPSILON * value.abs();
+                Self { folded, ..Self::constant(value - subtracted) }
+            }
+            None => {
+                let mut steps = self.steps.clone();
+                steps.extend([Step::Constant(subtracted), Step::Binary(Binary::Subtract)]);
+                Self { steps, ..*self }
             }
         }
     }
@@ -185,6 +204,7 @@ impl<N: Numbers> Numbers for Several<'_, N> {
 pub(super) struct Builder {
     steps: Vec<Step>,
     height: usize,
+    folded: f64,
 }
 
 impl Builder {
@@ -195,10 +215,16 @@ impl Builder {
             Step::Unary(_) => {}
             Step::Binary(_) => self.height -= 1,
         }
+        let rounded = Roundings(self.folded);
+        let number = |constant: f64| rounded.constant(constant);
         match (step, &mut self.steps[..]) {
-            (Step::Unary(operation), [.., Step::Constant(a)]) => *a = operation.apply(*a),
+            (Step::Unary(operation), [.., Step::Constant(a)]) => {
+                let Rounded { value, off } = rounded.unary(operation, number(*a));
+                (*a, self.folded) = (value, self.folded.max(off));
+            }
             (Step::Binary(operation), [.., Step::Constant(a), Step::Constant(b)]) => {
-                *a = operation.apply(*a, *b);
+                let Rounded { value, off } = rounded.binary(operation, number(*a), number(*b));
+                (*a, self.folded) = (value, self.folded.max(off));
                 self.steps.pop();
             }
             _ => self.steps.push(step),
@@ -207,6 +233,6 @@ impl Builder {
     }
 
     pub fn finish(self) -> Program {
-        Program { steps: self.steps }
+        Program { steps: self.steps, folded: self.folded }
     }
 }

@@ -1,11 +1,12 @@
-//! A scene in other units of u and A: powers of two, which change no digit.
+//! A scene in other units of u and A: powers of two, which change no digit; and with another zero of u.
 //!
-//! With u = U û and A = α Â the same problem reads
+//! With u = c + U û and A = α Â the same problem reads
 //! ```text
-//!   f̂ = f / (α U),  ĝ = g / (α U),  q̂ = q / (α U),  ĥ = h / α,  û_D = u_D / U,  ψ̂ = ψ / U,
+//!   f̂ = f / (α U),  ĝ = g / (α U),  q̂ = q / (α U),  ĥ = h / α,  û_D = (u_D − c) / U,  ψ̂ and û_ext likewise,
 //! ```
-//! and every number of its solution is that of the first one to the last bit, as long as none was
-//! too large or too small for the scalar: then only the second one can be computed.
+//! and for c = 0 every number of its solution is that of the first one to the last bit, as long as none was
+//! too large or too small for the scalar: then only the second one can be computed. c is taken from data that are
+//! large against their differences, which loses no digit of them.
 
 use super::{Datum, Field, Material, Quantity, Scene};
 
@@ -31,18 +32,20 @@ impl Field {
     }
 }
 
-/// The values that 1 stands for, each a power of two.
+/// The values that 1 stands for, each a power of two, and the u that 0 stands for.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Units {
     /// U
     pub u: f64,
     /// α
     pub conductivity: f64,
+    /// c
+    pub zero: f64,
 }
 
 impl Default for Units {
     fn default() -> Self {
-        Self { u: 1.0, conductivity: 1.0 }
+        Self { u: 1.0, conductivity: 1.0, zero: 0.0 }
     }
 }
 
@@ -59,7 +62,28 @@ impl Units {
 
     /// The other way round.
     pub fn inverse(&self) -> Self {
-        Self { u: 1.0 / self.u, conductivity: 1.0 / self.conductivity }
+        let Self { u, conductivity, zero } = self;
+        Self { u: 1.0 / u, conductivity: 1.0 / conductivity, zero: 0.0 - zero / u }
+    }
+
+    /// These units, stated in `others`, in those that `others` are stated in.
+    #[must_use]
+    pub fn within(&self, others: &Self) -> Self {
+        Self {
+            u: self.u * others.u,
+            conductivity: self.conductivity * others.conductivity,
+            zero: others.value(self.zero),
+        }
+    }
+
+    /// The value of u that `u` stands for in these units.
+    pub fn value(&self, u: f64) -> f64 {
+        u * self.u + self.zero
+    }
+
+    /// Size of c in these units: values of u are rounded like numbers so large.
+    pub fn level(&self) -> f64 {
+        (self.zero / self.u).abs()
     }
 
     /// `scene` with its data, and its exact solution if it has one, in these units.
@@ -68,23 +92,38 @@ impl Units {
         let times = |data: &mut Datum, unit: Unit| {
             data.value = data.value.times(1.0 / self.of(unit));
         };
+        // Inputs are added to these.
+        let moved = |data: &mut Datum, unit: Unit| {
+            if unit == Unit::U && self.zero != 0.0 {
+                data.value = data.value.minus(self.zero);
+            }
+            times(data, unit);
+        };
         for (unit, data) in scene.materials.iter_mut().flat_map(Material::data_mut) {
             times(data, unit);
         }
         times(&mut scene.source, Unit::Flux);
         for boundary in &mut scene.boundaries {
             for (role, data) in boundary.condition.data_mut() {
-                times(data, role.unit());
+                moved(data, role.unit());
             }
         }
         if let Some(exact) = &mut scene.exact {
-            times(&mut exact.u, Unit::U);
+            moved(&mut exact.u, Unit::U);
             exact.gradient.iter_mut().for_each(|entry| times(entry, Unit::U));
         }
         for input in &mut scene.inputs {
             times(&mut input.pattern, input.field.value.unit());
         }
         scene
+    }
+
+    /// The value of an output that is `value` in these units.
+    pub fn output(&self, quantity: Quantity, value: f64) -> f64 {
+        match quantity {
+            Quantity::Probe { .. } | Quantity::Mean => self.value(value),
+            _ => value * self.of_output(quantity),
+        }
     }
 
     /// The unit of an output.

@@ -6,7 +6,7 @@
 //! Mesh, numbering and A are set up once; between ticks only loads, gaps, boundary values and transfer coefficients change,
 //! which is what happens on a device. The session of [`play`] is the kernel's own tick wherever D or R holds every part, and
 //! otherwise a warm solve; where the numbers of the first moment are far from 1 it plays in other units, and all answers are
-//! in the scene's. That of [`replay`] is the controller that `bake` writes, with the bits that firmware gets: model,
+//! in the scene's. A moment whose loads contact cannot hold has a row without an answer, and the next goes on from the last one. That of [`replay`] is the controller that `bake` writes, with the bits that firmware gets: model,
 //! solver, scalar, setting, first state and what stays from tick to tick are the module's, and a tick that it refuses leaves
 //! its state and the answer before, as on a device.
 
@@ -20,16 +20,20 @@ mod tests;
 
 pub use record::{TickInterval, TickRecord};
 
+use std::sync::Arc;
+
 use signorini_device::tick::Limits;
 use signorini_intervals::Lasting;
+use signorini_kernel::Error as KernelError;
+use signorini_kernel::mesh::components::PartCounts;
 use signorini_kernel::solver::Settings;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Approach, Parts, Problem};
-use signorini_scene::error::Result;
+use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_scene::setting::Precision;
-use signorini_solve::{Options, ScalarKind, Solution, choose_units, times};
+use signorini_solve::{Options, ScalarKind, Solution, choose_units, in_scene};
 
 use crate::{Session, coarse, kernel_tick, solves, with_module};
 use intervals::Intervals;
@@ -118,10 +122,11 @@ fn play_in<R: Scalar>(
     budget: &Budget,
     done: impl FnMut(&TickRecord, Option<&Solution>) -> Result<()>,
 ) -> Result<Vec<TickRecord>> {
+    let given = problem;
     let mut problem = problem.clone();
-    if let Some(first) = moments.first() {
-        first.set(&mut problem)?;
-    }
+    let Some(parts) = begun(&mut problem, moments)? else {
+        return unsolvable(given, moments, done);
+    };
     let mut coarse = coarse.cloned();
     if let Some(coarse) = &mut coarse {
         coarse.scene = problem.scene.clone();
@@ -134,7 +139,6 @@ fn play_in<R: Scalar>(
     }
     let (problem, coarse) = (&problem, coarse.as_ref());
     let budget = Budget { error: budget.error / units.energy(), ..*budget };
-    let parts = Parts::whatever_inputs(problem)?.counts;
     let least;
     let mut session = match Approach::Tick.lack_with(problem, parts) {
         Some(_) => solves::warm::<R>(problem, budget.settings())?,
@@ -169,6 +173,48 @@ pub fn replay(
     })
 }
 
+/// Brings `problem` to the first moment at which it has a solution, where its session begins; the kinds of its parts. `None` where
+/// there is no such moment.
+fn begun(problem: &mut Problem, moments: &[ScheduledTick]) -> Result<Option<PartCounts>> {
+    if moments.is_empty() {
+        return Ok(Some(Parts::whatever_inputs(problem)?.counts));
+    }
+    for moment in moments {
+        match moment.set(problem).and_then(|()| Parts::whatever_inputs(problem)) {
+            Err(error) if is_unsolvable(&error) => {}
+            examined => {
+                return Ok(Some(examined.map_err(|error| error.at_time(moment.time))?.counts));
+            }
+        }
+    }
+    Ok(None)
+}
+
+/// Moments none of which has a solution.
+fn unsolvable(
+    problem: &Problem,
+    moments: &[ScheduledTick],
+    mut done: impl FnMut(&TickRecord, Option<&Solution>) -> Result<()>,
+) -> Result<Vec<TickRecord>> {
+    let mut problem = problem.clone();
+    let ticks = moments.iter().map(|moment| {
+        let posed = moment.set(&mut problem);
+        let tick = match posed.and_then(|()| Parts::whatever_inputs(&problem)) {
+            Err(error) => TickRecord::refused(&problem, &error),
+            Ok(_) => return Err(Error::Check("a moment without a solution has one".to_owned())),
+        };
+        done(&tick, None)?;
+        Ok(tick)
+    });
+    ticks.collect()
+}
+
+/// Whether contact cannot hold the loads, or holds them at no one place, or data exclude each other where boundaries meet.
+fn is_unsolvable(error: &Error) -> bool {
+    use KernelError::{Excluded, NoSolution, NotUnique};
+    matches!(error.cause(), Some(NoSolution { .. } | NotUnique { .. } | Excluded { .. }))
+}
+
 /// A session and what reads it.
 struct Play<'s> {
     session: &'s mut dyn Session,
@@ -187,8 +233,14 @@ impl Play<'_> {
     ) -> Result<Vec<TickRecord>> {
         let mut problem = problem.clone();
         let ticks = moments.iter().map(|moment| {
-            moment.set(&mut problem)?;
-            let (tick, solution) = self.tick(&problem)?;
+            let (tick, solution) = match moment.set(&mut problem) {
+                // A controller has its own scalar and looks itself.
+                Err(error) if !is_unsolvable(&error) => return Err(error),
+                Err(error) if !matches!(self.intervals, Intervals::Weighed(_)) => {
+                    (TickRecord::refused(&problem, &error), None)
+                }
+                _ => self.tick(&problem)?,
+            };
             done(&tick, solution.as_ref())?;
             Ok(tick)
         });
@@ -198,8 +250,10 @@ impl Play<'_> {
     fn tick(&mut self, problem: &Problem) -> Result<(TickRecord, Option<Solution>)> {
         match self.session.play(problem) {
             Ok(_) => {}
-            Err(_) if matches!(self.intervals, Intervals::Weighed(_)) => {
-                return Ok((TickRecord::refused(problem), None));
+            Err(error)
+                if is_unsolvable(&error) || matches!(self.intervals, Intervals::Weighed(_)) =>
+            {
+                return Ok((TickRecord::refused(problem, &error), None));
             }
             Err(error) => return Err(error.at_time(problem.time)),
         }
@@ -207,7 +261,10 @@ impl Play<'_> {
         let solution = answer.map_err(|error| error.at_time(problem.time))?;
         let mut tick = TickRecord::of(problem, &solution)?;
         tick.intervals = self.intervals.of(problem, &solution)?;
+        if self.units == Units::default() {
+            return Ok((tick, Some(solution)));
+        }
         tick.rescale(&problem.scene, &self.units);
-        Ok((tick, Some(times(&self.units, solution))))
+        Ok((tick, Some(in_scene(&Arc::new(problem.clone()), &self.units, solution))))
     }
 }

@@ -3,12 +3,13 @@
 use signorini_certify::ErrorBound;
 use signorini_certify::exact::distance;
 use signorini_problem::Problem;
-use signorini_scene::error::Result;
+use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_solve::outputs::{Reading, declared};
 use signorini_solve::{Ending, Solution};
 
+use signorini_device::codes::Refusal;
 use signorini_kernel::report::Ended;
 
 /// Numbers of a tick; those that do not exist or are not finite are `None`.
@@ -66,12 +67,12 @@ impl TickRecord {
         })
     }
 
-    /// A tick whose inputs or answer the controller's scalar cannot hold.
-    pub(super) fn refused(problem: &Problem) -> Self {
+    /// A tick that was refused with this error.
+    pub(super) fn refused(problem: &Problem, error: &Error) -> Self {
         let outputs = problem.scene.outputs.len();
         Self {
             time: problem.time,
-            status: Ending::Tick(Ended::NotFinite),
+            status: Ending::refused(error).unwrap_or(Ending::Tick(Ended::NotFinite)),
             sweeps: 0,
             contact_force: None,
             contact_length: None,
@@ -87,6 +88,16 @@ impl TickRecord {
         self.status.is_breakdown()
     }
 
+    /// Whether its loads were such that contact cannot hold the domain, or at no one place.
+    pub fn is_unsolvable(&self) -> bool {
+        matches!(self.status, Ending::Refused(Refusal::NoSolution | Refusal::NotUnique))
+    }
+
+    /// Whether its data excluded each other where boundaries meet.
+    pub fn is_excluded(&self) -> bool {
+        self.status == Ending::Refused(Refusal::Excluded)
+    }
+
     /// From `units` to those that the scene had before.
     pub(super) fn rescale(&mut self, scene: &Scene, units: &Units) {
         let times = |number: &mut Option<f64>, unit: f64| {
@@ -96,12 +107,14 @@ impl TickRecord {
         times(&mut self.combined, units.energy());
         self.bound = self.bound.map(|bound| bound.times(units.energy()));
         for (output, of) in self.outputs.iter_mut().zip(&scene.outputs) {
-            times(output, units.of_output(of.quantity));
+            *output = output.map(|x| units.output(of.quantity, x)).filter(|x| x.is_finite());
         }
+        // Another zero of u rounds the ends.
+        let rounding = if units.zero == 0.0 { 0.0 } else { f64::EPSILON };
         for (interval, of) in self.intervals.iter_mut().zip(&scene.outputs) {
-            let unit = units.of_output(of.quantity);
             if let Ok(ends) = interval {
-                *ends = ends.map(|end| end * unit);
+                let [least, most] = ends.map(|end| units.output(of.quantity, end));
+                *ends = [least - rounding * least.abs(), most + rounding * most.abs()];
             }
         }
     }
@@ -124,7 +137,7 @@ fn outputs(
     let Solution { scalar, u, flux, outputs, .. } = solution;
     if outputs.is_empty() {
         let (scalar, bound) = (*scalar, bound.map(|bound| bound.total));
-        return declared(problem, Reading { scalar, u, flux, units: Units::default(), bound });
+        return declared(problem, Reading { scalar, u, flux, bound });
     }
     let own = outputs.iter().take(problem.scene.outputs.len());
     Ok(own.map(|&value| finite(value)).collect())

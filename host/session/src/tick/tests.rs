@@ -2,16 +2,21 @@
 
 use std::path::Path;
 
-use super::{ScheduledTick, replay};
+use super::{Budget, ScheduledTick, TickRecord, play, replay};
 use signorini_bake::choice::{Choice, Model, Wanted};
 use signorini_bake::compiled::printed;
 use signorini_bake::module_api::ModuleApi;
 use signorini_bake::{condensed, full};
 use signorini_problem::Problem;
+use signorini_problem::fixtures::on_grid;
 use signorini_scene::error::Result;
 use signorini_scene::mesh;
+use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::{Method, ModelKind, Setting, Start};
+use signorini_solve::ScalarKind;
+use signorini_tolerances::Tolerance;
+use signorini_tolerances::solve::{ZERO, ZERO_NARROW, ZERO_SWEPT};
 
 /// A program whose module prints, for a log, the bits of the outputs, the sweeps and the end of each tick.
 fn main(ticks: &[Vec<f32>]) -> String {
@@ -92,4 +97,78 @@ fn full_models_are_replayed_swept_and_by_a_factor() -> Result<()> {
     let cut_off = Setting { sweeps: Some(9), start: Start::Cold, certificate: false, ..swept };
     assert_eq!(same_bits("strip.toml", Some(cut_off))?, "full, no error bound, f32");
     Ok(())
+}
+
+/// A cold spot above a heater; `c` is in every datum of u.
+fn slab(c: f64) -> Result<Problem> {
+    let text = format!(
+        r#"
+mesh = "grid"
+material.default.conductivity = "1"
+boundary.dirichlet = {{ kind = "robin", coefficient = "20", ambient = "{c:?} - 10*exp(-((x-0.5)/0.4)^2)" }}
+boundary.left = {{ kind = "dirichlet", value = "{c:?} + 2" }}
+boundary.right = {{ kind = "dirichlet", value = "{c:?} + 2" }}
+boundary.contact = {{ kind = "contact", gap = "{c:?}", flux = "0", limit = "9" }}
+input.air = {{ of = "dirichlet", field = "ambient", pattern = "1", default = -1.0, range = [-3.0, 1.0] }}
+output.force = {{ kind = "force" }}
+output.skin = {{ kind = "mean", of = "contact" }}
+output.inside = {{ kind = "probe", at = [0.21, 0.37] }}
+output.bound = {{ kind = "bound" }}
+"#
+    );
+    Ok(on_grid(&text, grid(6, Cells::Triangles))?.1)
+}
+
+/// Outputs of a tick, u without `c` and the bound without rounding; then the ends of the intervals, likewise.
+fn heights(tick: &TickRecord, c: f64) -> Vec<f64> {
+    let rounding = tick.bound.map_or(0.0, |bound| bound.rounding);
+    let zeros = [0.0, c, c, rounding];
+    let outputs = tick.outputs.iter().zip(zeros).map(|(x, zero)| x.expect("a number") - zero);
+    let intervals = tick.intervals.iter().zip(zeros);
+    let ends = intervals.filter_map(|(ends, zero)| Some(ends.as_ref().ok()?.map(|end| end - zero)));
+    outputs.chain(ends.flatten()).collect()
+}
+
+#[test]
+fn a_constant_in_all_data_of_u_is_added_to_u_alone() -> Result<()> {
+    for (scalar, c, allowed, swept) in [
+        (ScalarKind::F64, 273.15, ZERO, ZERO_SWEPT),
+        (ScalarKind::F64, 1.3e4, ZERO, ZERO_SWEPT),
+        (ScalarKind::F32, 273.15, ZERO_NARROW, ZERO_NARROW),
+    ] {
+        let exactly = Setting { solver: Some(Method::Factor), ..Setting::default() };
+        let full = Setting { model: Some(ModelKind::Full), ..exactly };
+        // A module keeps its zero of u: a thousand ranges take some digits of it.
+        let settings = if c < 1e3 { &[None, Some(full)][..] } else { &[] };
+        for &setting in settings {
+            let replayed = |c: f64| -> Result<Vec<Vec<f64>>> {
+                let problem = slab(c)?.with_setting(setting);
+                let (_, ticks) = replay(&problem, &log(1), Some(scalar), |_, _| Ok(()))?;
+                Ok(ticks.iter().map(|tick| heights(tick, c)).collect())
+            };
+            same(&format!("{scalar:?}, {c}, {setting:?}"), &replayed(0.0)?, &replayed(c)?, allowed);
+        }
+        let played = |c: f64| -> Result<Vec<Vec<f64>>> {
+            let problem = slab(c)?;
+            let budget = Budget { scalar, ..Budget::of(&problem.scene) };
+            let ticks = play(&problem, None, &log(1), &budget, |_, _| Ok(()))?;
+            Ok(ticks.iter().map(|tick| heights(tick, c)).collect())
+        };
+        same(&format!("{scalar:?}, {c}, played"), &played(0.0)?, &played(c)?, swept);
+    }
+    Ok(())
+}
+
+fn same(what: &str, near: &[Vec<f64>], far: &[Vec<f64>], allowed: Tolerance) {
+    assert_eq!(near.len(), far.len());
+    for (tick, (near, far)) in near.iter().zip(far).enumerate() {
+        assert_eq!(near.len(), far.len(), "{near:?} {far:?}");
+        for (near, far) in near.iter().zip(far) {
+            allowed.check_over(
+                format_args!("{what}, tick {tick}: {far} and {near}"),
+                far - near,
+                near.abs().max(1.0),
+            );
+        }
+    }
 }

@@ -121,7 +121,8 @@ impl<'a> Trial<'a> {
         let drawn = drawn(&spaces, if spaces.is_empty() { 0 } else { DRAWN_IN_ALL });
         let inputs = drawn.filter(|values| !first.contains(values)).take(DRAWN).collect();
         let followed = first.into_iter().map(|values| Followed { values, level: None }).collect();
-        let options = Options { solver: SolverKind::Factor, ..Options::default() };
+        // A controller has the average.
+        let options = Options { solver: SolverKind::Factor, averages: true, ..Options::default() };
         Self { scene, promised, options, inputs, followed, allowed: Vec::new() }
     }
 
@@ -170,7 +171,9 @@ impl<'a> Trial<'a> {
     }
 
     fn allowed_for(&self, of: &Followed) -> Option<Allowed> {
-        let bound = self.promised.goal.most(of.level.as_ref()?.energy_norm);
+        // Of nothing but rounding no part is promised.
+        let level = of.level.as_ref().filter(|level| !level.is_constant(self.promised.goal))?;
+        let bound = self.promised.goal.most(level.energy_norm);
         Some(Allowed { inputs: of.values.clone(), bound })
     }
 

@@ -32,5 +32,5 @@ pub fn squares(problem: &Problem, solution: &Solution) -> Result<Vec<f64>> {
 
 /// osc_T of every cell.
 pub(super) fn oscillations(problem: &Problem) -> Result<Vec<f64>> {
-    oscillation(problem, problem.time)
+    Ok(oscillation(problem)?.of_cells)
 }

@@ -7,6 +7,7 @@
 //! [`Stop::Stalled`] says which of its terms does, and where.
 
 mod carry;
+mod dominant;
 mod for_inputs;
 pub mod indicators;
 mod marking;
@@ -14,6 +15,7 @@ mod stop;
 #[cfg(test)]
 mod tests;
 
+pub use dominant::{Dominant, Term};
 pub use for_inputs::{mesh_for_scene, mesh_of_scene, promised_mesh};
 pub use stop::{Allowed, MeshOfScene, Promise, Promised, Refining, Stop};
 
@@ -61,7 +63,7 @@ pub struct Level {
     pub problem: Problem,
     /// With its bound.
     pub solution: Solution,
-    /// ‖A^½∇s‖ with the part of transfer laws; none where there is no bound.
+    /// (‖A^½∇s‖² + ∫_R h (s − u_ext)²)^½; none where there is no bound.
     pub energy_norm: Option<f64>,
     /// From the mesh to the bound and this norm.
     pub seconds: f64,
@@ -133,9 +135,15 @@ impl Level {
         Ok(Self { number, problem, solution, energy_norm, seconds })
     }
 
-    /// The bound over what it is to be at most; none where there is no bound.
+    /// The bound over what it is to be at most, 0 where that is a part of nothing but rounding; none where there is no bound.
     fn ratio(&self, goal: Goal) -> Option<f64> {
-        self.solution.bound.map(|bound| goal.ratio(bound.total, self.energy_norm))
+        let bound = self.solution.bound?;
+        Some(if self.is_constant(goal) { 0.0 } else { goal.ratio(bound.total, self.energy_norm) })
+    }
+
+    /// Whether the goal is a part of an energy norm that is rounding.
+    fn is_constant(&self, goal: Goal) -> bool {
+        matches!(goal, Goal::Part(_)) && self.solution.is_constant(self.energy_norm)
     }
 
     /// Unknown edges of its mesh.
@@ -148,6 +156,7 @@ impl Level {
         Ok(match self.ratio(goal) {
             _ if !self.solution.converged() => Some(Stop::Unsolved),
             None => Some(Stop::NoBound),
+            Some(_) if self.is_constant(goal) => Some(Stop::Constant),
             Some(..=1.0) => Some(Stop::Reached),
             Some(_) if !goes_on => Some(Stop::Interrupted),
             Some(_) if history.is_stalled() => Some(Stop::stalled(self)?),

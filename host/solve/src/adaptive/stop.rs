@@ -3,21 +3,19 @@
 use std::fmt;
 
 use super::Level;
-use super::indicators::{oscillations, squares};
+use super::dominant::{Dominant, Term};
 use crate::Solution;
-use signorini_certify::cell::Cell;
 use signorini_scene::error::Result;
 use signorini_scene::goal::Goal;
 use signorini_scene::mesh::Mesh;
-
-/// Words for the part of f, g and q that their means leave out.
-const OSCILLATION: &str = "the oscillation of data that the mesh does not resolve";
 
 /// Why the last level is the last.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Stop {
     /// The bound is below the goal.
     Reached,
+    /// A part of the energy norm was asked for, which is rounding.
+    Constant,
     /// The next mesh has more unknowns than are allowed.
     TooLarge {
         /// So many.
@@ -29,8 +27,8 @@ pub enum Stop {
     Finest(String),
     /// The bound no longer falls.
     Stalled {
-        /// Words for its largest term.
-        term: &'static str,
+        /// Its largest term.
+        term: Term,
         /// The middle of the cell in which that is largest.
         at: [f64; 2],
     },
@@ -45,23 +43,13 @@ pub enum Stop {
 impl Stop {
     /// That the bound of a level no longer falls, for most of it is its largest term, in the cell that has most of that.
     pub(super) fn stalled(level: &Level) -> Result<Self> {
-        let Level { problem, solution, .. } = level;
-        let bound = solution.bound.unwrap_or_default();
-        let gap = (bound.duality_gap.powi(2) - bound.algebraic.powi(2)).max(0.0).sqrt();
-        let terms = [
-            ("the gap between s and τ, as where data jump inside cells", gap),
-            (OSCILLATION, 2.0 * bound.oscillation),
-            ("rounding", bound.rounding),
-            ("what the solver left unfinished", bound.algebraic),
-        ];
-        let (term, _) = terms.into_iter().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or(terms[0]);
-        let of_cells = match term == OSCILLATION {
-            true => oscillations(problem)?,
-            false => squares(problem, solution)?,
-        };
-        let largest = (0..of_cells.len()).max_by(|&a, &b| of_cells[a].total_cmp(&of_cells[b]));
-        let at = Cell::of(problem, largest.unwrap_or(0)).middle();
+        let Dominant { term, at, .. } = Dominant::of(&level.problem, &level.solution)?;
         Ok(Self::Stalled { term, at })
+    }
+
+    /// Whether no finer mesh is needed.
+    pub fn is_success(&self) -> bool {
+        matches!(self, Self::Reached | Self::Constant)
     }
 
     /// Reason in words why the levels ended with this solution; `None` where that is the goal.
@@ -69,6 +57,7 @@ impl Stop {
         const ABOVE: &str = "the error bound is above what was asked for";
         Some(match self {
             Self::Reached => return None,
+            Self::Constant => "the solution is constant up to rounding: its error bound has no part of the energy norm".to_owned(),
             Self::TooLarge { unknowns, most } => {
                 format!(
                     "{ABOVE}: the next mesh has {unknowns} unknowns, more than the {most} that are allowed"
@@ -76,7 +65,9 @@ impl Stop {
             }
             Self::Finest(why) => format!("{ABOVE}: there is no finer mesh, {why}"),
             Self::Stalled { term, at: [x, y] } => {
-                format!("{ABOVE}, and no longer falls: most of it is {term}, near ({x:.6}, {y:.6})")
+                let inside = if *term == Term::Gap { ", as where data jump inside cells" } else { "" };
+                let words = term.words();
+                format!("{ABOVE}, and no longer falls: most of it is {words}{inside}, near ({x:.6}, {y:.6})")
             }
             Self::NoBound => {
                 let reason =
@@ -148,6 +139,9 @@ impl fmt::Display for Promise {
         let part = 100.0 * largest;
         write!(to, "the mesh was refined to {unknowns} unknowns: ")?;
         match allowed.len() {
+            0 => {
+                write!(to, "the solution is constant up to rounding, and no part of it is promised")
+            }
             1 => {
                 write!(to, "the error bound is {part:.0} % of the {goal} that setting.error allows")
             }

@@ -106,8 +106,9 @@ fn the_bound_falls_as_it_would_without_the_corner() {
     }
 }
 
-/// Never more unknowns than 1.3 times those of the mesh refined everywhere; 1.5 times on quads where u is like r^{3/2}, since cuts
-/// of quads are triangles.
+/// Never more unknowns than 1.3 times those of the mesh refined everywhere. On quads 1.4 times, and 1.5 times where u is like r^{3/2}:
+/// their cuts are triangles, between which less of the oscillation cancels than in a row of quads. With the average: a better s gains
+/// most where cells are fine everywhere.
 #[test]
 fn where_u_is_smooth_it_costs_what_refining_everywhere_does() {
     for (text, kind) in [(SMOOTH.to_owned(), 0), (two_transitions([-1.0, 2.0]), 1)] {
@@ -116,10 +117,15 @@ fn where_u_is_smooth_it_costs_what_refining_everywhere_does() {
             let mesh = if kind == 0 { with_four_sides(grid(4, cells)) } else { grid(4, cells) };
             let finer = refined(&refined(&mesh).expect("finer")).expect("finer");
             let problem = Problem::new(&scene, finer).expect("a problem");
-            let uniform = solve(&problem, &wanted(Goal::Part(1.0)).options).expect("a solution");
+            let averaged = |goal: Goal| {
+                let mut wanted = wanted(goal);
+                wanted.options.averages = true;
+                wanted
+            };
+            let uniform = solve(&problem, &averaged(Goal::Part(1.0)).options).expect("a solution");
             let goal = Goal::Energy(uniform.bound.expect("a bound").total);
-            let (levels, _, stop) = levels(&scene, mesh, &wanted(goal));
-            let factor = if kind == 1 && cells == Cells::Quads { 1.5 } else { 1.3 };
+            let (levels, _, stop) = levels(&scene, mesh, &averaged(goal));
+            let factor = if cells == Cells::Quads { [1.4, 1.5][kind] } else { 1.3 };
             let most = factor * problem.topology.counts.unknowns() as f64;
             assert_eq!(stop, Stop::Reached);
             assert!(levels[levels.len() - 1][0] <= most, "{cells:?}: {levels:?}");
@@ -127,7 +133,8 @@ fn where_u_is_smooth_it_costs_what_refining_everywhere_does() {
     }
 }
 
-/// On open edges s takes nothing of a curved gap, and cells may stay coarse there.
+/// On open edges s takes nothing of a curved gap, and cells may stay coarse there. With the average: a better s gains most where cells
+/// are fine everywhere.
 #[test]
 fn a_curved_gap_is_followed_where_it_touches_alone() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../meshes/scenes/strip.toml");
@@ -135,9 +142,14 @@ fn a_curved_gap_is_followed_where_it_touches_alone() {
     let mesh = mesh::read(&scene.mesh.value).expect("a mesh");
     let finer = refined(&mesh).expect("finer");
     let problem = Problem::new(&scene, finer).expect("a problem");
-    let uniform = solve(&problem, &wanted(Goal::Part(1.0)).options).expect("a solution");
+    let averaged = |goal| {
+        let mut wanted = wanted(goal);
+        wanted.options.averages = true;
+        wanted
+    };
+    let uniform = solve(&problem, &averaged(Goal::Part(1.0)).options).expect("a solution");
     let goal = Goal::Energy(uniform.bound.expect("a bound").total);
-    let (levels, _, stop) = levels(&scene, mesh, &wanted(goal));
+    let (levels, _, stop) = levels(&scene, mesh, &averaged(goal));
     assert_eq!(stop, Stop::Reached);
     assert!(levels[levels.len() - 1][0] < 0.5 * problem.topology.counts.unknowns() as f64);
 }
@@ -209,7 +221,7 @@ fn every_end_is_told() {
     assert!(matches!(ended(&smooth, &few), Stop::TooLarge { unknowns: 301.., most: 300 }));
     let (levels, _, stop) = levels(&affine(), mesh(), &wanted(Goal::Energy(1e-17)));
     let Stop::Stalled { term, .. } = stop else { panic!("{stop:?}: {levels:?}") };
-    assert!(["rounding", "what the solver left unfinished"].contains(&term), "{term}");
+    assert!(matches!(term, Term::Rounding | Term::Algebraic), "{term:?}");
     let jump = SMOOTH.replace("value = \"x^2*y + y^2 + x^3\"", "value = \"5 + sign(x - 0.3)\"");
     let jump = scene(&jump).expect("a scene");
     assert_eq!(ended(&jump, &wanted(Goal::Part(0.1))), Stop::NoBound);

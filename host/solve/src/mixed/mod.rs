@@ -112,6 +112,7 @@ pub fn mixed(problem: &Problem, options: &Options) -> Result<Solution> {
     let assembly = clock.lap();
     let mut u = mixed.wide.start();
     let Corrected { outcome, .. } = mixed.run(settings, &mut u).map_err(&unfit)?;
-    let attempt = Attempt { problem, parts: &parts, assembled: mixed.wide, assembly, clock };
+    let (parts, assembled, averages) = (&parts, mixed.wide, options.averages);
+    let attempt = Attempt { problem, parts, assembled, averages, assembly, clock };
     attempt.conclude(Solved { outcome, ran: Ran::Sweeps, factored: None, u, low: Vec::new() })
 }

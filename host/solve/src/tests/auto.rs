@@ -18,6 +18,7 @@ const AUTO: Options = Options {
     tolerance: None,
     to_the_floor: false,
     max_sweeps: 1_000_000,
+    averages: false,
 };
 
 /// A domain that nothing holds, in balance.

@@ -62,7 +62,7 @@ fn other_units_change_no_digit() -> Result<()> {
         let plain = solve(&problem, &options)?;
         assert_eq!(plain.units, Units::default());
         // Loads of 1e−150 and a conductivity of 1e90: nothing that f32 could hold.
-        let far = Units { u: 2f64.powi(-500), conductivity: 2f64.powi(300) };
+        let far = Units { u: 2f64.powi(-500), conductivity: 2f64.powi(300), zero: 0.0 };
         let scaled = far.inverse().scene(&scene);
         let found = solve(&Problem::new(&scaled, problem.mesh.clone())?, &options)?;
         let expected: Vec<f64> = plain.u.iter().map(|u| u * far.u).collect();
@@ -78,7 +78,7 @@ fn other_units_change_no_digit() -> Result<()> {
 #[test]
 fn energies_beyond_f64_are_refused() -> Result<()> {
     let (scene, problem) = read(&meshes("catalogue").join("a-tri.toml"))?;
-    let huge = Units { u: 2f64.powi(-600), conductivity: 1.0 }.scene(&scene);
+    let huge = Units { u: 2f64.powi(-600), conductivity: 1.0, zero: 0.0 }.scene(&scene);
     let problem = Problem::new(&huge, problem.mesh)?;
     let error = solve(&problem, &Options::default()).unwrap_err();
     assert!(error.to_string().contains("energy that f64 cannot hold"), "{error}");

@@ -6,8 +6,11 @@ mod hard;
 mod level;
 mod limits;
 mod meshes;
+mod relaxed;
 mod stops;
+mod stretched;
 mod transfer;
+mod zero;
 
 use signorini_tolerances::solve::AGREEMENT;
 use std::path::{Path, PathBuf};

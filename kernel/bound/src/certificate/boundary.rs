@@ -85,14 +85,15 @@ fn charge<R: Real>(range: FluxRange<R>, contact: Law<R>, tau: R, [above, below]:
         let (above, terms) = (R::TWO * above, tau.magnitude() + range.base().magnitude());
         return (range.multiplier(tau) * above, terms * above.magnitude());
     }
-    let (mut sum, mut size, nearest) = (R::ZERO, R::ZERO, range.nearest_end(tau));
+    let (mut sum, mut size) = (R::ZERO, R::ZERO);
     for (end, mean) in range.ends().into_iter().zip([above, below]) {
         // On a side that there is not, s is but for rounding, which stands elsewhere.
         if end.finite() {
             let (mean, terms) = (R::TWO * mean, tau.magnitude() + end.magnitude());
-            // The nearest end is the one that counts in the mean where hi − lo varies.
-            let unseen = if end == nearest { R::ZERO } else { contact.spans().excess() };
-            sum += ((tau - end).magnitude() + unseen) * mean;
+            let distance = (tau - end).magnitude();
+            let unseen = range.unseen(distance, contact.spans().excess())
+                + contact.spans().moved(range.span());
+            sum += (distance + unseen) * mean;
             size += terms * mean.magnitude();
         }
     }
@@ -230,8 +231,22 @@ mod tests {
         assert_eq!(charged(2.0, 0.0, 1.5, [0.0, 0.25]), 0.75);
         assert_eq!(charged(2.0, 0.0, 1.5, [-0.25, 0.0]), -0.25);
         assert_eq!(charged(2.0, 0.0, 1.5, [0.25, 0.25]), 1.0);
-        // Where hi − lo varies, on the side of the farther end.
-        assert_eq!(charged(2.0, 0.5, 1.5, [0.25, 0.25]), 1.25);
+        // Where hi − lo varies, each by its share of the largest one: 2.5 instead of 2.
+        assert_eq!(charged(2.0, 0.5, 1.5, [0.25, 0.0]), 0.3125);
+        assert_eq!(charged(2.0, 0.5, 1.5, [0.0, 0.25]), 0.9375);
+        assert_eq!(charged(2.0, 0.5, 1.0, [0.25, 0.0]), 0.0);
+        // An edge that lets nothing vary, beside others on which hi − lo does.
+        assert_eq!(charged(0.0, 0.5, 1.0, [0.25, 0.25]), 0.0);
         assert_eq!(charged(f64::INFINITY, 0.0, 1.5, [0.25, 0.0]), 0.25);
+    }
+
+    /// Of ends that were moved to their mean, 1: twice what s is away from the gap times that.
+    #[test]
+    fn ends_that_were_moved_are_charged_for_it() {
+        let spans = Spans::new(&[0.0]).unwrap_or(Spans::UNLIMITED).moved_by(0.125);
+        let law = Law::above(&[0.0]).with_spans(spans);
+        let charged = |span, means| charge(FluxRange::new(1.0, Span::new(span)), law, 1.0, means).0;
+        assert_eq!([charged(0.0, [0.25, 0.0]), charged(0.0, [0.0, 0.5])], [0.0625, 0.125]);
+        assert_eq!(charged(1.0, [0.25, 0.0]), 0.0);
     }
 }

@@ -145,6 +145,21 @@ pub fn certify<R: Real, I: Index>(
     iterate: Iterate<R>,
     buffers: Buffers<R>,
 ) -> Result<Verdict<R>, Error> {
+    certify_with(discretization, given, iterate, buffers, |_, _| ())
+}
+
+/// Bounds the error with what `moved` makes of s at the vertices and of its bubbles: on D and C they have to stay.
+///
+/// # Errors
+/// As for [`certify`].
+#[inline(always)]
+pub fn certify_with<R: Real, I: Index>(
+    discretization: &Discretization<R, I>,
+    given: &LoadCase<R, I>,
+    iterate: Iterate<R>,
+    buffers: Buffers<R>,
+    moved: impl FnOnce(&mut [R], &mut [R]),
+) -> Result<Verdict<R>, Error> {
     let Discretization { mesh, edges, cells, .. } = discretization;
     let Buffers { vertices, bubbles, tau, indicators } = buffers;
     let (u, law) = (iterate.u, iterate.law);
@@ -159,6 +174,7 @@ pub fn certify<R: Real, I: Index>(
     }
     conforming::impose(mesh, edges, u, law, given.ends, vertices)?;
     conforming::bubbles(mesh, edges, u, law, given.ends, vertices, bubbles)?;
+    moved(vertices, bubbles);
     equilibrium::impose(edges, &given.boundary, iterate, tau);
     let s = Continuous { vertices, bubbles };
     let mut parts = walk::over_cells(discretization, given, u, s, tau, indicators);

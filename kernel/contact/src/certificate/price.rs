@@ -14,6 +14,7 @@ use crate::sides::{Baked, ON_GAP};
 use signorini_kernel::Real;
 use signorini_kernel::error::{Array, Error};
 use signorini_kernel::excess::Excess;
+use signorini_kernel::flux_range::{FluxRange, Span};
 use signorini_kernel::index::read;
 
 /// d at a vertex whose openings say s − ψ = `opening`; `square` is the squared norm of the column of d.
@@ -158,16 +159,16 @@ fn price_of<R: Real>(
         return None;
     }
     let [above, below] = Excess { ends: [a[0], b[0]], bubble: R::ZERO }.sides();
-    let is_lower = (tau - least).magnitude() <= (most - tau).magnitude();
-    let one = |mean: R, may_be: bool, distance: R, is_nearest: bool| {
+    let range = FluxRange::new(R::ZERO, Span::new(most - least));
+    let beside = unsure + answer.ranges.moved(edge);
+    let one = |mean: R, may_be: bool, distance: R| {
         let mean = if may_be { mean + slack } else { mean };
-        let unseen = if is_nearest { R::ZERO } else { sides.excess };
         if mean > R::ZERO && distance.finite() {
-            R::TWO * mean * (distance + unseen + unsure)
+            let unseen = range.unseen(distance + unsure, sides.excess).or_smaller(sides.excess);
+            R::TWO * mean * (distance + unseen + beside)
         } else {
             R::ZERO
         }
     };
-    let to_least = one(above, high > -slack, tau - least, is_lower);
-    Some(to_least + one(below, low < slack, most - tau, !is_lower))
+    Some(one(above, high > -slack, tau - least) + one(below, low < slack, most - tau))
 }

@@ -15,7 +15,11 @@ pub struct ModalStorage<Numbers, Flags, Columns, Spans, Matrix, Inputs, R> {
     matrix: Matrix,
     inputs: Inputs,
     /// Of the matrix and the last load.
-    t: Option<R>,
+    t: R,
+    /// By how much the last inputs have moved ends of fluxes.
+    moved: R,
+    /// 0 where there is no matrix.
+    has_matrix: u8,
 }
 
 /// [`ModalStorage`] in arrays: P padded contact edges, C columns, B blocks, I inputs and modes, S spans.
@@ -26,7 +30,7 @@ pub type ArrayModalStorage<
     const B: usize,
     const I: usize,
     const S: usize = 0,
-> = ModalStorage<[R; P], [bool; P], [R; C], [R; S], [Block<R>; B], [R; I], R>;
+> = ModalStorage<[R; P], [u8; P], [R; C], [R; S], [Block<R>; B], [R; I], R>;
 
 /// Memory of a tick (borrowed), once its inputs are set.
 #[derive(Debug)]
@@ -48,7 +52,9 @@ impl<R: Real, const P: usize, const C: usize, const B: usize, const I: usize, co
             shared: Storage::zeros(),
             matrix: [[[R::ZERO; SIDE]; SIDE]; B],
             inputs: [R::ZERO; I],
-            t: None,
+            t: R::ZERO,
+            moved: R::ZERO,
+            has_matrix: 0,
         }
     }
 }
@@ -62,7 +68,7 @@ impl<Numbers, Flags, Columns, Spans, Matrix, Inputs, R: Real>
         matrix: Matrix,
         inputs: Inputs,
     ) -> Self {
-        Self { shared, matrix, inputs, t: None }
+        Self { shared, matrix, inputs, t: R::ZERO, moved: R::ZERO, has_matrix: 0 }
     }
 
     /// Takes the inputs p, p_0 = 1 among them. Returns whether the coefficient has changed: then tableaus of the last tick are no
@@ -74,7 +80,7 @@ impl<Numbers, Flags, Columns, Spans, Matrix, Inputs, R: Real>
     pub fn set(&mut self, modal: &Modal<R>, inputs: &[R]) -> Result<bool, Error>
     where
         Numbers: AsMut<[R]>,
-        Flags: AsMut<[bool]>,
+        Flags: AsMut<[u8]>,
         Columns: AsMut<[R]>,
         Spans: AsMut<[R]>,
         Matrix: AsMut<[Block<R>]>,
@@ -82,13 +88,14 @@ impl<Numbers, Flags, Columns, Spans, Matrix, Inputs, R: Real>
     {
         let mut memory = self.shared.memory(&modal.model);
         let t = modal.combine(inputs, self.inputs.as_mut(), memory.load)?;
-        modal.model.spans.combine(inputs, memory.load.len(), &mut memory.spans)?;
-        if self.t == Some(t) {
+        modal.model.spans.combine(inputs, memory.load, &mut memory.spans)?;
+        self.moved = memory.spans.moved;
+        if self.has_matrix != 0 && self.t == t {
             return Ok(false);
         }
-        self.t = None;
+        self.has_matrix = 0;
         modal.matrix(t, inputs.len(), self.matrix.as_mut())?;
-        self.t = Some(t);
+        (self.t, self.has_matrix) = (t, 1);
         Ok(true)
     }
 
@@ -96,7 +103,7 @@ impl<Numbers, Flags, Columns, Spans, Matrix, Inputs, R: Real>
     pub fn at<'m>(&'m mut self, modal: &Modal<'m, R>) -> (Condensed<'m, R>, ModalMemory<'m, R>)
     where
         Numbers: AsMut<[R]>,
-        Flags: AsMut<[bool]>,
+        Flags: AsMut<[u8]>,
         Columns: AsMut<[R]>,
         Spans: AsMut<[R]>,
         Matrix: AsRef<[Block<R>]>,
@@ -104,9 +111,9 @@ impl<Numbers, Flags, Columns, Spans, Matrix, Inputs, R: Real>
     {
         let matrix = self.matrix.as_ref();
         let start = InitialTableau { blocks: matrix, exchanged: &[] };
-        let shared = self.shared.memory(&modal.model);
-        let t = self.t.unwrap_or_default();
-        let memory = ModalMemory { shared, inputs: self.inputs.as_mut(), t };
+        let mut shared = self.shared.memory(&modal.model);
+        shared.spans.moved = self.moved;
+        let memory = ModalMemory { shared, inputs: self.inputs.as_mut(), t: self.t };
         (Condensed { matrix, start, ..modal.model }, memory)
     }
 
@@ -126,6 +133,6 @@ impl<Numbers, Flags, Columns, Spans, Matrix, Inputs, R: Real>
     /// Forgets all ticks.
     pub fn reset(&mut self) {
         self.shared.reset();
-        self.t = None;
+        self.has_matrix = 0;
     }
 }

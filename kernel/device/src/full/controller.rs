@@ -87,7 +87,7 @@ where
     I: Index,
     Tableau: AsMut<[Block<R>]>,
     Floats: AsMut<[R]>,
-    Flags: AsMut<[bool]>,
+    Flags: AsMut<[u8]>,
     S: Sweeping<R, I> + Copy,
 {
     #[inline(always)]
@@ -134,7 +134,7 @@ where
     I: Index,
     Rows: LayOut<R, I, WIDTH>,
     Floats: AsMut<[R]>,
-    Flags: AsMut<[bool]>,
+    Flags: AsMut<[u8]>,
     Fluxes: AsMut<[Neumann<R, I>]>,
     Laws: AsMut<[Robin<R, I>]>,
     Bends: AsMut<[Curved<R, I>]>,

@@ -7,7 +7,7 @@ use signorini_bound::certificate::{Curved, LoadCase};
 use signorini_bound::conforming::VertexData;
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::error::{Array, Error, same_length_or_empty};
-use signorini_kernel::flux_range::Spans;
+use signorini_kernel::flux_range::{Room, Spans};
 use signorini_kernel::law::Law;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::mesh::edges::Edges;
@@ -26,6 +26,8 @@ pub struct Base<'a, R, I> {
     pub contact_flux: &'a [R],
     /// The ranges of the fluxes on contact edges, whose bases `contact_flux` holds then.
     pub spans: Spans<'a, R>,
+    /// Room that inputs leave in ranges that they change.
+    pub rooms: &'a [Room<'a, R>],
     /// Means of ψ, one a contact edge.
     pub gap: &'a [R],
     /// Means of u_D, one a Dirichlet edge.
@@ -41,13 +43,13 @@ pub struct Base<'a, R, I> {
 }
 
 impl<R: Real, I: Index> DataMemory<'_, R, I> {
-    /// Fills it in for these inputs.
+    /// Fills it in for these inputs; returns by how much ends of fluxes were moved at most.
     pub(super) fn evaluate(
         &mut self,
         base: &Base<R, I>,
         patterns: &[Pattern<R, I>],
         inputs: &[R],
-    ) -> Result<(), Error> {
+    ) -> Result<R, Error> {
         copy(Array::CellLoads, base.loads.triangles, self.triangles)?;
         copy(Array::CellLoads, base.loads.quads, self.quads)?;
         copy(Array::Neumann, base.neumann, self.neumann)?;
@@ -65,15 +67,17 @@ impl<R: Real, I: Index> DataMemory<'_, R, I> {
         if features::TRANSFER {
             self.transfer(patterns, inputs);
         }
+        let mut moved = R::ZERO;
         if features::LIMITED {
-            super::ranges::check(self.spans, base.spans.lengths(), patterns, inputs)?;
+            let ranges = (&mut *self.contact_flux, &mut *self.spans);
+            moved = super::ranges::check(ranges, base.spans.lengths(), base.rooms, inputs)?;
         }
         if features::CURVED {
             same_length_or_empty(Array::Edges, self.curved.len(), base.curved_sums.len())?;
             let sums = base.curved_sums.iter().zip(self.curved.iter_mut());
             sums.for_each(|(sum, record)| *record = sum.at(inputs));
         }
-        Ok(())
+        Ok(moved)
     }
 
     /// What a tick takes.
@@ -81,10 +85,10 @@ impl<R: Real, I: Index> DataMemory<'_, R, I> {
         &'d self,
         base: &Base<'d, R, I>,
         edges: &Edges<I>,
-        oscillation: R,
+        (oscillation, moved): (R, R),
     ) -> Result<Data<'d, R, I>, Error> {
         let contact_flux = own_or(self.contact_flux, base.contact_flux);
-        let spans = self.spans(base.spans);
+        let spans = self.spans(base.spans).moved_by(moved);
         let (neumann, robin) = (own_or(self.neumann, base.neumann), own_or(self.robin, base.robin));
         let given = LoadCase {
             loads: CellLoads {

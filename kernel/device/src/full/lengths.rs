@@ -134,10 +134,9 @@ impl Lengths {
             }
             Pattern::Neumann(_) => self.neumann = base.neumann.len(),
             Pattern::ContactFlux(_) => numbers.contact_flux = base.contact_flux.len(),
-            Pattern::ContactRange { fluxes, .. } => {
-                if !fluxes.is_empty() {
-                    numbers.contact_flux = base.contact_flux.len();
-                }
+            // Both ends go to their mean where they cross by rounding.
+            Pattern::ContactRange { .. } => {
+                numbers.contact_flux = base.contact_flux.len();
                 numbers.spans = base.spans.count();
             }
             Pattern::Gap(_) => {

@@ -105,9 +105,9 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         same_length(Array::Outputs, outputs.len(), self.outputs.len())?;
         all_finite(Array::Inputs, inputs)?;
         let Memory { tick: of_tick, data: mut of_data, progress } = memory;
-        of_data.evaluate(&self.base, self.patterns, inputs)?;
+        let moved = of_data.evaluate(&self.base, self.patterns, inputs)?;
         let oscillation = self.oscillation(inputs);
-        let data = of_data.view(&self.base, &self.discretization.edges, oscillation)?;
+        let data = of_data.view(&self.base, &self.discretization.edges, (oscillation, moved))?;
         let known = match progress.has_begun() {
             true => *progress,
             false => Progress::new(self.relaxation)?,

@@ -1,9 +1,11 @@
-//! Owned memory of a baked scene: arrays that can be a `static`, or whatever else lends slices.
+//! Owned memory of a baked scene: arrays that can be a `static`, or whatever else lends slices. Of any bits it is memory still:
+//! what a reset or a brown-out has left of it may make a tick wrong, and nothing worse.
 
 use super::{DataMemory, Full, Lengths, Memory, Numbers};
 use crate::tick::{self, Progress};
 use signorini_bound::certificate::Curved;
 use signorini_kernel::error::{Array, Error, same_length};
+use signorini_kernel::flags::restored;
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::rows::{LayOut, OwnedRows};
 use signorini_kernel::{Index, Real};
@@ -35,7 +37,7 @@ pub type ArrayStorage<
     R,
     OwnedRows<R, I, WIDTH, ROWS>,
     [R; NUMBERS],
-    [bool; ACTIVE],
+    [u8; ACTIVE],
     [Neumann<R, I>; NEUMANN],
     [Robin<R, I>; ROBIN],
     [Curved<R, I>; CURVED],
@@ -59,7 +61,7 @@ impl<
         Self::of(
             OwnedRows::new(),
             [zero; NUMBERS],
-            [false; ACTIVE],
+            [0; ACTIVE],
             [Neumann { edge, flux: zero }; NEUMANN],
             [Robin { edge, coefficient: zero, ambient: zero }; ROBIN],
             [Curved { edge, mean: zero, peak: zero, energy: zero, coupling }; CURVED],
@@ -95,7 +97,7 @@ impl<R: Real, Rows, Floats, Flags, Fluxes, Laws, Bends>
     where
         Rows: LayOut<R, I, WIDTH>,
         Floats: AsMut<[R]>,
-        Flags: AsMut<[bool]>,
+        Flags: AsMut<[u8]>,
         Fluxes: AsMut<[Neumann<R, I>]>,
         Laws: AsMut<[Robin<R, I>]>,
         Bends: AsMut<[Curved<R, I>]>,
@@ -107,7 +109,7 @@ impl<R: Real, Rows, Floats, Flags, Fluxes, Laws, Bends>
             tick: tick::Memory {
                 rows: self.rows.lay_out(&full.discretization.edges)?,
                 load,
-                active: self.active.as_mut(),
+                active: restored(self.active.as_mut()),
                 vertices,
                 bubbles,
                 tau,

@@ -99,7 +99,7 @@ mod tests {
         let (mut robin, mut transfer) = (LAWS, POINTS);
         let mut data =
             DataMemory { robin: &mut robin, transfer: &mut transfer, ..DataMemory::default() };
-        assert_eq!(data.evaluate(&base, &PATTERNS, &inputs), Ok(()));
+        assert_eq!(data.evaluate(&base, &PATTERNS, &inputs), Ok(0.0));
         assert!(transfer.iter().all(|edge| edge.iter().all(|point| *point == edge[0])));
         let laws = robin.map(|law| [law.coefficient, law.ambient]);
         [laws, transfer.map(|edge| edge[3])]

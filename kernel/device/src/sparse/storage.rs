@@ -4,6 +4,7 @@ use signorini_contact::dense::Iterate;
 use signorini_contact::dense::blocks::{Block, SIDE, count, padded};
 use signorini_kernel::Real;
 use signorini_kernel::error::{Array, Error, same_length};
+use signorini_kernel::flags::restored;
 
 /// Memory of a contact problem (borrowed).
 #[derive(Debug)]
@@ -36,7 +37,7 @@ pub struct Storage<Tableau, Floats, Flags> {
 
 /// The same in arrays.
 pub type ArrayStorage<R, const BLOCKS: usize, const NUMBERS: usize, const FLAGS: usize> =
-    Storage<[Block<R>; BLOCKS], [R; NUMBERS], [bool; FLAGS]>;
+    Storage<[Block<R>; BLOCKS], [R; NUMBERS], [u8; FLAGS]>;
 
 /// How many blocks, numbers and flags so many contact edges take.
 pub const fn lengths(contact: usize) -> [usize; 3] {
@@ -54,7 +55,7 @@ impl<R: Real, const BLOCKS: usize, const NUMBERS: usize, const FLAGS: usize>
 {
     /// Zeros, which take no room in flash.
     pub const fn zeros() -> Self {
-        Self::of([[[R::ZERO; SIDE]; SIDE]; BLOCKS], [R::ZERO; NUMBERS], [false; FLAGS])
+        Self::of([[[R::ZERO; SIDE]; SIDE]; BLOCKS], [R::ZERO; NUMBERS], [0; FLAGS])
     }
 }
 
@@ -72,10 +73,10 @@ impl<Tableau, Floats, Flags> Storage<Tableau, Floats, Flags> {
     where
         Tableau: AsMut<[Block<R>]>,
         Floats: AsMut<[R]>,
-        Flags: AsMut<[bool]>,
+        Flags: AsMut<[u8]>,
     {
         let length = padded(contact);
-        let [exchanged, open] = split(self.flags.as_mut(), length)?;
+        let [exchanged, open] = split(restored(self.flags.as_mut()), length)?;
         let [column, next, load, x, residual, scratch] = split(self.numbers.as_mut(), length)?;
         let iterate = Iterate { x, residual, scratch, open };
         let (tableau, columns) = (self.tableau.as_mut(), [column, next]);

@@ -4,26 +4,25 @@ use super::{Memory, Tick};
 use signorini_bound::certificate::Discretization;
 use signorini_kernel::error::{Array, Error, same_length};
 use signorini_kernel::mesh::edges::EdgeCounts;
-use signorini_kernel::relaxation::{Relaxation, Search};
+use signorini_kernel::relaxation::{KeptSearch, Relaxation, Search};
 use signorini_kernel::{Index, Real};
 
 /// What a tick leaves to the next one besides its arrays: how far the search for ω has come.
 ///
 /// Before the first tick it is [`Progress::NONE`], which is all zeros, so that a `static` that holds it
-/// costs no flash.
+/// costs no flash. Of any bits it is that or a search, since memory may have lost some.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Progress<R> {
-    search: Search<R>,
-    begun: bool,
+    search: KeptSearch<R>,
 }
 
 impl<R: Real> Progress<R> {
     /// No tick yet.
-    pub const NONE: Self = Self { search: Search::NONE, begun: false };
+    pub const NONE: Self = Self { search: KeptSearch::NONE };
 
     /// Whether there has been a tick.
     pub fn has_begun(&self) -> bool {
-        self.begun
+        self.search.search().is_some()
     }
 
     /// That of a first tick; `relaxation` is where ω starts.
@@ -31,7 +30,7 @@ impl<R: Real> Progress<R> {
     /// # Errors
     /// An ω outside (0, 2).
     pub fn new(relaxation: Relaxation<R>) -> Result<Self, Error> {
-        Ok(Self { search: Search::checked(relaxation)?, begun: true })
+        Ok(Self { search: Search::checked(relaxation)?.kept() })
     }
 }
 
@@ -47,15 +46,13 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
         progress: Progress<R>,
     ) -> Result<Self, Error> {
         check(&discretization, &memory)?;
-        if !progress.begun {
-            return Err(Error::Relaxation);
-        }
-        Ok(Self { discretization, memory, search: progress.search, report: None })
+        let search = progress.search.search().ok_or(Error::Relaxation)?;
+        Ok(Self { discretization, memory, search, report: None })
     }
 
     /// What the next tick needs besides the memory.
     pub fn progress(&self) -> Progress<R> {
-        Progress { search: self.search, begun: true }
+        Progress { search: self.search.kept() }
     }
 
     /// Sizes of the blocks of edges.

@@ -120,6 +120,7 @@ impl<R: Scalar> Model<R> {
             load: &self.load,
             limits: &[],
             spans: SpanColumns::UNLIMITED,
+            parts: &[],
             outputs: &outputs,
             certificate: Some(certificate),
             has_bound: true,

@@ -129,7 +129,7 @@ type Stored<R> = Storage<
     R,
     Vec<Row<R, u16, QUADS>>,
     Vec<R>,
-    Vec<bool>,
+    Vec<u8>,
     Vec<Neumann<R, u16>>,
     Vec<Robin<R, u16>>,
     Vec<Curved<R, u16>>,
@@ -139,7 +139,7 @@ fn stored<R: Scalar>(lengths: &Lengths) -> Stored<R> {
     Storage::of(
         vec![Row::EMPTY; lengths.rows],
         vec![R::ONE; lengths.numbers.sum()],
-        vec![true; lengths.active],
+        vec![1; lengths.active],
         vec![Neumann::default(); lengths.neumann],
         vec![Robin::default(); lengths.robin],
         vec![Curved::default(); lengths.curved],

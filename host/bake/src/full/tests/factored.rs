@@ -63,7 +63,8 @@ fn anisotropy() -> Result<(Scene, Problem)> {
 /// The answer of the host's own direct solver for this lift.
 fn reference(problem: &Problem, lift: f64) -> Result<Solution> {
     let problem = problem.with_inputs(&[lift])?;
-    solve(&problem, &Options { solver: SolverKind::Direct, ..Options::default() })
+    let direct = Options { solver: SolverKind::Direct, averages: true, ..Options::default() };
+    solve(&problem, &direct)
 }
 
 fn swept(problem: &Problem) -> Result<Report<f64>> {

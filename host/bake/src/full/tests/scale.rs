@@ -19,10 +19,10 @@ use signorini_solve::{Scaled, choose_for_inputs};
 /// Inputs at which some of the contact is active.
 const INPUTS: [f64; 6] = [0.6, 0.2, 0.1, -0.2, 0.3, 0.4];
 /// The inputs of BENT.
-const NEAR: Units = Units { u: 1.0, conductivity: 1.0 };
+const NEAR: Units = Units { u: 1.0, conductivity: 1.0, zero: 0.0 };
 
 fn powers(u: i32, conductivity: i32) -> Units {
-    Units { u: 2f64.powi(u), conductivity: 2f64.powi(conductivity) }
+    Units { u: 2f64.powi(u), conductivity: 2f64.powi(conductivity), zero: 0.0 }
 }
 
 /// BENT with data that many times as large. The inputs are as they were: their patterns take it.

@@ -105,6 +105,8 @@ fn model(
         certificate: Err("none".to_owned()),
         energy_unit: 1.0,
         held_by_contact: Vec::new(),
+        rooms: Vec::new(),
+        balances: Vec::new(),
     }
 }
 

@@ -36,6 +36,8 @@ pub struct Measured {
     /// The number that the bound is up to quadrature, and how far its square may be off by rounding, where the exact solution is
     /// known.
     pub identity: Option<[f64; 2]>,
+    /// Whether the gap may be above it: a condensed model has one excess of hi − lo for all edges, in the unit of its unknowns.
+    pub may_exceed: bool,
     /// The bound of the truth: 0 where it is exact.
     pub total: f64,
     /// How far `combined` and `of_u` may be off, where they seem above their bounds.
@@ -49,11 +51,13 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// |gap/identity − 1| less what rounding may be of it, where the exact solution is known and the gap is no rounding.
+    /// |gap/identity − 1|, or by how much the gap falls short, less what rounding may be of it, where the exact solution is known and
+    /// the gap is no rounding.
     pub fn identity_off(&self) -> Option<f64> {
         let ([identity, rounding], gap) = (self.identity?, self.bound.duality_gap);
         // |gap² − identity²| = |gap − identity| (gap + identity)
-        let off = (gap - identity).abs() - rounding / (gap + identity);
+        let off = if self.may_exceed { identity - gap } else { (gap - identity).abs() };
+        let off = off - rounding / (gap + identity);
         (gap > ROUNDINGS * self.bound.rounding).then(|| off.max(0.0) / identity)
     }
 
@@ -87,11 +91,16 @@ const RESOLVED: f64 = 1e-4;
 /// # Errors
 /// A scene that cannot be stated in its own units.
 pub fn measure(case: &RandomCase, attempt: &Attempt) -> Result<Option<Measured>> {
-    let units = choose_units(&attempt.problem)?;
-    let answer = times(&units.inverse(), attempt.answer.clone());
-    let problem = match units == Units::default() {
-        true => attempt.problem.clone(),
-        false => attempt.problem.in_units(&units)?,
+    let (problem, answer) = match attempt.answer.in_its_units() {
+        Some((problem, own)) => (problem.clone(), own.clone()),
+        None => {
+            let units = Units { zero: 0.0, ..choose_units(&attempt.problem)? };
+            let answer = times(&units.inverse(), attempt.answer.clone());
+            match units == Units::default() {
+                true => (attempt.problem.clone(), answer),
+                false => (attempt.problem.in_units(&units)?, answer),
+            }
+        }
     };
     let Some(bound) = answer.bound else { return Ok(None) };
     // An answer without s and τ has nothing to be measured.
@@ -123,7 +132,7 @@ impl Held<'_> {
             number: self.case.number,
             problem: self.problem,
             answer: Answered { certified, bound, scalar },
-            reading: Reading { scalar, u, flux, units: Units::default(), bound: total },
+            reading: Reading { scalar, u, flux, bound: total },
             is_balanced: self.case.effort.way == Way::Condensed,
         }
     }
@@ -159,6 +168,8 @@ impl Held<'_> {
             found.intervals = self.asked().by_exact();
             let known = self.missed()? <= RESOLVED * self.bound.duality_gap;
             found.identity = known.then_some([distance.identity, distance.rounding]);
+            found.may_exceed =
+                self.case.effort.way == Way::Condensed && problem.loads.span_excess > 0.0;
         }
         Ok(found)
     }

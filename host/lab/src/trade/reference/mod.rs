@@ -123,7 +123,8 @@ fn exactly(
     let errors = norms::of_fields(problem, u, &answer.u, &answer.flux)?;
     let combined = |admissible| {
         let deviations = &followed(problem, admissible)?;
-        Integrands { exact, problem, admissible, deviations, u, lift, panels: 1 }.combined()
+        Integrands { exact, problem, admissible, deviations, u, lift, panels: 1, fewer: 1 }
+            .combined()
     };
     Ok(PointError {
         energy: errors.energy,

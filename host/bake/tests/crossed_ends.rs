@@ -1,0 +1,112 @@
+//! A limit that an input brings below the least flux: by up to a slack, the same for every scalar and model, both are their mean; beyond,
+//! everybody refuses the input by its name.
+
+use crate::direct::{directly, played, to_the_end};
+use signorini_bake::condensed;
+use signorini_bake::full;
+use signorini_bake::narrow::narrow;
+use signorini_condense::condense;
+use signorini_kernel::Error;
+use signorini_kernel::rows::TRIANGLES;
+use signorini_problem::Problem;
+use signorini_problem::fixtures::on_grid;
+use signorini_problem::scalar::Scalar;
+use signorini_scene::error::Result;
+use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_session::tick::{ScheduledTick, replay};
+use signorini_solve::ScalarKind;
+
+/// A face below that gives 1 at least and 2 + `cap` at most, over a length of 2.
+const FACE: &str = r#"
+mesh = "grid"
+material.default.conductivity = "2"
+boundary.dirichlet = { kind = "dirichlet", value = "1" }
+boundary.left = { kind = "neumann", flux = "0" }
+boundary.right = { kind = "neumann", flux = "0" }
+boundary.contact = { kind = "contact", gap = "1.2 + 0.5*x", flux = "1", limit = "2" }
+input.sun = { of = "source", field = "f", pattern = "1", range = [-1, 1] }
+input.cap = { of = "contact", field = "limit", pattern = "1" }
+output.power = { kind = "flux", of = "contact" }
+"#;
+
+/// cap, so many slacks below −1: 2⁻¹⁹ of terms of 1 + 2 + 1, in a number that f32 has, too.
+fn cap(slacks: f64) -> f64 {
+    let exact = -1.0 - slacks / f64::from(1 << 17);
+    f64::from(exact as f32)
+}
+
+/// Every controller, first with room, then with this cap, then with room again: its outputs for the cap, where it has any, and
+/// how it refuses.
+fn of_controllers<R: Scalar>(
+    problem: &Problem,
+    cap: f64,
+) -> Result<Vec<std::result::Result<f64, Error>>> {
+    let baked = full::Baked::<R>::new(problem)?;
+    let mut on_mesh = full::Controller::<R, TRIANGLES>::new(&baked);
+    let model = condense(problem)?;
+    let work = condensed::Work { pivots: Some(100), sweeps: 100 };
+    let small = condensed::Baked::<R>::new(&model, work, true).expect("in range");
+    let mut condensed = condensed::Controller::new(&small);
+    let inputs = |cap: f64| -> Vec<R> { narrow(&[0.25, cap]) };
+    let first = on_mesh.tick_within(&inputs(0.0), to_the_end()).expect("a tick").0;
+    let small_first = condensed.tick(&inputs(0.0)).expect("a tick").0;
+    let found = vec![
+        on_mesh.tick_within(&inputs(cap), to_the_end()).map(|(values, _)| values[0].wide()),
+        condensed.tick(&inputs(cap)).map(|(values, _)| values[0].wide()),
+    ];
+    let near = |a: R, b: R| (a - b).magnitude().wide() < 1e-4;
+    assert!(near(on_mesh.tick_within(&inputs(0.0), to_the_end()).expect("a tick").0[0], first[0]));
+    assert!(near(condensed.tick(&inputs(0.0)).expect("a tick").0[0], small_first[0]));
+    Ok(found)
+}
+
+#[test]
+fn all_take_the_same_inputs() -> Result<()> {
+    let (_, problem) = on_grid(FACE, grid(4, Cells::Triangles))?;
+    for slacks in [0.5, 0.99, 1.01, 2.0] {
+        let (cap, is_taken) = (cap(slacks), slacks < 1.0);
+        let mean = 3.0 + cap;
+        let found = [of_controllers::<f64>(&problem, cap)?, of_controllers::<f32>(&problem, cap)?];
+        for (at, found) in found.into_iter().flatten().enumerate() {
+            match found {
+                Ok(power) => {
+                    assert!(is_taken && (power - mean).abs() < 1.6e-5, "{slacks} {at}: {power}")
+                }
+                Err(error) => {
+                    assert!(
+                        !is_taken && error == Error::EmptyRange { input: 1 },
+                        "{slacks} {at}: {error}"
+                    );
+                }
+            }
+        }
+        let steps = [vec![0.25, 0.0], vec![0.25, cap]];
+        let moments = steps.iter().zip([0.0, 1.0]).map(|(step, time)| ScheduledTick {
+            time,
+            inputs: step.iter().copied().enumerate().collect(),
+        });
+        let moments: Vec<_> = moments.collect();
+        let replayed = |scalar| {
+            replay(&problem, &moments, Some(scalar), |_, _| Ok(())).map(|(_, ticks)| ticks)
+        };
+        let all = [
+            directly(&problem, &steps[1]).map(|(_, _, values)| values["power"]),
+            played(&problem, &steps).map(|ticks| ticks[1].outputs[0]),
+            replayed(ScalarKind::F64).map(|ticks| ticks[1].outputs[0]),
+            replayed(ScalarKind::F32).map(|ticks| ticks[1].outputs[0]),
+        ];
+        for (at, found) in all.into_iter().enumerate() {
+            match found {
+                Ok(power) => {
+                    let power = power.expect("a flux");
+                    assert!(is_taken && (power - mean).abs() < 1.6e-5, "{slacks} {at}: {power}");
+                }
+                Err(error) => {
+                    let said = error.to_string();
+                    assert!(!is_taken && said.contains("input.cap"), "{slacks} {at}: {said}");
+                }
+            }
+        }
+    }
+    Ok(())
+}

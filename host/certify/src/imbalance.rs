@@ -1,0 +1,38 @@
+//! The part that is missed of the integrals of f, g and q: it has no zero mean, and leaves along cells through a side that can take it.
+//!
+//! With δ_T missed in cell T, τ + θ is admissible for the data themselves, where ∇·θ = −δ_T/|T| and θ flows along the forest of cells to an
+//! edge of D or R. ‖A^{−½}θ‖ ≤ stability Σ|δ_T| moves the gap once, and what the bound is about, τ, once more. Of an edge, the
+//! deviation from the mean in its cell counts as g's own ([`super::oscillation`]), and the mean leaves from there.
+
+use signorini_problem::{Assembled, Problem};
+
+use super::forest::EquilibrationForest;
+use super::metric::Metric;
+use super::no_bound::NoBound;
+
+/// Part of the loads up to which contact alone takes what is missed, as it takes what rounding leaves.
+const ROUNDING: f64 = 1e-9;
+
+/// The share of the oscillation that comes from what is missed of the loads.
+///
+/// # Errors
+/// More is missed than rounding would where contact alone holds a part, or nothing does.
+pub(super) fn carried(problem: &Problem) -> Result<f64, NoBound> {
+    let loads = &problem.loads;
+    if loads.missed == 0.0 {
+        return Ok(0.0);
+    }
+    let cells = loads.triangles.iter().chain(&loads.quads).chain(&loads.contact_flux);
+    let given = loads.neumann.iter().map(|record| &record.flux);
+    let size: f64 = cells.chain(given).map(|load| load.abs()).sum();
+    let overflow = |_| NoBound::overflow::<f64>();
+    let assembled = Assembled::<f64>::new(problem).map_err(overflow)?;
+    let metric = Metric::new(problem);
+    let mut forest = EquilibrationForest::new(problem);
+    let is_small = loads.missed <= ROUNDING * size;
+    forest
+        .find(&assembled, &metric, |_| is_small)
+        .map_err(|_| NoBound::unbalanced(loads.missed))?;
+    let carried = 2.0 * forest.stability() * loads.missed;
+    if carried.is_finite() { Ok(carried) } else { Err(NoBound::unbalanced(loads.missed)) }
+}

@@ -1,0 +1,99 @@
+//! Oscillation of given fluxes and of the ends of contact fluxes, along their edges.
+
+use std::f64::consts::PI;
+
+use signorini_kernel::mesh::geometry::triangle_area;
+
+use super::alpha::alpha;
+use super::parts;
+use super::rules::{ELLIPSES, LEFT, PANELS, POINTS, RESOLVED};
+use super::stretched;
+use crate::cell::Cell;
+use crate::stretch::is_even;
+use signorini_problem::quadrature::enclosed::{Integral, pole};
+use signorini_problem::quadrature::refined::{Part, refined};
+use signorini_problem::quadrature::{gauss, on_panels};
+use signorini_problem::{Problem, Sum};
+use signorini_scene::error::Result;
+use signorini_scene::expression::enclosure::{Form, Region, Shape};
+use signorini_scene::mesh::shape::edge_length;
+use signorini_scene::scene::Field;
+
+/// Most parts of an edge.
+const MOST: usize = 200;
+
+/// osc_E, and what may be missed of it; g and q are both the `flux` of their boundary. Between two finite ends τ·n = lo + θ (hi − lo) all
+/// along the edge, where θ is that of its mean. What the mean leaves out of it, (1 − θ) that of lo and θ that of hi, is at most the larger
+/// one of both.
+pub fn of_flux(problem: &Problem, edge: usize) -> Result<[f64; 2]> {
+    let least = of_end(problem, edge, Field::Flux)?;
+    let most = of_end(problem, edge, Field::Limit)?;
+    Ok(if least.iter().sum::<f64>() > most.iter().sum() { least } else { most })
+}
+
+fn of_end(problem: &Problem, edge: usize, field: Field) -> Result<[f64; 2]> {
+    let Some(g) = Sum::on_edge(problem, edge, field, problem.time) else { return Ok([0.0; 2]) };
+    if g.constant().is_some() {
+        return Ok([0.0; 2]);
+    }
+    let segment @ [a, b] = problem.segment(edge);
+    let (length, mean) = (problem.lengths[edge], g.mean_and_missed(segment)?);
+    let square = length_square(&g, segment, length, mean)?;
+    let (at, side) = problem.topology.first_side(edge);
+    let apex = opposite(&Cell::of(problem, at), side);
+    let diameter = length.max(edge_length([a, apex])).max(edge_length([b, apex]));
+    let shape = length * diameter * diameter / triangle_area([a, b, apex]);
+    let trace = 1.0 / (PI * PI) + 1.0 / PI;
+    let by_trace = |square: f64| (shape * trace * square / alpha(problem, at)).sqrt();
+    let known = by_trace(square.value);
+    if square.missed == 0.0 && !is_even(problem, at) {
+        let by_flux = stretched::along_edge(problem, edge, &g, mean.value, by_trace);
+        return Ok([known.min(by_flux), 0.0]);
+    }
+    Ok([known, by_trace(square.value + square.missed) - known])
+}
+
+/// ‖g − ḡ‖² on an edge. What is missed of the mean counts with it.
+fn length_square(g: &Sum, segment: [[f64; 2]; 2], length: f64, mean: Integral) -> Result<Integral> {
+    let [a, b] = segment;
+    let difference = |t: f64| g.at(a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])) - mean.value;
+    let rule = on_panels(PANELS, &gauss(POINTS));
+    let square: f64 = rule.iter().map(|[t, weight]| weight * difference(*t).powi(2)).sum();
+    let square = length * g.finite(square, a)?;
+    let region = Region::segment(segment);
+    let is_resolved = g.degree() < POINTS as f64
+        || ELLIPSES.into_iter().any(|rho| {
+            let most = g.modulus(&region, rho) + mean.value.abs();
+            region.missed(POINTS, rho, most * most) <= RESOLVED * square
+        });
+    if is_resolved {
+        return Ok(Integral { value: square, missed: 0.0 });
+    }
+    let constant = Form::constant(Shape::Segment, mean.value);
+    let integral = |_: usize, part: &Region| parts::square(g, part, &constant);
+    let [value, missed] = integral(0, &region);
+    let whole = vec![Part { of: 0, region, value, missed }];
+    let cut = refined(g, whole, MOST, |size, missed| missed <= LEFT * size, integral);
+    let [value, missed] = cut
+        .iter()
+        .fold([0.0; 2], |[value, missed], part| [value + part.value, missed + part.missed]);
+    let sum = Integral { value, missed: missed + length * mean.missed.powi(2) };
+    Ok(sum.unless(square, RESOLVED * square))
+}
+
+/// The vertex opposite of a triangle's side, the middle of a quad.
+fn opposite(cell: &Cell, side: usize) -> [f64; 2] {
+    match cell {
+        Cell::Triangle(corners) => corners[(side + 2) % 3],
+        Cell::Quad([a, b, c, d]) => [0, 1].map(|k| 0.25 * (a[k] + b[k] + c[k] + d[k])),
+    }
+}
+
+/// Where a flux or a limit has no square integral on an edge.
+pub fn pole_on_edge(problem: &Problem, edge: usize) -> Option<(Field, [f64; 2], bool)> {
+    [Field::Flux, Field::Limit].into_iter().find_map(|field| {
+        let data = Sum::on_edge(problem, edge, field, problem.time)?;
+        let (at, is_proved) = pole(&data, &Region::segment(problem.segment(edge)), 2.0)?;
+        Some((field, at, is_proved))
+    })
+}

@@ -1,0 +1,65 @@
+//! Errors of Gauss rules, and how much continuations allow for.
+
+use super::exact::{parse, square};
+use super::random::Random;
+use super::{T, TREES};
+
+/// Of integrals by Gauss points no more is missed than discs say, and of smooth data nearly nothing.
+#[test]
+fn rules_miss_no_more_than_continuations_allow() {
+    let rule = [
+        [0.069_431_844_202_973_71, 0.173_927_422_568_726_93],
+        [0.330_009_478_207_571_87, 0.326_072_577_431_273_07],
+        [0.669_990_521_792_428_1, 0.326_072_577_431_273_07],
+        [0.930_568_155_797_026_3, 0.173_927_422_568_726_93],
+    ];
+    let mut random = Random(0xd15c);
+    let mut finite = 0;
+    for _ in 0..TREES / 2 {
+        let (expression, region) = (random.expression(), random.region());
+        let value = |[a, b]: [f64; 2]| {
+            let (at, density) = match region.corners().len() {
+                2 => ([2.0 * a - 1.0, 0.0], 1.0),
+                3 => ([a * (1.0 - b) - 1.0 / 3.0, b - 1.0 / 3.0], 2.0 * (1.0 - b)),
+                _ => {
+                    let at = [2.0 * a - 1.0, 2.0 * b - 1.0];
+                    (at, region.density().at(at).middle() / region.measure())
+                }
+            };
+            let [x, y] = region.place(at);
+            region.measure() * density * expression.eval(x, y, T)
+        };
+        let on = |[a, b]: [f64; 2], [c, d]: [f64; 2]| -> f64 {
+            let points = rule.iter().flat_map(|p| rule.map(|q| (p[1] * q[1], [p[0], q[0]])));
+            points
+                .map(|(weight, [p, q])| {
+                    weight * (b - a) * (d - c) * value([a + p * (b - a), c + q * (d - c)])
+                })
+                .sum()
+        };
+        let whole = on([0.0, 1.0], [0.0, 1.0]);
+        let cut = |k: usize| [k as f64 / 8.0, (k + 1) as f64 / 8.0];
+        let parts: f64 = (0..64).map(|k| on(cut(k / 8), cut(k % 8))).sum();
+        for rho in [2.0, 4.0, 16.0] {
+            let modulus = expression.modulus(&region, rho, T);
+            if !modulus.is_finite() {
+                continue;
+            }
+            finite += usize::from(rho == 4.0);
+            let missed = region.missed(4, rho, modulus) + 1e-13 * region.measure() * modulus;
+            assert!(
+                (whole - parts).abs() <= missed,
+                "{expression}, ρ = {rho}: {whole} {parts}, {missed}"
+            );
+        }
+    }
+    assert!(finite > TREES / 10, "{finite}");
+    let smooth = parse("sin(pi*x)*exp(y)");
+    let region = square(0.25, 0.5, 0.125);
+    assert!(region.missed(8, 16.0, smooth.modulus(&region, 16.0, T)) < 1e-13 * region.measure());
+    // Beside a kink as well.
+    let branch = parse("max(x - 0.5*y, 0)*exp(y)");
+    let beside = square(0.25, 0.375, 0.125);
+    assert!(beside.missed(8, 16.0, branch.modulus(&beside, 16.0, T)) < 1e-13 * beside.measure());
+    assert_eq!(branch.modulus(&square(0.125, 0.375, 0.125), 16.0, T), f64::INFINITY);
+}
