@@ -3,6 +3,9 @@
 use signorini_kernel::Tensor;
 
 use signorini_problem::Problem;
+use signorini_problem::cell::Cell;
+use signorini_problem::pieces::{PiecePoint, Pieces};
+use signorini_problem::quadrature::Point;
 use signorini_scene::expression::Expression;
 use signorini_scene::scene::Located;
 
@@ -10,6 +13,7 @@ use signorini_scene::scene::Located;
 pub struct Conductivity<'s> {
     entries: &'s [Located<Expression>; 3],
     constant: Option<Tensor<f64>>,
+    pieces: Option<&'s Pieces>,
 }
 
 impl<'s> Conductivity<'s> {
@@ -22,12 +26,54 @@ impl<'s> Conductivity<'s> {
             (Some(xx), Some(xy), Some(yy)) => Some(Tensor { xx, xy, yy }),
             _ => None,
         };
-        Self { entries, constant }
+        Self { entries, constant, pieces: problem.coefficients.pieces.get(&cell) }
     }
 
     /// Whether A is the same all over the cell.
     pub fn is_constant(&self) -> bool {
         self.constant.is_some()
+    }
+
+    /// A on pieces of the cell, where its own points do not resolve it.
+    pub fn cut(&self) -> Option<&'s Pieces> {
+        self.pieces.filter(|pieces| !pieces.is_resolved())
+    }
+
+    /// Part of the root of an integral over the cell that its points miss, and what they leave open of what they see.
+    pub fn missed(&self) -> [f64; 2] {
+        self.pieces.map_or([0.0; 2], |pieces| [pieces.slack(), 2.0 * pieces.left])
+    }
+
+    /// ν of a cell that is not cut.
+    pub fn share(&self) -> f64 {
+        self.pieces.map_or(0.0, Pieces::share)
+    }
+
+    /// Tensors that are, each on its piece of the cell, below A.
+    pub fn floors(&self) -> Vec<Tensor<f64>> {
+        let pieces = self.pieces.map(|pieces| pieces.floors().collect());
+        self.constant.map(|a| vec![a]).or(pieces).unwrap_or_default()
+    }
+
+    /// The points of a rule on the cell, with A there; where they do not resolve A those of its pieces, with what is below A.
+    pub fn points(&self, cell: &Cell, rule: &[[f64; 2]]) -> Vec<PiecePoint> {
+        match self.cut() {
+            Some(pieces) => pieces.points(*cell).collect(),
+            None => cell.points(rule).into_iter().map(|point| self.resolved(point)).collect(),
+        }
+    }
+
+    /// A at a point of a cell that is not cut, with what is open there.
+    pub fn resolved(&self, point: Point) -> PiecePoint {
+        let a = self.at(point.x);
+        self.pieces.map_or(PiecePoint::known(point, a), |pieces| pieces.resolved(point, a))
+    }
+
+    /// A tensor above A all over the cell.
+    pub fn ceiling(&self, cell: &Cell) -> Tensor<f64> {
+        let middle = self.at(cell.middle());
+        let most = self.pieces.map_or(1.0, |pieces| pieces.most(&middle));
+        Tensor { xx: most * middle.xx, xy: most * middle.xy, yy: most * middle.yy }
     }
 
     /// A at a point.
@@ -71,4 +117,33 @@ pub fn eigenvalues(a: &Tensor<f64>) -> [f64; 2] {
     let half = 0.5 * (a.xx + a.yy);
     let largest = half + (0.5 * (a.xx - a.yy)).hypot(a.xy);
     [(a.xx / largest) * a.yy - (a.xy / largest) * a.xy, largest]
+}
+
+/// √w L of a tensor A = LLᵀ at a point of weight w.
+pub struct Root {
+    xx: f64,
+    yx: f64,
+    yy: f64,
+    /// √w
+    weight: f64,
+}
+
+impl Root {
+    /// The root of `a`, times that of the weight, `weight`.
+    pub fn of(a: &Tensor<f64>, weight: f64) -> Self {
+        let xx = a.xx.sqrt();
+        let yx = a.xy / xx;
+        Self { xx, yx, yy: (a.yy - yx * yx).max(f64::MIN_POSITIVE).sqrt(), weight }
+    }
+
+    /// √w Lᵀg
+    pub fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.weight * (self.xx * x + self.yx * y), self.weight * self.yy * y]
+    }
+
+    /// √w L⁻¹τ
+    pub fn flux(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let first = x / self.xx;
+        [self.weight * first, self.weight * (y - self.yx * first) / self.yy]
+    }
 }

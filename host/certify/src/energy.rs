@@ -1,5 +1,7 @@
 //! Energies of what is left out of the boundary data: each is weighed by A on its cell before it is called small.
 
+use signorini_kernel::Tensor;
+
 use super::cell::Cell;
 use super::conductivity::{Conductivity, product};
 use signorini_problem::Problem;
@@ -21,19 +23,27 @@ pub struct Sample {
 pub struct CellEnergy<'s> {
     cell: Cell,
     conductivity: Conductivity<'s>,
+    /// Above A, where no rule of points sees it.
+    ceiling: Option<Tensor<f64>>,
 }
 
 impl<'s> CellEnergy<'s> {
     /// The energy of cell `at`, triangles first.
     pub fn of(problem: &'s Problem, at: usize) -> Self {
-        Self { cell: Cell::of(problem, at), conductivity: Conductivity::of(problem, at) }
+        let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
+        let ceiling = conductivity.cut().map(|_| conductivity.ceiling(&cell));
+        Self { cell, conductivity, ceiling }
+    }
+
+    fn at(&self, x: [f64; 2]) -> Tensor<f64> {
+        self.ceiling.unwrap_or_else(|| self.conductivity.at(x))
     }
 
     /// The root of Σ_k ∫A∇N_k·∇N_k: what moving the values at the vertices by 1 may cost here.
     pub fn of_vertices(&self) -> f64 {
         let mut sum = 0.0;
         for point in self.cell.points(&gauss(POINTS)) {
-            let a = self.conductivity.at(point.x);
+            let a = self.at(point.x);
             let local = self.cell.local(point.reference);
             let energies = local.vertices.iter().map(|n| product(&a, n.gradient, n.gradient));
             sum += point.weight * energies.sum::<f64>();
@@ -55,7 +65,7 @@ impl<'s> CellEnergy<'s> {
                 let local = self.cell.local(self.cell.side_point(side, of.t, eta));
                 let element = self.cell.area_element(&local, eta);
                 let v = local.sides[side].extension(of.w / unit, of.slope / unit).gradient;
-                let a = self.conductivity.at(local.x);
+                let a = self.at(local.x);
                 sum += of.weight * weight * element * product(&a, v, v);
             }
         }

@@ -189,9 +189,10 @@ impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
         let chordal = self.admissible.chordal(problem, at);
         // Of this field only the flux is read, so that any numbers do for the means of u.
         let tau = CellField::new(problem, at, tau, tau);
-        let points = match U::ANYWHERE && L::ANYWHERE {
-            true => curved::points(problem, at, self.deviations, rule)?,
-            false => cell.points(rule),
+        let points = match (U::ANYWHERE && L::ANYWHERE, conductivity.cut()) {
+            (true, Some(pieces)) => pieces.points(cell).map(|of| of.point).collect(),
+            (true, None) => curved::points(problem, at, self.deviations, rule)?,
+            (false, _) => cell.points(rule),
         };
         let u = self.u.on_cell(at, &points)?;
         let is_lifted = self.deviations.of_cell(problem, at).iter().any(Option::is_some);

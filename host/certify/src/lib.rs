@@ -23,6 +23,7 @@ mod edge_flux;
 pub mod ends;
 pub mod energy;
 pub mod exact;
+mod factor;
 pub mod forest;
 mod imbalance;
 mod legendre;
@@ -38,6 +39,7 @@ mod stretch;
 pub mod term;
 #[cfg(test)]
 mod tests;
+pub mod triangular;
 pub mod weighed;
 
 pub use bound::{Certified, ErrorBound};

@@ -1,6 +1,6 @@
 //! A in reference coordinates, as the kernel's certificate takes it ([`signorini_bound::certificate`]).
 
-use signorini_bound::certificate::{POINTS, of_quad, of_triangle};
+use signorini_bound::certificate::{Above, Factor, POINTS, of_quad, of_triangle};
 use signorini_bound::prepare::{is_parallelogram, is_told};
 use signorini_kernel::element::QuadElement;
 use signorini_kernel::element::nonparametric::axes;
@@ -8,6 +8,7 @@ use signorini_kernel::element::rannacher_turek::place;
 use signorini_kernel::{Real, Tensor};
 
 use super::conductivity::Conductivity;
+use super::factor::factor;
 use signorini_problem::quadrature::{DATA_POINTS, on_quad, on_triangle};
 use signorini_problem::scalar::{Scalar, narrowed};
 use signorini_problem::{Problem, QuadCoefficient};
@@ -23,9 +24,12 @@ pub type Points<R> = [Tensor<R>; POINTS * POINTS];
 pub struct Metric<R: Scalar> {
     compliance: Vec<R>,
     at_points: Vec<Points<R>>,
+    factors: Vec<Factor<R>>,
+    above: Vec<Above<R>>,
     place: Vec<u32>,
     distortions: Vec<[R; 2]>,
     alpha: Vec<R>,
+    slack: f64,
 }
 
 impl<R: Scalar> Metric<R> {
@@ -40,16 +44,17 @@ impl<R: Scalar> Metric<R> {
         let mut metric = Self {
             compliance: compliance.collect(),
             at_points: Vec::new(),
-            place: Vec::new(),
+            factors: Vec::new(),
+            above: Vec::new(),
+            place: vec![u32::MAX; problem.cells()],
             distortions: distortions(problem),
-            alpha: Vec::new(),
+            alpha: (0..problem.cells()).map(|at| R::narrow(half_trace(problem, at))).collect(),
+            slack: 0.0,
         };
         for cell in 0..problem.cells() {
-            let points = metric.varying(problem, cell);
-            metric.place.push(points.as_ref().map_or(u32::MAX, |_| metric.at_points.len() as u32));
-            metric.at_points.extend(points);
-            metric.alpha.push(R::narrow(half_trace(problem, cell)));
+            metric.add(problem, cell);
         }
+        metric.cut(problem);
         metric
     }
 
@@ -57,6 +62,8 @@ impl<R: Scalar> Metric<R> {
     pub fn view(&self) -> signorini_bound::certificate::Metric<'_, R> {
         signorini_bound::certificate::Metric {
             at_points: &self.at_points,
+            factors: &self.factors,
+            above: &self.above,
             place: &self.place,
             distortions: &self.distortions,
         }
@@ -70,6 +77,43 @@ impl<R: Scalar> Metric<R> {
     /// ½ tr A of every cell, triangles first.
     pub fn alpha(&self) -> &[R] {
         &self.alpha
+    }
+
+    /// Part of a bound that rules in pieces may miss of it, see [`Pieces`](signorini_problem::pieces::Pieces).
+    pub fn slack(&self) -> f64 {
+        self.slack
+    }
+
+    /// Adds B at the points of a cell where it varies, and what A has above what the points see.
+    fn add(&mut self, problem: &Problem, cell: usize) {
+        let pieces = problem.coefficients.pieces.get(&cell);
+        if pieces.is_some_and(|pieces| !pieces.is_resolved()) {
+            return;
+        }
+        let Some(points) = self.varying(problem, cell) else { return };
+        self.place[cell] = self.at_points.len() as u32;
+        self.at_points.push(points);
+        // ‖A^{−½}(τ − A∇s)‖ ≤ √(1 + ν) of what the points see and 2ν‖A^½∇s‖.
+        let share = pieces.map_or(0.0, |pieces| pieces.share());
+        self.above.push([4.0 * share * share, 0.0].map(R::narrow));
+        self.slack = self.slack.max(pieces.map_or(0.0, |pieces| pieces.slack()));
+    }
+
+    /// Adds the factors of the cells whose points do not resolve A.
+    fn cut(&mut self, problem: &Problem) {
+        for (&cell, pieces) in problem.coefficients.pieces.iter() {
+            if pieces.is_resolved() {
+                continue;
+            }
+            let (factor, above) = factor(problem, cell, pieces);
+            self.place[cell] = (self.at_points.len() + self.factors.len()) as u32;
+            self.factors.push(factor.map(R::narrow));
+            self.above.push(above.map(R::narrow));
+            self.slack = self.slack.max(pieces.slack());
+        }
+        if self.above.iter().all(|above| *above == [R::ZERO; 2]) {
+            self.above.clear();
+        }
     }
 
     /// B at the points, where it is not the same in the whole cell.

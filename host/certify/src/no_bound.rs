@@ -8,6 +8,7 @@ use super::cell::Cell;
 use super::curved::{Curved, Rough};
 use super::ends::Ends;
 use super::robin::RobinPoints;
+use signorini_problem::pieces::Pieces;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Problem, excess_within_ranges};
 use signorini_scene::scene::{Field, Input};
@@ -27,7 +28,7 @@ impl NoBound {
     }
 
     /// Reasons that [`NoBound::of_data`] may find, for callers that have not kept it.
-    pub const OF_DATA: &str = "u_D jumps between two edges, u_D or ψ jumps inside one, a transfer coefficient nearly vanishes, or an input without a range changes the range of a contact flux that varies along an edge";
+    pub const OF_DATA: &str = "u_D jumps between two edges, u_D or ψ jumps inside one, a transfer coefficient nearly vanishes, A is not proved to be positive definite, or an input without a range changes the range of a contact flux that varies along an edge";
 
     /// Why these data allow for no bound, whatever the iterate.
     pub fn of_data(
@@ -39,7 +40,7 @@ impl NoBound {
         let rough = || curved.iter().find_map(|edge| Self::rough(problem, edge));
         let jump = || ends.jump(problem).map(|jump| Self::values_differ(problem, jump));
         let vanishes = || Self::transfer_vanishes(problem, transfer);
-        rough().or_else(jump).or_else(vanishes)
+        rough().or_else(jump).or_else(vanishes).or_else(|| Self::not_definite(problem))
     }
 
     /// u_D has two values where two Dirichlet edges meet.
@@ -102,6 +103,15 @@ impl NoBound {
              around {}: the bound divides by it where it nearly vanishes",
             boundary(problem, edge),
             middle(problem, edge)
+        )))
+    }
+
+    /// A is not proved to be positive definite and bounded somewhere.
+    fn not_definite(problem: &Problem) -> Option<Self> {
+        let at = problem.coefficients.pieces.values().find_map(Pieces::unproved)?;
+        Some(Self(format!(
+            "A is not proved to be bounded and positive definite near {}: nothing tells the energy there",
+            place(at)
         )))
     }
 

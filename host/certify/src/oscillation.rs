@@ -135,7 +135,13 @@ fn squares(problem: &Problem, f: &Sum, weights: &[f64]) -> Result<Vec<Integral>>
     let all = squares.iter().zip(weights);
     let known: f64 = all.map(|(of, weight)| of.value * weight * weight).sum();
     let is_enough = |size: f64, missed: f64| missed <= LEFT * size.max(known);
-    let parts = refined(f, whole.collect(), MOST + EACH * open.len(), is_enough, deviation);
+    let parts = refined(
+        |region| f.switch(region),
+        whole.collect(),
+        MOST + EACH * open.len(),
+        is_enough,
+        deviation,
+    );
     let mut sums = vec![Integral { value: 0.0, missed: 0.0 }; open.len()];
     for part in parts {
         let (sum, weight) = (&mut sums[part.of], weights[open[part.of]].powi(2));

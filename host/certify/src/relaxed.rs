@@ -17,6 +17,7 @@ use signorini_kernel::Real;
 use super::admissible::Admissible;
 use super::conductivity::{Conductivity, apply, dot, product};
 use signorini_problem::cell::Cell;
+use signorini_problem::pieces::PiecePoint;
 use signorini_problem::quadrature::{DATA_POINTS, gauss};
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{EdgeKind, Problem};
@@ -127,8 +128,8 @@ impl Quadratic {
         let (s, places) = (fields.chordal(problem, at), places(problem, at));
         let (corners, count) = (problem.vertices_of(at).len(), places.len());
         let (mut k, mut of_s) = ([[0.0; 8]; 8], [0.0; 8]);
-        for point in cell.points(rule) {
-            let (a, local) = (conductivity.at(point.x), cell.local(point.reference));
+        for PiecePoint { point, below: a, .. } in conductivity.points(&cell, rule) {
+            let local = cell.local(point.reference);
             let flux = apply(&a, s.at(&local).gradient);
             let bubbles = local.sides.iter().map(|side| side.bubble().gradient);
             let vertices = local.vertices[..corners].iter().map(|of| of.gradient);

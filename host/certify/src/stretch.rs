@@ -25,16 +25,15 @@ pub fn is_even(problem: &Problem, at: usize) -> bool {
     ratio <= even || ratio.is_nan()
 }
 
-/// A tensor below A all over a cell, triangles first: A itself where it is constant, else a part of A in the middle that is below
-/// A at the points of a rule.
-pub fn floor(problem: &Problem, at: usize, rule: &[[f64; 2]]) -> Tensor<f64> {
-    let (cell, a) = (Cell::of(problem, at), Conductivity::of(problem, at));
-    let middle = a.at(cell.middle());
+/// A tensor below A all over a cell, triangles first: A itself where it is constant, else a part of A in the middle.
+pub fn floor(problem: &Problem, at: usize) -> Tensor<f64> {
+    let a = Conductivity::of(problem, at);
+    let middle = a.at(Cell::of(problem, at).middle());
     if a.is_constant() {
         return middle;
     }
-    let points = cell.points(rule).into_iter();
-    let parts = points.map(|point| smallest_eigenvalue(&relative(&a.at(point.x), &middle)));
+    let floors = a.floors().into_iter();
+    let parts = floors.map(|floor| smallest_eigenvalue(&relative(&floor, &middle)));
     let part = parts.fold(1.0, f64::min);
     Tensor { xx: part * middle.xx, xy: part * middle.xy, yy: part * middle.yy }
 }

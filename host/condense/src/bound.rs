@@ -6,11 +6,11 @@
 //! ```
 //! with the means of the positive and the negative part of s − ψ over edge i.
 
-use super::block::norm;
 use super::ends::nearest;
 use super::evaluate::dot;
 use super::factor::column;
 use super::{CondensedModel, Corner, Form};
+use signorini_certify::triangular::norm;
 use signorini_kernel::excess::Excess;
 use signorini_kernel::flux_range::{FluxRange, Span};
 

@@ -9,9 +9,10 @@
 use signorini_kernel::Real;
 use signorini_kernel::mesh::boundary::Robin;
 
-use super::block::{Block, Functions, triangular};
+use super::block::{Block, Functions};
 use signorini_certify::TermData;
 use signorini_certify::robin::{RobinPoints, robin};
+use signorini_certify::triangular::triangular;
 use signorini_problem::Problem;
 use signorini_problem::quadrature::DATA_POINTS;
 use signorini_scene::error::Result;

@@ -8,18 +8,18 @@
 
 use std::collections::BTreeSet;
 
-use signorini_kernel::Tensor;
-
-use super::block::{Block, Functions, triangular};
+use super::block::{Block, Functions};
 use super::chain::is_left_out;
 use super::laws::{Laws, of_law, of_robin, transfer};
 use signorini_certify::TermData;
 use signorini_certify::cell::{Cell, Local};
-use signorini_certify::conductivity::Conductivity;
+use signorini_certify::conductivity::{Conductivity, Root};
 use signorini_certify::curved::{FINE, POINTS, between_smooth_rays, of_rough_sides};
 use signorini_certify::deviation::Deviations;
+use signorini_certify::triangular::triangular;
 use signorini_problem::Problem;
 use signorini_problem::field::CellField;
+use signorini_problem::pieces::PiecePoint;
 use signorini_problem::quadrature::{DATA_POINTS, Point, gauss, on_panels};
 use signorini_scene::error::Result;
 
@@ -95,6 +95,36 @@ enum Of {
     Means,
 }
 
+/// A column's part at a point.
+enum Entry {
+    Gradient([f64; 2]),
+    Flux([f64; 2]),
+}
+
+impl Entry {
+    /// Rows at a point, and those of what A has above what it is taken for: with m the part of either that is `left` open,
+    /// ```text
+    ///   ‖A^{−½}(τ − A∇s)‖² ≤ (1 + m) ‖p^{−½}(τ − p∇s)‖² + (1 + 1/m) ‖N′^½∇s‖²,   ‖A^½∇(s − u_h)‖² ≤ ‖p^½·‖² + ‖N^½·‖²
+    /// ```
+    fn rows(&self, at: &PiecePoint, of: Of, [slack, left]: [f64; 2]) -> Vec<f64> {
+        let weight = at.point.weight.sqrt() * (1.0 + slack);
+        let (seen, open) = match of {
+            _ if left == 0.0 => (weight, 0.0),
+            Of::Fluxes => {
+                (weight * (1.0 + left).sqrt(), weight * (at.share * (1.0 + 1.0 / left)).sqrt())
+            }
+            Of::Means => (weight, weight),
+        };
+        let root = Root::of(&at.below, seen);
+        let (known, v) = match *self {
+            Self::Gradient(v) => (root.gradient(v), v),
+            Self::Flux(tau) => (root.flux(tau), [0.0; 2]),
+        };
+        let beyond = [0, 1].map(|k| open * at.above[k].sqrt() * v[k]);
+        if left == 0.0 { known.to_vec() } else { [known, beyond].concat() }
+    }
+}
+
 fn of_cell(
     problem: &Problem,
     at: usize,
@@ -123,28 +153,34 @@ fn of_cell(
     let mut columns = vec![Vec::new(); width];
     let rough = of_rough_sides(problem, at, deviations, &gauss(POINTS))?;
     let smooth = || points(&cell, points_for(&cell, &conductivity), &curved);
-    for (reference, weight) in rough.unwrap_or_else(smooth) {
+    let seen = |(reference, weight): ([f64; 3], f64)| {
         let local = cell.local(reference);
-        let root = Root::of(&conductivity.at(local.x), (weight * local.determinant).sqrt());
-        let mut column = columns.iter_mut();
-        let mut push = |row: [f64; 2]| column.next().into_iter().for_each(|to| to.extend(row));
-        for vertex in &local.vertices[..vertices.len()] {
-            push(root.gradient(vertex.gradient));
-        }
-        for &(side, _) in &bubbles {
-            push(root.gradient(local.sides[side].bubble().gradient));
-        }
-        let point = Point { x: local.x, reference, weight: 0.0 };
-        for field in &fields {
+        conductivity.resolved(Point { x: local.x, reference, weight: weight * local.determinant })
+    };
+    let points: Vec<_> = match conductivity.cut() {
+        Some(pieces) => pieces.points(cell).collect(),
+        None => rough.unwrap_or_else(smooth).into_iter().map(seen).collect(),
+    };
+    let missed = conductivity.missed();
+    for at in points {
+        let (point, local) = (at.point, cell.local(at.point.reference));
+        let vertices =
+            local.vertices[..vertices.len()].iter().map(|of| Entry::Gradient(of.gradient));
+        let bubbles = bubbles.iter().map(|&(side, _)| local.sides[side].bubble().gradient);
+        let fields = fields.iter().map(|field| {
             let sample = field.sample(&point);
-            let taken = match of {
-                Of::Fluxes => root.flux(sample.flux),
-                Of::Means => root.gradient(sample.gradient),
-            };
-            push(taken.map(|part| -part));
-        }
+            match of {
+                Of::Fluxes => Entry::Flux(sample.flux.map(|x| -x)),
+                Of::Means => Entry::Gradient(sample.gradient.map(|x| -x)),
+            }
+        });
+        let mut entries: Vec<_> =
+            vertices.chain(bubbles.map(Entry::Gradient)).chain(fields).collect();
         for of_pattern in deviations {
-            push(root.gradient(extension(&local, of_pattern, edges, &curved)?));
+            entries.push(Entry::Gradient(extension(&local, of_pattern, edges, &curved)?));
+        }
+        for (column, entry) in columns.iter_mut().zip(entries) {
+            column.extend(entry.rows(&at, of, missed));
         }
     }
     let bubbles = bubbles.iter().map(|&(_, function)| function);
@@ -196,34 +232,6 @@ fn extension(
         sum = [sum[0] + gradient[0], sum[1] + gradient[1]];
     }
     Ok(sum)
-}
-
-/// √w L, for A = LLᵀ.
-struct Root {
-    xx: f64,
-    yx: f64,
-    yy: f64,
-    /// √w
-    weight: f64,
-}
-
-impl Root {
-    fn of(a: &Tensor<f64>, weight: f64) -> Self {
-        let xx = a.xx.sqrt();
-        let yx = a.xy / xx;
-        Self { xx, yx, yy: (a.yy - yx * yx).max(f64::MIN_POSITIVE).sqrt(), weight }
-    }
-
-    /// √w Lᵀg
-    fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [self.weight * (self.xx * x + self.yx * y), self.weight * self.yy * y]
-    }
-
-    /// √w L⁻¹τ
-    fn flux(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let first = x / self.xx;
-        [self.weight * first, self.weight * (y - self.yx * first) / self.yy]
-    }
 }
 
 /// Points a direction that a cell needs where its boundary data are affine; gradients of bubbles are

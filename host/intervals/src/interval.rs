@@ -105,7 +105,7 @@ impl Known<'_> {
         let (problem, contact, mut weights) = (self.problem, &self.contact, weights.clone());
         let differ = keep(problem, goal, contact, part, takes_least, &mut weights);
         let left = left(problem, goal, contact, &weights);
-        let Products { residual, weights: apart, both, sizes } =
+        let Products { residual, weights: apart, both, off, sizes } =
             self.residual.with(goal, &weights)?;
         let ErrorBound { total, oscillation, rounding, .. } = self.bound;
         let middle = (0.5 * total * total - 0.25 * residual).max(0.0).sqrt();
@@ -115,7 +115,8 @@ impl Known<'_> {
         let most_z = weights.vertices.iter().fold(0.0_f64, |most, z| most.max(z.abs()));
         let rest = (oscillation + rounding + self.rounding() * total) * sizes
             + self.doubt * most_z
-            + goal.beside * total;
+            + goal.beside * total
+            + 0.5 * off;
         let [low, high] = [left.loose[0] - less - rest, left.loose[1] + more + rest];
         let ends = [0.5 * both + low, 0.5 * both + high];
         Ok((Braces { ends, part: distance / (2.0 * middle) }, differ))

@@ -17,19 +17,22 @@ use signorini_certify::robin::robin;
 use signorini_kernel::Real;
 use signorini_problem::Problem;
 use signorini_problem::field::CellField;
-use signorini_problem::quadrature::{DATA_POINTS, Point, gauss};
+use signorini_problem::pieces::PiecePoint;
+use signorini_problem::quadrature::{DATA_POINTS, gauss};
 use signorini_problem::threads::in_portions;
 use signorini_scene::error::Result;
 
 /// Squares and products.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Products {
-    /// ⟨r, r⟩
+    /// ⟨r, r⟩, or less
     pub residual: f64,
-    /// ⟨ζ − A∇z, ζ − A∇z⟩
+    /// ⟨ζ − A∇z, ζ − A∇z⟩, or more
     pub weights: f64,
     /// ⟨r, ζ + A∇z⟩
     pub both: f64,
+    /// By how much that may be off where A is taken for p ≤ A.
+    pub off: f64,
     /// ⟨A∇z, A∇z⟩ and ⟨ζ, ζ⟩
     pub sizes: [f64; 2],
 }
@@ -39,24 +42,27 @@ pub(super) struct Residual<'p> {
     problem: &'p Problem,
     s: Admissible<'p>,
     deviations: &'p Deviations<'p>,
-    /// Points of the cells in which s follows data, with A∇s there: these take long to evaluate.
-    lifted: BTreeMap<usize, Vec<(Point, [f64; 2])>>,
+    /// Points of the cells in which s follows data, with ∇s there: these take long to evaluate.
+    lifted: BTreeMap<usize, Vec<(PiecePoint, [f64; 2])>>,
 }
 
-/// The points of a cell in which s follows data, with A∇s at each.
+/// The points of a cell in which s follows data, with ∇s at each.
 fn gradients(
     problem: &Problem,
     s: &Admissible,
     deviations: &Deviations,
     at: usize,
-) -> Result<Vec<(Point, [f64; 2])>> {
+) -> Result<Vec<(PiecePoint, [f64; 2])>> {
     let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
     let s = s.on_cell(problem, at, deviations);
-    let points = curved::points_along_sides(problem, at, deviations, &gauss(curved::POINTS))?;
-    let along = |point: Point| {
-        let gradient = s.at(&cell.local(point.reference))?.gradient;
-        Ok((point, apply(&conductivity.at(point.x), gradient)))
+    let points = match conductivity.cut() {
+        Some(pieces) => pieces.points(cell).collect(),
+        None => curved::points_along_sides(problem, at, deviations, &gauss(curved::POINTS))?
+            .into_iter()
+            .map(|point| conductivity.resolved(point))
+            .collect::<Vec<_>>(),
     };
+    let along = |of: PiecePoint| Ok((of, s.at(&cell.local(of.point.reference))?.gradient));
     points.into_iter().map(along).collect()
 }
 
@@ -90,17 +96,46 @@ impl<T: Copy> Fluxes<T> {
             residual: inner(residual, residual),
             weights: of_zeta - 2.0 * inner(zeta, gradient) + of_gradient,
             both: inner(residual, zeta) + inner(residual, gradient),
+            off: 0.0,
             sizes: [of_gradient, of_zeta],
         }
     }
 }
 
 impl Products {
+    fn times(self, by: f64) -> Self {
+        let Self { residual, weights, both, off, sizes } = self;
+        let [residual, weights, both, off] = [residual, weights, both, off].map(|x| by * x);
+        Self { residual, weights, both, off, sizes: sizes.map(|x| by * x) }
+    }
+
+    /// These at a point where A is no more than p + N, with p in them: r differs by (A − p)∇s then, and
+    /// ```text
+    ///   |A^{−½}(A − p)v| ≤ |N′^½v|,   p⁻¹/(1 + ν) ≤ A⁻¹ ≤ p⁻¹
+    /// ```
+    fn beside(self, of: &PiecePoint, [along_s, along_z]: [[f64; 2]; 2]) -> Self {
+        if of.share == 0.0 {
+            return self;
+        }
+        let [by_s, by_z] = [along_s, along_z].map(|v| of.open(v));
+        let beyond = PiecePoint { share: 1.0, ..*of }.open(along_z);
+        let [of_z, of_zeta] = self.sizes.map(f64::sqrt);
+        let (residual, sum) = (self.residual.sqrt(), of_zeta + of_z);
+        Self {
+            residual: (residual / (1.0 + of.share).sqrt() - by_s).max(0.0).powi(2),
+            weights: (self.weights.sqrt() + by_z).powi(2),
+            off: of.share * residual * sum + by_s * sum + residual * by_z + by_s * by_z,
+            sizes: [(of_z + beyond).powi(2), self.sizes[1]],
+            ..self
+        }
+    }
+
     fn and(self, other: Self) -> Self {
         Self {
             residual: self.residual + other.residual,
             weights: self.weights + other.weights,
             both: self.both + other.both,
+            off: self.off + other.off,
             sizes: [0, 1].map(|at| self.sizes[at] + other.sizes[at]),
         }
     }
@@ -156,25 +191,26 @@ impl<'p> Residual<'p> {
         let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
         let z_here = z.chordal(problem, at);
         let [tau, zeta] = [self.s.tau, z.tau].map(|flux| CellField::new(problem, at, flux, flux));
-        let mut add = |point: &Point, along_s: [f64; 2]| {
-            let (local, a) = (cell.local(point.reference), conductivity.at(point.x));
-            let tau = tau.sample(point).flux;
+        let mut add = |of: &PiecePoint, along_s: [f64; 2]| {
+            let (point, a, local) = (&of.point, &of.below, cell.local(of.point.reference));
+            let (tau, along_z) = (tau.sample(point).flux, z_here.at(&local).gradient);
+            let flux = apply(a, along_s);
             let here = Fluxes {
-                residual: [tau[0] - along_s[0], tau[1] - along_s[1]],
+                residual: [tau[0] - flux[0], tau[1] - flux[1]],
                 zeta: zeta.sample(point).flux,
-                gradient: apply(&a, z_here.at(&local).gradient),
+                gradient: apply(a, along_z),
             };
-            let inverse = inverse(&a);
-            *sum = sum.and(here.products(|a, b| point.weight * dot(apply(&inverse, a), b)));
+            let inverse = inverse(a);
+            let seen = here.products(|a, b| dot(apply(&inverse, a), b));
+            *sum = sum.and(seen.beside(of, [along_s, along_z]).times(point.weight));
         };
         if let Some(lifted) = self.lifted.get(&at) {
             lifted.iter().for_each(|(point, along_s)| add(point, *along_s));
             return;
         }
         let s = self.s.chordal(problem, at);
-        for point in cell.points(&gauss(points(&cell, &conductivity))) {
-            let gradient = s.at(&cell.local(point.reference)).gradient;
-            add(&point, apply(&conductivity.at(point.x), gradient));
+        for of in conductivity.points(&cell, &gauss(points(&cell, &conductivity))) {
+            add(&of, s.at(&cell.local(of.point.reference)).gradient);
         }
     }
 

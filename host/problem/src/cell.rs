@@ -20,6 +20,7 @@ use signorini_kernel::mesh::geometry::{doubled_area, scaled_normal};
 
 use crate::Problem;
 use crate::quadrature::{Point, on_quad, on_triangle};
+use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::shape::edge_length;
 
 /// A value and its gradient at a point.
@@ -91,7 +92,11 @@ impl SideCoordinates {
 impl Cell {
     /// Cell `cell` of the mesh, triangles first.
     pub fn of(problem: &Problem, cell: usize) -> Self {
-        let mesh = &problem.mesh;
+        Self::in_mesh(&problem.mesh, cell)
+    }
+
+    /// Cell `cell` of a mesh, triangles first.
+    pub fn in_mesh(mesh: &Mesh, cell: usize) -> Self {
         let corner = |vertex: u32| mesh.vertices[vertex as usize];
         match mesh.triangles.get(cell) {
             Some(vertices) => Self::Triangle(vertices.map(corner)),
@@ -150,6 +155,21 @@ impl Cell {
         let Self::Quad([a, b, c, d]) = self else { return 0.0 };
         let distortion = [0, 1].map(|k| (a[k] - b[k]) + (c[k] - d[k]));
         distortion[0].hypot(distortion[1])
+    }
+
+    /// Reference coordinates of a point.
+    pub fn reference(&self, x: [f64; 2]) -> [f64; 3] {
+        match *self {
+            Self::Triangle([a, b, c]) => {
+                let whole = doubled_area(a, b, c);
+                let parts = [doubled_area(x, b, c), doubled_area(a, x, c), doubled_area(a, b, x)];
+                parts.map(|part| part / whole)
+            }
+            Self::Quad(corners) => {
+                let [x, y] = inverse_bilinear(corners, x);
+                [x, y, 0.0]
+            }
+        }
     }
 
     /// The points of a one-dimensional rule's square on it.
@@ -248,4 +268,26 @@ fn quad(corners: [[f64; 2]; 4], [x, y]: [f64; 2]) -> Local {
         determinant: place.determinant,
         x: place.x,
     }
+}
+
+/// F⁻¹ on a convex quad by Newton's iteration from the middle; far outside it may not converge, and
+/// then returns a point outside.
+fn inverse_bilinear(corners: [[f64; 2]; 4], x: [f64; 2]) -> [f64; 2] {
+    let [a, b, c, d] = corners;
+    let mut at = [0.5; 2];
+    for _ in 0..30 {
+        let here = rannacher_turek::place(corners, at).x;
+        let along = |k: usize, t: f64| (b[k] - a[k]) * (1.0 - t) + (c[k] - d[k]) * t;
+        let across = |k: usize, s: f64| (d[k] - a[k]) * (1.0 - s) + (c[k] - b[k]) * s;
+        let (sx, sy) = (along(0, at[1]), along(1, at[1]));
+        let (tx, ty) = (across(0, at[0]), across(1, at[0]));
+        let (rx, ry) = (x[0] - here[0], x[1] - here[1]);
+        let determinant = sx * ty - sy * tx;
+        let step = [(rx * ty - ry * tx) / determinant, (sx * ry - sy * rx) / determinant];
+        at = [at[0] + step[0], at[1] + step[1]];
+        if step[0].abs().max(step[1].abs()) < 1e-14 || !at[0].is_finite() {
+            break;
+        }
+    }
+    at
 }

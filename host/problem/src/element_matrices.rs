@@ -12,6 +12,8 @@ use signorini_kernel::{Error, Real, Tensor};
 
 use super::Problem;
 use super::integrals::{Integrated, QuadCoefficient};
+use crate::cell::Cell;
+use crate::pieces::Pieces;
 use crate::quadrature::DATA_POINTS;
 use crate::scalar::{Scalar, UnitBox};
 
@@ -75,9 +77,12 @@ impl Integrated {
         let quads = quads.enumerate().map(|(at, (cell, coefficient))| {
             let corners = in_box.quad(cell);
             obliqueness.push(of_quad(corners, problem.mean_conductivity(triangles.len() + at)));
-            match coefficient {
-                QuadCoefficient::Constant(a) => problem.element.stiffness(corners, rule, |_, _| *a),
-                QuadCoefficient::AtPoints(tensors) => {
+            match (coefficient, problem.coefficients.cut(triangles.len() + at)) {
+                (_, Some(pieces)) => on_pieces(problem, triangles.len() + at, pieces),
+                (QuadCoefficient::Constant(a), _) => {
+                    problem.element.stiffness(corners, rule, |_, _| *a)
+                }
+                (QuadCoefficient::AtPoints(tensors), _) => {
                     problem.element.stiffness(corners, rule, |point, _| tensors[point])
                 }
             }
@@ -85,6 +90,24 @@ impl Integrated {
         let quads = quads.collect();
         Ok(Self { triangles, quads, obliqueness })
     }
+}
+
+/// The sides of the entries of the matrix of a quad.
+const PAIRS: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
+
+/// K_T of a quad by the points of its pieces.
+fn on_pieces(problem: &Problem, at: usize, pieces: &Pieces) -> [f64; 6] {
+    let mut k = [0.0; 6];
+    let Cell::Quad(corners) = Cell::of(problem, at) else { return k };
+    for piece in pieces.points(Cell::Quad(corners)) {
+        let ([x, y, _], a) = (piece.point.reference, piece.middle());
+        let unit = |side: usize| std::array::from_fn(|other| f64::from(u8::from(other == side)));
+        let slopes = [0, 1, 2, 3].map(|k| problem.element.gradient(corners, [x, y], unit(k)));
+        for (entry, [i, j]) in k.iter_mut().zip(PAIRS) {
+            *entry += piece.point.weight * a.apply(slopes[i]).dot(&slopes[j]);
+        }
+    }
+    k
 }
 
 /// How oblique A is in a triangle: the terms of 4 det A = ab + bc + ca, with the negative entries a, b, c of the

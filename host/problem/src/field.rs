@@ -1,9 +1,9 @@
 //! u_h and σ_h inside the cells, from edge means and edge fluxes.
 
 use signorini_kernel::element::{QuadElement, crouzeix_raviart, rannacher_turek};
-use signorini_kernel::mesh::geometry::doubled_area;
 
 use crate::Problem;
+use crate::cell::Cell;
 
 /// The discrete solution on one cell.
 #[derive(Debug, Clone, Copy)]
@@ -73,17 +73,14 @@ impl CellField {
     pub fn locate(&self, x: [f64; 2]) -> Option<[f64; 3]> {
         const SLACK: f64 = 1e-12;
         match *self {
-            Self::Triangle([a, b, c], _, _) => {
-                let whole = doubled_area(a, b, c);
-                let parts = [doubled_area(x, b, c), doubled_area(a, x, c), doubled_area(a, b, x)];
-                let lambda = parts.map(|part| part / whole);
+            Self::Triangle(corners, ..) => {
+                let lambda = Cell::Triangle(corners).reference(x);
                 lambda.iter().all(|&part| part >= -SLACK).then_some(lambda)
             }
             Self::Quad(corners, ..) => {
-                let reference = inverse_bilinear(corners, x);
-                let inside = |t: f64| (-SLACK..=1.0 + SLACK).contains(&t);
-                let [s, t] = reference;
-                (inside(s) && inside(t)).then_some([s, t, 0.0])
+                let reference = Cell::Quad(corners).reference(x);
+                let inside = |t: &f64| (-SLACK..=1.0 + SLACK).contains(t);
+                reference.iter().all(inside).then_some(reference)
             }
         }
     }
@@ -135,28 +132,6 @@ impl CellField {
         // The brackets add up to the surplus, so that the mean may be left out: less cancels.
         means.iter().zip(fluxes).map(|(u, out)| (u - mean) * (out + share)).sum()
     }
-}
-
-/// F⁻¹ on a convex quad by Newton's iteration from the middle; far outside it may not converge, and
-/// then returns a point outside.
-fn inverse_bilinear(corners: [[f64; 2]; 4], x: [f64; 2]) -> [f64; 2] {
-    let [a, b, c, d] = corners;
-    let mut at = [0.5; 2];
-    for _ in 0..30 {
-        let here = rannacher_turek::place(corners, at).x;
-        let along = |k: usize, t: f64| (b[k] - a[k]) * (1.0 - t) + (c[k] - d[k]) * t;
-        let across = |k: usize, s: f64| (d[k] - a[k]) * (1.0 - s) + (c[k] - b[k]) * s;
-        let (sx, sy) = (along(0, at[1]), along(1, at[1]));
-        let (tx, ty) = (across(0, at[0]), across(1, at[0]));
-        let (rx, ry) = (x[0] - here[0], x[1] - here[1]);
-        let determinant = sx * ty - sy * tx;
-        let step = [(rx * ty - ry * tx) / determinant, (sx * ry - sy * rx) / determinant];
-        at = [at[0] + step[0], at[1] + step[1]];
-        if step[0].abs().max(step[1].abs()) < 1e-14 || !at[0].is_finite() {
-            break;
-        }
-    }
-    at
 }
 
 fn dot<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {

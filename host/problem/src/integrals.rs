@@ -1,12 +1,15 @@
 //! The coefficient A over the cells: means on triangles, Gauss-point values on quads, and what they make of the cells.
 
+use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use signorini_kernel::{Error as KernelError, Real, Tensor};
 
 use super::{Binding, Problem};
 use crate::cell::Cell;
-use crate::quadrature::{DATA_POINTS, Point, TRIANGLE_POINTS, on_quad, on_triangle};
+use crate::pieces::Pieces;
+use crate::quadrature::{DATA_POINTS, Point, TRIANGLE_POINTS, on_quad};
+use crate::threads::in_portions;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::{Material, Scene};
@@ -18,8 +21,17 @@ pub struct Coefficients {
     pub triangles: Vec<Tensor<f64>>,
     /// Constant quads have one tensor, others the 8×8 quadrature points of theirs.
     pub quads: Vec<QuadCoefficient>,
+    /// A on the pieces of cells in which it varies, triangles first.
+    pub pieces: BTreeMap<usize, Pieces>,
     /// Element matrices that follow, once somebody asks.
     pub(super) matrices: OnceLock<std::result::Result<Integrated, KernelError>>,
+}
+
+impl Coefficients {
+    /// The pieces of a cell whose own points do not resolve A.
+    pub fn cut(&self, cell: usize) -> Option<&Pieces> {
+        self.pieces.get(&cell).filter(|pieces| !pieces.is_resolved())
+    }
 }
 
 /// A on one quad.
@@ -52,27 +64,43 @@ pub(super) struct Integrated {
 
 /// Evaluates and checks A on every cell.
 pub(super) fn coefficients(scene: &Scene, mesh: &Mesh, binding: &Binding) -> Result<Coefficients> {
-    let corners = |vertex: u32| mesh.vertices[vertex as usize];
     let constants =
         scene.materials.iter().map(|m| constant(scene, m)).collect::<Result<Vec<_>>>()?;
-    let triangles = mesh.triangles.iter().enumerate().map(|(cell, vertices)| {
-        let material = binding.materials[cell] as usize;
-        match constants[material] {
-            Some(tensor) => Ok(tensor),
-            None => mean(scene, &scene.materials[material], vertices.map(corners)),
+    let of_cell = |at: usize| binding.materials[at] as usize;
+    let varying: Vec<usize> =
+        (0..binding.materials.len()).filter(|&at| constants[of_cell(at)].is_none()).collect();
+    let pieces = in_portions(varying.len(), |portion| {
+        let of = |&at: &usize| {
+            let material = &scene.materials[of_cell(at)];
+            let pieces = Pieces::new(material, Cell::in_mesh(mesh, at), varying.len());
+            // Where it is none, that is told with the point.
+            let unproved = pieces.unproved().map(|x| at_point(scene, material, x)).transpose();
+            unproved.map(|_| (at, pieces))
+        };
+        varying[portion].iter().map(of).collect::<Result<Vec<_>>>()
+    })?;
+    let pieces: BTreeMap<usize, Pieces> = pieces.into_iter().flatten().collect();
+    let triangles = mesh.triangles.iter().enumerate().map(|(at, _)| {
+        let material = of_cell(at);
+        match (constants[material], pieces.get(&at)) {
+            (Some(tensor), _) => Ok(tensor),
+            (_, Some(pieces)) if !pieces.is_resolved() => Ok(pieces.mean(Cell::in_mesh(mesh, at))),
+            _ => mean(scene, &scene.materials[material], Cell::in_mesh(mesh, at)),
         }
     });
-    let triangles = triangles.collect::<Result<_>>()?;
+    let triangles = triangles.collect::<Result<Vec<_>>>()?;
     let quads = mesh.quads.iter().enumerate().map(|(at, vertices)| {
-        let material = binding.materials[mesh.triangles.len() + at] as usize;
+        let material = of_cell(triangles.len() + at);
         if let Some(tensor) = constants[material] {
             return Ok(QuadCoefficient::Constant(tensor));
         }
-        let points = on_quad(vertices.map(corners), f64::GAUSS[DATA_POINTS - 1]);
-        let tensors = points.map(|point| at_point(scene, &scene.materials[material], point));
+        let corners = vertices.map(|vertex| mesh.vertices[vertex as usize]);
+        let points = on_quad(corners, f64::GAUSS[DATA_POINTS - 1]);
+        let tensors = points.map(|point| at_point(scene, &scene.materials[material], point.x));
         Ok(QuadCoefficient::AtPoints(tensors.collect::<Result<_>>()?))
     });
-    Ok(Coefficients { triangles, quads: quads.collect::<Result<_>>()?, matrices: OnceLock::new() })
+    let quads = quads.collect::<Result<_>>()?;
+    Ok(Coefficients { triangles, quads, pieces, matrices: OnceLock::new() })
 }
 
 /// The tensor of a material whose entries are all constant.
@@ -87,9 +115,10 @@ impl Problem {
     pub fn mean_conductivity(&self, cell: usize) -> Tensor<f64> {
         let Coefficients { triangles, quads, .. } = &*self.coefficients;
         let Some(quad) = cell.checked_sub(triangles.len()) else { return triangles[cell] };
-        match &quads[quad] {
-            QuadCoefficient::Constant(tensor) => *tensor,
-            QuadCoefficient::AtPoints(tensors) => {
+        match (&quads[quad], self.coefficients.cut(cell)) {
+            (QuadCoefficient::Constant(tensor), _) => *tensor,
+            (_, Some(pieces)) => pieces.mean(Cell::of(self, cell)),
+            (QuadCoefficient::AtPoints(tensors), _) => {
                 let points = Cell::of(self, cell).points(f64::GAUSS[DATA_POINTS - 1]);
                 average(points.iter().zip(tensors).map(|(point, tensor)| (point.weight, *tensor)))
             }
@@ -97,13 +126,14 @@ impl Problem {
     }
 }
 
-fn mean(scene: &Scene, material: &Material, triangle: [[f64; 2]; 3]) -> Result<Tensor<f64>> {
-    let points = on_triangle(triangle, f64::GAUSS[TRIANGLE_POINTS - 1]);
-    let weighted = points.map(|point| Ok((point.weight, at_point(scene, material, point)?)));
+fn mean(scene: &Scene, material: &Material, cell: Cell) -> Result<Tensor<f64>> {
+    let points = cell.points(f64::GAUSS[TRIANGLE_POINTS - 1]).into_iter();
+    let weighted =
+        points.map(|Point { x, weight, .. }| Ok((weight, at_point(scene, material, x)?)));
     Ok(average(weighted.collect::<Result<Vec<_>>>()?))
 }
 
-fn average(weighted: impl IntoIterator<Item = (f64, Tensor<f64>)>) -> Tensor<f64> {
+pub(super) fn average(weighted: impl IntoIterator<Item = (f64, Tensor<f64>)>) -> Tensor<f64> {
     let mut sum = Tensor::<f64>::default();
     let mut area = 0.0;
     for (weight, tensor) in weighted {
@@ -115,10 +145,9 @@ fn average(weighted: impl IntoIterator<Item = (f64, Tensor<f64>)>) -> Tensor<f64
     Tensor { xx: sum.xx / area, xy: sum.xy / area, yy: sum.yy / area }
 }
 
-fn at_point(scene: &Scene, material: &Material, point: Point) -> Result<Tensor<f64>> {
-    let [x, y] = point.x;
+fn at_point(scene: &Scene, material: &Material, [x, y]: [f64; 2]) -> Result<Tensor<f64>> {
     let [xx, xy, yy] = material.conductivity.each_ref().map(|entry| entry.value.eval(x, y, 0.0));
-    checked(scene, material, Tensor { xx, xy, yy }, Some(point.x))
+    checked(scene, material, Tensor { xx, xy, yy }, Some([x, y]))
 }
 
 fn checked(

@@ -22,6 +22,7 @@ mod integrals;
 mod lacks;
 mod limits;
 mod loads;
+pub mod pieces;
 mod pinched;
 pub mod pointwise;
 pub mod progress;

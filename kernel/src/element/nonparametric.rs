@@ -94,8 +94,8 @@ impl<R: Real> Axes<R> {
     }
 }
 
-/// (X, Y) at reference coordinates.
-fn affine<R: Real>([w1, w2]: [R; 2], reference: [R; 2]) -> [R; 2] {
+/// (X, Y) at reference coordinates in \[0, 1\]².
+pub fn affine<R: Real>([w1, w2]: [R; 2], reference: [R; 2]) -> [R; 2] {
     let [x, y] = reference.map(|coordinate| coordinate - R::HALF);
     [x + w1 * (x * y), y + w2 * (x * y)]
 }

@@ -107,7 +107,7 @@ impl<R: Bits> Foundation<R> {
         let [of_vertices, of_edges] = weights;
         let buffers = CellBuffers { triangles, quads, of_vertices, of_edges };
         let packed = pack(mesh, edges, stiffness, &alpha, &compliance, &forest, buffers)?;
-        let metric = Metric { at_points: points, place: at, distortions: &[] };
+        let metric = Metric { at_points: points, place: at, ..Metric::default() };
         *stability = certificate::stability(
             edges,
             &packed,
@@ -133,7 +133,7 @@ impl<R: Bits> Foundation<R> {
             edges,
             stiffness: Stiffness { triangles: &self.stiffness.0, quads: &self.stiffness.1 },
             cells: Cells::new(&self.triangles, &self.quads, of_vertices, of_edges, &forest)?,
-            metric: Metric { at_points: &self.points, place: &self.place, distortions: &[] },
+            metric: Metric { at_points: &self.points, place: &self.place, ..Metric::default() },
             stability: self.stability,
         })
     }

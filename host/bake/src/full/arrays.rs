@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use signorini_bound::cells::{Cells, Quad, Triangle};
-use signorini_bound::certificate::{Discretization, Metric, POINTS, Stability};
+use signorini_bound::certificate::{Above, Discretization, Factor, Metric, POINTS, Stability};
 use signorini_device::full;
 use signorini_device::tick::Limits;
 use signorini_kernel::Tensor;
@@ -50,6 +50,8 @@ pub struct Baked<R: Scalar> {
     pub(super) edge_weights: Vec<R>,
     pub(super) order: Vec<u32>,
     pub(super) metric: Vec<[Tensor<R>; POINTS * POINTS]>,
+    pub(super) factors: Vec<Factor<R>>,
+    pub(super) above: Vec<Above<R>>,
     pub(super) metric_place: Vec<u32>,
     pub(super) distortions: Vec<[R; 2]>,
     pub(super) stability: Stability<R>,
@@ -122,7 +124,7 @@ impl<R: Scalar> Baked<R> {
     pub fn varying(&self) -> [usize; 2] {
         let (triangles, quads) =
             self.metric_place.split_at(self.of_triangles.len().min(self.metric_place.len()));
-        let varies = |place: &&u32| (**place as usize) < self.metric.len();
+        let varies = |place: &&u32| (**place as usize) < self.metric.len() + self.factors.len();
         [triangles, quads].map(|places| places.iter().filter(varies).count())
     }
 
@@ -183,7 +185,7 @@ impl<R: Scalar> Baked<R> {
     ) -> Self {
         let Discretization { mesh, edges, stiffness, cells, metric, stability } = discretization;
         let [vertex_weights, edge_weights] = cells.weights();
-        let varies = how.certified && !metric.at_points.is_empty();
+        let varies = how.certified && !(metric.at_points.is_empty() && metric.factors.is_empty());
         // Which kind of cell comes next: all of them are triangles with constant A where nobody asks.
         let needs_order = varies || (how.certified && !cells.quads().is_empty());
         Self {
@@ -203,6 +205,8 @@ impl<R: Scalar> Baked<R> {
             edge_weights: kept(edge_weights, how.certified),
             order: kept(cells.order(), needs_order),
             metric: kept(metric.at_points, varies),
+            factors: kept(metric.factors, varies),
+            above: kept(metric.above, varies),
             metric_place: kept(metric.place, varies),
             distortions: kept(metric.distortions, how.certified),
             stability: *stability,
@@ -236,6 +240,8 @@ impl<R: Scalar> Baked<R> {
             ),
             metric: Metric {
                 at_points: &self.metric,
+                factors: &self.factors,
+                above: &self.above,
                 place: &self.metric_place,
                 distortions: &self.distortions,
             },
@@ -248,7 +254,7 @@ impl<R: Scalar> Baked<R> {
         let needs = [
             ("triangles", !self.of_triangles.is_empty()),
             ("quads", !self.of_quads.is_empty()),
-            ("varying", !self.metric.is_empty()),
+            ("varying", !self.metric_place.is_empty()),
             ("distorted", !self.distortions.is_empty()),
             ("contact", self.counts.contact > 0),
             ("limited", !self.data.spans.is_empty()),

@@ -23,7 +23,9 @@ use super::conductivity::{Conductivity, product};
 use super::deviation::{Deviation, Deviations};
 use super::energy::{CellEnergy, Sample};
 use panels::Panels;
+use signorini_kernel::Tensor;
 use signorini_problem::Problem;
+use signorini_problem::pieces::{PiecePoint, Pieces};
 use signorini_problem::quadrature::gauss;
 use signorini_scene::error::Result;
 
@@ -100,7 +102,7 @@ fn records(problem: &Problem, deviations: &[Deviation]) -> Result<Vec<Curved>> {
     for (deviation, may_be_cleared) in deviations.iter().zip(may_be_cleared) {
         let extension = Extension::new(problem, deviation)?;
         let mut record = extension.integrate()?;
-        record.missed = extension.missed(problem)?;
+        record.missed += extension.missed(problem)?;
         if may_be_cleared {
             record.peak = cleared::peak_on(deviation, &extension.panels)?;
         }
@@ -156,14 +158,37 @@ impl<'d, 's> Extension<'d, 's> {
         for [t, weight] in self.panels.rule() {
             let [w, slope] = self.sample(t)?;
             record.mean += weight * w;
+            if self.conductivity.cut().is_some() {
+                continue;
+            }
             for &[eta, weight_away] in &away {
                 let local = self.cell.local(self.cell.side_point(self.side, t, eta));
                 let gradient = local.sides[self.side].extension(w, slope).gradient;
                 let weight = weight * weight_away * self.cell.area_element(&local, eta);
-                self.add(&mut record, &local, gradient, weight);
+                let a = self.conductivity.at(local.x);
+                self.add(&mut record, &local, gradient, (a, weight));
             }
         }
+        match self.conductivity.cut() {
+            Some(pieces) => self.integrate_pieces(pieces, &mut record)?,
+            None => record.missed = 2.0 * self.conductivity.share() * record.energy.sqrt(),
+        }
         Ok(record)
+    }
+
+    /// The integrals over a cell whose own points do not resolve A; what A has above p there is missed, by s and by s − u_h.
+    fn integrate_pieces(&self, pieces: &Pieces, record: &mut Curved) -> Result<()> {
+        let mut open = [0.0; 2];
+        for at in pieces.points(self.cell) {
+            let (local, weight) = (self.cell.local(at.point.reference), at.point.weight);
+            let gradient = self.gradient(&local)?;
+            self.add(record, &local, gradient, (at.below, weight));
+            let whole = PiecePoint { share: 1.0, ..at };
+            open[0] += weight * at.open(gradient).powi(2);
+            open[1] += weight * whole.open(gradient).powi(2);
+        }
+        record.missed = open[0].sqrt() + open[1].sqrt();
+        Ok(())
     }
 
     /// ‖A^½∇·‖ of what the panels' points leave out, and of what mending changes beyond rounding.
@@ -191,8 +216,13 @@ impl<'d, 's> Extension<'d, 's> {
         }
     }
 
-    fn add(&self, record: &mut Curved, local: &Local, gradient: [f64; 2], weight: f64) {
-        let a = self.conductivity.at(local.x);
+    fn add(
+        &self,
+        record: &mut Curved,
+        local: &Local,
+        gradient: [f64; 2],
+        (a, weight): (Tensor<f64>, f64),
+    ) {
         record.energy += weight * product(&a, gradient, gradient);
         let bubbles = match self.cell {
             Cell::Triangle(_) => 0,
@@ -208,6 +238,14 @@ impl<'d, 's> Extension<'d, 's> {
     /// ∫_T A∇v·∇v′
     fn cross(&self, other: &Self) -> Result<f64> {
         let mut sum = 0.0;
+        if let Some(pieces) = self.conductivity.cut() {
+            for at in pieces.points(self.cell) {
+                let local = self.cell.local(at.point.reference);
+                let (mine, its) = (self.gradient(&local)?, other.gradient(&local)?);
+                sum += at.point.weight * product(&at.below, mine, its);
+            }
+            return Ok(sum);
+        }
         let (sides, panels) = ([self.side, other.side], [&self.panels, &other.panels]);
         for (reference, weight) in cross::points(&self.cell, sides, panels) {
             let local = self.cell.local(reference);

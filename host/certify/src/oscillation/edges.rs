@@ -73,7 +73,13 @@ fn length_square(g: &Sum, segment: [[f64; 2]; 2], length: f64, mean: Integral) -
     let integral = |_: usize, part: &Region| parts::square(g, part, &constant);
     let [value, missed] = integral(0, &region);
     let whole = vec![Part { of: 0, region, value, missed }];
-    let cut = refined(g, whole, MOST, |size, missed| missed <= LEFT * size, integral);
+    let cut = refined(
+        |region| g.switch(region),
+        whole,
+        MOST,
+        |size, missed| missed <= LEFT * size,
+        integral,
+    );
     let [value, missed] = cut
         .iter()
         .fold([0.0; 2], |[value, missed], part| [value + part.value, missed + part.missed]);

@@ -29,7 +29,7 @@ pub fn in_cell(problem: &Problem, at: usize, f: &Sum) -> (f64, Inside) {
     let (own, rule) = (Cell::of(problem, at), gauss(POINTS));
     let load = problem.loads.of_cell(at);
     let (unit, all) = differences(&own, f, load);
-    let (cell, a) = (own.scaled(1.0 / unit), floor(problem, at, &rule));
+    let (cell, a) = (own.scaled(1.0 / unit), floor(problem, at));
     let points = cell.points(&rule);
     let values: Vec<_> = all.iter().map(|(_, value)| unit * value).collect();
     let flux = LocalFlux::fitted(&cell, &a, &rule, (&points, &values), &NO_SIDES);
@@ -95,7 +95,7 @@ pub fn along_edge(
         g.at(x, y) - mean
     };
     let differences: Vec<_> = rule.iter().map(|[t, _]| value(*t)).collect();
-    let a = floor(problem, at, &points);
+    let a = floor(problem, at);
     let flux = EdgeFlux::fitted((&cell, segment), &a, (PANELS as usize, &points), &differences);
     let squares = rule.iter().zip(&differences);
     let rest: f64 =

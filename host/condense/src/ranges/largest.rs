@@ -18,9 +18,9 @@ use super::affine::AffineOutput;
 use super::interval::{Interval, between, dot};
 use super::reduced::Reduced;
 use super::sides::Sides;
-use crate::block::norm;
 use crate::factor::column;
 use crate::{CondensedModel, Corner, Form, Vertex};
+use signorini_certify::triangular::norm;
 use signorini_reference::ReferenceError;
 
 /// Pieces at most.

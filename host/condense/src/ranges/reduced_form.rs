@@ -5,9 +5,9 @@ use faer::Mat;
 use super::reduced::Build;
 use super::reduction::Affine;
 use super::sides::VertexSide;
-use crate::block::norm;
 use crate::factor::{column, packed};
 use crate::{Corner, Form, Vertex};
+use signorini_certify::triangular::norm;
 
 impl Build<'_> {
     pub fn form(&self, form: &Form) -> Form {

@@ -156,7 +156,13 @@ fn on_parts(f: &Sum, regions: &[Region], open: &[usize], sizes: f64) -> Vec<Inte
     let most = EACH * open.len() + if f.is_smooth() { smooth } else { rough };
     let measure: f64 = open.iter().map(|&at| regions[at].measure()).sum();
     let is_enough = |size: f64, missed: f64| missed <= RESOLVED * size.max(sizes) + faint * measure;
-    let parts = refined(f, whole.collect(), most, is_enough, |_, region| on_part(f, region, faint));
+    let parts = refined(
+        |region| f.switch(region),
+        whole.collect(),
+        most,
+        is_enough,
+        |_, region| on_part(f, region, faint),
+    );
     let mut sums = vec![Integral { value: 0.0, missed: 0.0 }; open.len()];
     for part in parts {
         sums[part.of].value += part.value;

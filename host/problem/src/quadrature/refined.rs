@@ -3,8 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use crate::Sum;
-use signorini_scene::expression::enclosure::Region;
+use signorini_scene::expression::enclosure::{Form, Region};
 
 /// A part of a region, an integral over it and what it may be off by.
 #[derive(Debug, Clone, Copy)]
@@ -47,10 +46,10 @@ const ROUND: usize = 32;
 /// Part of the largest region in which a pole is enough enclosed: cutting goes on elsewhere.
 const POLE: f64 = 1e-18;
 
-/// Cuts parts, at most `most` new ones, until Σ|value| and Σ missed are as they should be; `integral` gives a part's own. Where `f` has a kink or a
-/// jump, parts are cut along it.
+/// Cuts parts, at most `most` new ones, until Σ|value| and Σ missed are as they should be; `integral` gives a part's own. Where `switch` tells
+/// the argument of a kink or a jump, parts are cut along it.
 pub fn refined(
-    f: &Sum,
+    switch: impl Fn(&Region) -> Option<Form>,
     parts: Vec<Part>,
     most: usize,
     is_enough: impl Fn(f64, f64) -> bool,
@@ -74,7 +73,7 @@ pub fn refined(
                 new += 1;
                 continue;
             }
-            let along = f.switch(&worst.region).and_then(|switch| worst.region.cut(&switch));
+            let along = switch(&worst.region).and_then(|zero| worst.region.cut(&zero));
             for region in along.unwrap_or_else(|| worst.region.parts()) {
                 let [value, missed] = integral(worst.of, &region);
                 parts.push(Part { region, value, missed, ..worst });

@@ -6,8 +6,9 @@
 //!   ∫_T |A^½∇s − A^{−½}τ|² = ∫ (B∇̂ŝ − τ̂)·B^{−1}(B∇̂ŝ − τ̂) dx̂ dŷ,      B = CᵀAC / det DF.
 //! ```
 //! Where A is constant and F affine, so is B, and the element matrix tells it. Elsewhere B is stored at
-//! the points of an 8×8 Gauss rule, which triangles take through the collapsed square.
+//! the points of an 8×8 Gauss rule, which triangles take through the collapsed square, or in a factor (`factor`).
 
+use super::factor::{Above, Factor};
 use signorini_kernel::element::rannacher_turek::MappedPoint;
 use signorini_kernel::mesh::geometry::doubled_area;
 use signorini_kernel::{Real, Tensor, features};
@@ -20,7 +21,11 @@ pub const POINTS: usize = 8;
 pub struct Metric<'a, R> {
     /// B at the 64 points of every cell where it varies, one such cell after the other.
     pub at_points: &'a [[Tensor<R>; POINTS * POINTS]],
-    /// Where a cell stands in `at_points`, triangles first; beyond its end where B is constant. May be
+    /// Factors of the cells whose 64 points do not resolve A.
+    pub factors: &'a [Factor<R>],
+    /// What A has above its points or its factor in these cells; may be empty where that is nothing.
+    pub above: &'a [Above<R>],
+    /// Where a cell stands in `at_points` with `factors` behind it, triangles first; beyond both where B is constant. May be
     /// empty: B is constant everywhere then.
     pub place: &'a [u32],
     /// The distortion of every quad ([`signorini_kernel::element::nonparametric::Axes::distortion`]), where u_h is nonparametric on them; empty where it is
@@ -28,14 +33,31 @@ pub struct Metric<'a, R> {
     pub distortions: &'a [[R; 2]],
 }
 
+/// B in a cell in which it varies.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Varying<'a, R> {
+    /// At its 64 points.
+    Points(&'a [Tensor<R>; POINTS * POINTS]),
+    /// In all integrals.
+    Factor(&'a Factor<R>),
+}
+
 impl<'a, R: Real> Metric<'a, R> {
-    /// B at the points, or `None` where it is constant.
+    /// How B varies, or `None` where it is constant.
     #[inline(always)]
-    pub(super) fn varying(&self, cell: usize) -> Option<&'a [Tensor<R>; POINTS * POINTS]> {
+    pub(super) fn varying(&self, cell: usize) -> Option<Varying<'a, R>> {
         if !features::VARYING {
             return None;
         }
-        self.at_points.get(*self.place.get(cell)? as usize)
+        let at = *self.place.get(cell)? as usize;
+        let factor = || self.factors.get(at.checked_sub(self.at_points.len())?);
+        self.at_points.get(at).map(Varying::Points).or_else(|| factor().map(Varying::Factor))
+    }
+
+    /// What A has above what it is taken for in a cell.
+    pub(super) fn above(&self, cell: usize) -> Above<R> {
+        let at = self.place.get(cell).copied().unwrap_or(u32::MAX);
+        self.above.get(at as usize).copied().unwrap_or_default()
     }
 
     /// The distortion of a quad, counted among the quads; 0 where u_h is parametric on it.

@@ -1,7 +1,7 @@
 //! The sums over the mesh that a certificate is drawn from.
 
 use super::{Certificate, Stability, Verdict};
-use signorini_kernel::Real;
+use signorini_kernel::{Real, features};
 
 /// One cell's share of everything.
 #[derive(Debug, Clone, Copy)]
@@ -18,6 +18,8 @@ pub(super) struct CellTerms<R> {
     pub uncertainty_of_u: R,
     /// (∫f)² + Στ², the terms of the balance.
     pub terms: R,
+    /// ‖A^{−½}(A − p)∇s‖² at most, where A is taken for p.
+    pub open: R,
 }
 
 /// A sum whose rounding error does not grow with its length (Kahan): the sum so far, and what its last digit could not hold.
@@ -58,6 +60,8 @@ pub(super) struct Parts<R> {
     /// Rounding in `nonconforming`.
     pub direct_of_u: R,
     pub terms: R,
+    /// The square of what A has above what it is taken for.
+    pub open: R,
 }
 
 impl<R: Real> Parts<R> {
@@ -69,6 +73,9 @@ impl<R: Real> Parts<R> {
         self.uncertainty += share.uncertainty;
         self.uncertainty_of_u += share.uncertainty_of_u;
         self.terms += share.terms;
+        if features::VARYING {
+            self.open += share.open;
+        }
     }
 
     /// `cells`: how many there are.
@@ -89,6 +96,8 @@ impl<R: Real> Parts<R> {
         let rounding =
             uncertainty + unbalanced + root(self.perturbation) + lifted + lost + times(16) * gap;
         let rounding = rounding + times(4) * oscillation;
+        let (seen, open) = (gap, if features::VARYING { root(self.open) } else { R::ZERO });
+        let gap = gap + open;
         let both = root(gap * gap + oscillation * oscillation);
         // √(gap²) underflows before gap does.
         let exact = oscillation + both.or_larger(gap);
@@ -103,7 +112,7 @@ impl<R: Real> Parts<R> {
         let apart = jump + root(self.lifted) + uncertainty_of_u;
         let of_u = total + (apart + stability.oblique * apart);
         let certificate =
-            Certificate { duality_gap: gap, algebraic, oscillation, rounding, total, of_u };
+            Certificate { duality_gap: seen, algebraic, oscillation, rounding, total, of_u };
         let known = certificate.of_u.finite() && algebraic.finite();
         if known { Verdict::Certified(certificate) } else { Verdict::NotFinite }
     }

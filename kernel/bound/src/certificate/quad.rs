@@ -8,7 +8,8 @@
 //! and P(Y), orthogonal functions with the squares 1, 1/12, 1/12, 1/144, 1/180, 1/180. Where B is
 //! constant, ∫(B∇̂ŝ − τ̂)·B^{−1}(B∇̂ŝ − τ̂) is a sum over these six. Elsewhere it is taken at points.
 
-use super::metric::{POINTS, inverse_form, of_parallelogram};
+use super::factor::{self, GRADIENTS, ON_QUAD};
+use super::metric::{POINTS, Varying, inverse_form, of_parallelogram};
 use super::parts::CellTerms;
 use crate::cells::Quad;
 use signorini_kernel::element::nonparametric;
@@ -75,47 +76,57 @@ pub(super) fn share<R: Real, I: Index>(
         uncertainty: condition * large + softness * terms + moved,
         uncertainty_of_u: condition * (large + nonconforming) + moved,
         terms,
+        open: R::ZERO,
     }
 }
 
 /// ‖A^{−½}·‖² of the Raviart–Thomas field with these outward fluxes.
 pub(super) fn energy<R: Real, I: Index>(
     cell: &Quad<R, I>,
-    points: Option<&[Tensor<R>; POINTS * POINTS]>,
+    varying: Option<Varying<R>>,
     out: [R; 4],
 ) -> R {
-    match points {
+    match varying {
         None => flux_energy(of_parallelogram(&cell.k), out),
-        Some(points) => {
-            let s = Values { corners: [R::ZERO; 4], bubbles: [R::ZERO; 4] };
-            let u = Means { means: [R::ZERO; 4], distortion: [R::ZERO; 2] };
-            share_at_points(points, s, u, cell.sides_in_mesh(out), [R::ZERO; 4], R::ZERO).gap
+        Some(Varying::Points(points)) => {
+            let (zero, none) = (R::ZERO, [R::ZERO; 4]);
+            let s = Values { corners: none, bubbles: none };
+            let u = Means { means: none, distortion: [zero; 2] };
+            share_at_points(points, zero, s, u, cell.sides_in_mesh(out), none, zero).gap
+        }
+        Some(Varying::Factor(factor)) => {
+            factor::energy::<R, ON_QUAD>(factor, GRADIENTS[1], &cell.sides_in_mesh(out))
         }
     }
 }
 
 /// Least weight of a square of the balance in the uncertainty: about 1/A.
-pub(super) fn softness<R: Real, I: Index>(
-    cell: &Quad<R, I>,
-    points: Option<&[Tensor<R>; POINTS * POINTS]>,
-) -> R {
+pub(super) fn softness<R: Real, I: Index>(cell: &Quad<R, I>, varying: Option<Varying<R>>) -> R {
     let of = |b: Tensor<R>| (b.xx + b.yy) / (b.xx * b.yy - b.xy * b.xy);
-    let Some(points) = points else { return of(of_parallelogram(&cell.k)) };
+    let points = match varying {
+        None => return of(of_parallelogram(&cell.k)),
+        Some(Varying::Points(points)) => points,
+        Some(Varying::Factor(factor)) => {
+            return factor::softness::<R, ON_QUAD>(factor, GRADIENTS[1]);
+        }
+    };
     let rows = R::GAUSS[POINTS - 1].iter();
     let weights = rows.flat_map(|y| R::GAUSS[POINTS - 1].iter().map(move |x| x[1] * y[1]));
     points.iter().zip(weights).fold(R::ZERO, |sum, (&b, weight)| sum + weight * of(b))
 }
 
 /// B₁₁B₂₂ over det B, what it cancels to; the most of all points.
-pub(super) fn obliqueness<R: Real, I: Index>(
-    cell: &Quad<R, I>,
-    points: Option<&[Tensor<R>; POINTS * POINTS]>,
-) -> R {
+pub(super) fn obliqueness<R: Real, I: Index>(cell: &Quad<R, I>, varying: Option<Varying<R>>) -> R {
     let of = |b: Tensor<R>| match b.xx > R::ZERO && b.yy > R::ZERO {
         true => R::ONE / (R::ONE - b.xy / b.xx * (b.xy / b.yy)),
         false => R::ONE / R::ZERO,
     };
-    let Some(points) = points else { return of(of_parallelogram(&cell.k)) };
+    let points = match varying {
+        None => return of(of_parallelogram(&cell.k)),
+        Some(Varying::Points(points)) => points,
+        // Nothing is drawn from the element matrix but the algebraic part.
+        Some(Varying::Factor(_)) => return R::ONE,
+    };
     let worse = |most: R, b: &Tensor<R>| {
         let here = of(*b);
         if here >= R::ONE { most.or_larger(here) } else { R::ONE / R::ZERO }
@@ -200,6 +211,7 @@ fn sensitivity<R: Real>(b: Tensor<R>) -> R {
 #[inline(never)]
 pub(super) fn share_at_points<R: Real>(
     points: &[Tensor<R>; POINTS * POINTS],
+    open: R,
     s: Values<R>,
     u: Means<R>,
     tau: [R; 4],
@@ -208,7 +220,7 @@ pub(super) fn share_at_points<R: Real>(
 ) -> CellTerms<R> {
     let terms = squares(tau, load);
     let (mut gap, mut algebraic, mut uncertainty) = (R::ZERO, R::ZERO, R::ZERO);
-    let (mut nonconforming, mut uncertainty_of_u) = (R::ZERO, R::ZERO);
+    let (mut nonconforming, mut uncertainty_of_u, mut energies) = (R::ZERO, R::ZERO, R::ZERO);
     let mut tensors = points.iter();
     for &[y, weight_y] in R::GAUSS[POINTS - 1] {
         for &[x, weight_x] in R::GAUSS[POINTS - 1] {
@@ -223,6 +235,7 @@ pub(super) fn share_at_points<R: Real>(
             let softness = weight * (b.xx + b.yy) / (b.xx * b.yy - b.xy * b.xy);
             uncertainty += softness * large;
             let energy = (slope[0] * flow[0] + slope[1] * flow[1]).magnitude();
+            energies += weight * energy;
             uncertainty += weight * moved(sensitivity(b), energy + square);
             let of_u = nonparametric::reference_gradient(u.distortion, [x, y], u.means);
             let jump = form(b, minus(slope, of_u));
@@ -232,7 +245,8 @@ pub(super) fn share_at_points<R: Real>(
             uncertainty_of_u += weight * moved(sensitivity(b), energy + jump);
         }
     }
-    CellTerms { gap, algebraic, nonconforming, uncertainty, uncertainty_of_u, terms }
+    let open = open * energies;
+    CellTerms { gap, algebraic, nonconforming, uncertainty, uncertainty_of_u, terms, open }
 }
 
 /// ∇̂ŝ

@@ -8,7 +8,8 @@
 //! the last term for the linear part of τ. Elsewhere the integral is taken at points. s − u_h is linear, so that
 //! ‖A^½∇(s − u_h)‖² is the same form in the fluxes of A∇s less those of A∇u_h, whether A is constant or not.
 
-use super::metric::{POINTS, inverse_form};
+use super::factor::{self, GRADIENTS, ON_TRIANGLE};
+use super::metric::{POINTS, Varying, inverse_form};
 use super::parts::CellTerms;
 use crate::cells::Triangle;
 use signorini_kernel::element::crouzeix_raviart::product;
@@ -41,6 +42,7 @@ pub(super) fn share<R: Real, I: Index>(
         uncertainty: cell.uncertainty * sum_of_squares(flows, terms),
         uncertainty_of_u: cell.uncertainty * sum_of_squares(flows, of_means(k, u)),
         terms,
+        open: R::ZERO,
     }
 }
 
@@ -77,32 +79,41 @@ fn sum_of_squares<R: Real>([t01, t12, t20]: [R; 3], terms: R) -> R {
 /// ‖A^{−½}·‖² of the Raviart–Thomas field with these outward fluxes.
 pub(super) fn energy<R: Real, I: Index>(
     cell: &Triangle<R, I>,
-    points: Option<&[Tensor<R>; POINTS * POINTS]>,
+    varying: Option<Varying<R>>,
     out: [R; 3],
 ) -> R {
     let (none, load) = ([R::ZERO; 3], -(out[0] + out[1] + out[2]));
-    match points {
+    match varying {
         None => share(cell, none, out, none, load).gap,
-        Some(points) => {
+        Some(Varying::Points(points)) => {
             let (k, out) = (cell.stiffness_in_mesh(), cell.sides_in_mesh(out));
-            share_at_points(points, (&k, cell.compliance), none, out, none, load).gap
+            share_at_points(points, R::ZERO, (&k, cell.compliance), none, out, none, load).gap
+        }
+        Some(Varying::Factor(factor)) => {
+            factor::energy::<R, ON_TRIANGLE>(factor, GRADIENTS[0], &cell.sides_in_mesh(out))
         }
     }
 }
 
 /// Weight of a square of the balance in the uncertainty: about 1/A.
-pub(super) fn softness<R: Real, I: Index>(
-    cell: &Triangle<R, I>,
-    points: Option<&[Tensor<R>; POINTS * POINTS]>,
-) -> R {
-    match points {
+pub(super) fn softness<R: Real, I: Index>(cell: &Triangle<R, I>, varying: Option<Varying<R>>) -> R {
+    match varying {
         None => cell.uncertainty,
-        Some(points) => {
+        Some(Varying::Points(points)) => {
             let (k, none) = (cell.stiffness_in_mesh(), [R::ZERO; 3]);
-            let unit = [R::ONE, R::ZERO, R::ZERO];
-            share_at_points(points, (&k, cell.compliance), none, unit, none, R::ZERO).uncertainty
+            let (unit, mean) = ([R::ONE, R::ZERO, R::ZERO], (&k, cell.compliance));
+            share_at_points(points, R::ZERO, mean, none, unit, none, R::ZERO).uncertainty
         }
+        Some(Varying::Factor(factor)) => factor::softness::<R, ON_TRIANGLE>(factor, GRADIENTS[0]),
     }
+}
+
+/// τ − σ_h through the sides.
+pub(super) fn difference<R: Real>(k: &[R; 3], tau: [R; 3], u: [R; 3], load: R) -> [R; 3] {
+    let third = load * R::THIRD;
+    let [o0, o1, o2] = product(k, &u).map(|flow| flow - third);
+    let [t0, t1, t2] = tau;
+    [t0 - o0, t1 - o1, t2 - o2]
 }
 
 /// The terms of 4 det A = ab + bc + ca, with the entries a, b, c of the element matrix, over what they cancel to.
@@ -118,19 +129,18 @@ pub(super) fn obliqueness<R: Real>(k: &[R; 3]) -> R {
 #[inline(never)]
 pub(super) fn share_at_points<R: Real>(
     points: &[Tensor<R>; POINTS * POINTS],
+    open: R,
     (k, mean): (&[R; 3], R),
     s: [R; 3],
     tau: [R; 3],
     u: [R; 3],
     load: R,
 ) -> CellTerms<R> {
-    let third = load * R::THIRD;
     let flows = flows(k, s);
     let own = product(k, &u);
     let [t01, t12, t20] = flows;
     let jump = [t01 - t20 - own[0], t12 - t01 - own[1], t20 - t12 - own[2]];
-    let own = own.map(|flow| flow - third);
-    let difference = [tau[0] - own[0], tau[1] - own[1], tau[2] - own[2]];
+    let difference = difference(k, tau, u, load);
     let gradient = [s[1] - s[0], s[2] - s[0]];
     let (mut gap, mut algebraic, mut compliance) = (R::ZERO, R::ZERO, R::ZERO);
     let mut tensors = points.iter();
@@ -154,7 +164,10 @@ pub(super) fn share_at_points<R: Real>(
     let uncertainty = compliance * size * sum_of_squares(flows, terms);
     let uncertainty_of_u = compliance * size * sum_of_squares(flows, of_means(k, u));
     let nonconforming = mean * form(k, jump);
-    CellTerms { gap, algebraic, nonconforming, uncertainty, uncertainty_of_u, terms }
+    // ∫A∇s·∇s, by the fluxes of Ā∇s.
+    let energy = mean * form(k, [t01 - t20, t12 - t01, t20 - t12]);
+    let open = open * energy;
+    CellTerms { gap, algebraic, nonconforming, uncertainty, uncertainty_of_u, terms, open }
 }
 
 /// τ̂ = Σ_k τ_k (x̂ − opposite vertex) on the reference triangle.

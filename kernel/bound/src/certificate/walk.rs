@@ -1,8 +1,9 @@
 //! The walk over the packed cells: each is balanced and then gives its share of the bound.
 
+use super::metric::Varying;
 use super::parts::{CellTerms, Parts};
 use super::quad::{self, Means, Values};
-use super::{Continuous, Discretization, LoadCase, Metric, triangle};
+use super::{Continuous, Discretization, LoadCase, Metric, factor, triangle};
 use crate::cells::{Either, Quad, Triangle, pick};
 use signorini_kernel::index::{Index, read, write};
 use signorini_kernel::{Real, features};
@@ -41,7 +42,7 @@ pub(super) fn over_cells<R: Real, I: Index>(
             }
         };
         let Some(share) = share else { break };
-        write(indicators, number.at(), share.gap);
+        write(indicators, number.at(), share.gap + share.open);
         parts.add(share);
     }
     parts
@@ -81,12 +82,20 @@ fn of_triangle_cell<R: Real, I: Index>(
     }
     let out = cell.settle(load, tau)?;
     let (s, u) = (pick(&cell.vertices, s.vertices)?, pick(&cell.edges, u)?);
-    Some(match metric.varying(cell.number.at()) {
-        None => triangle::share(cell, s, out, u, load),
-        Some(points) => {
-            let (k, s) = (cell.stiffness_in_mesh(), cell.vertices_in_mesh(s));
-            let [out, u] = [out, u].map(|packed| cell.sides_in_mesh(packed));
-            triangle::share_at_points(points, (&k, cell.compliance), s, out, u, load)
+    let Some(varying) = metric.varying(cell.number.at()) else {
+        return Some(triangle::share(cell, s, out, u, load));
+    };
+    let (k, s) = (cell.stiffness_in_mesh(), cell.vertices_in_mesh(s));
+    let ([out, u], above) =
+        ([out, u].map(|packed| cell.sides_in_mesh(packed)), metric.above(cell.number.at()));
+    Some(match varying {
+        Varying::Points(points) => {
+            let mean = (&k, cell.compliance);
+            triangle::share_at_points(points, above[0], mean, s, out, u, load)
+        }
+        Varying::Factor(factor) => {
+            let difference = triangle::difference(&k, out, u, load);
+            factor::of_triangle(factor, above, s, u, [out, difference], load)
         }
     })
 }
@@ -105,14 +114,18 @@ fn of_quad_cell<R: Real, I: Index>(
     let out = cell.settle(load, tau)?;
     let (corners, u) = (pick(&cell.vertices, s.vertices)?, pick(&cell.edges, u)?);
     let bubbles = pick(&cell.edges, s.bubbles)?;
-    Some(match metric.varying(cell.number.at()) {
-        None => quad::share(cell, Values { corners, bubbles }, out, u, load),
-        Some(points) => {
-            let difference = cell.sides_in_mesh(quad::difference(cell, out, u, load));
-            let (corners, bubbles) = (cell.vertices_in_mesh(corners), cell.sides_in_mesh(bubbles));
-            let [out, means] = [out, u].map(|packed| cell.sides_in_mesh(packed));
-            let u = Means { means, distortion: metric.distortion(number) };
-            quad::share_at_points(points, Values { corners, bubbles }, u, out, difference, load)
+    let Some(varying) = metric.varying(cell.number.at()) else {
+        return Some(quad::share(cell, Values { corners, bubbles }, out, u, load));
+    };
+    let difference = cell.sides_in_mesh(quad::difference(cell, out, u, load));
+    let (corners, bubbles) = (cell.vertices_in_mesh(corners), cell.sides_in_mesh(bubbles));
+    let [out, means] = [out, u].map(|packed| cell.sides_in_mesh(packed));
+    let u = Means { means, distortion: metric.distortion(number) };
+    let (s, above) = (Values { corners, bubbles }, metric.above(cell.number.at()));
+    Some(match varying {
+        Varying::Points(points) => {
+            quad::share_at_points(points, above[0], s, u, out, difference, load)
         }
+        Varying::Factor(factor) => factor::of_quad(factor, above, s, u, [out, difference], load),
     })
 }

@@ -79,7 +79,7 @@ impl Foundation {
     }
 
     fn metric(&self) -> Metric<'_, f64> {
-        Metric { at_points: &self.points, place: &self.place, distortions: &[] }
+        Metric { at_points: &self.points, place: &self.place, ..Metric::default() }
     }
 
     pub fn discretization(&self) -> Result<Discretization<'_, f64, u16>, Error> {

@@ -47,7 +47,7 @@ impl<R: Scalar> EquilibrationForest<R> {
             place[at] = points.len() as u32;
             points.push(at_points(arrays, at));
         }
-        let metric = Metric { at_points: &points, place: &place, distortions: &[] };
+        let metric = Metric { at_points: &points, place: &place, ..Metric::default() };
         let stability = packed.stability(&edges, metric, &boundary)?;
         Ok(Self { packed, points, place, stability })
     }
@@ -62,7 +62,7 @@ impl<R: Scalar> EquilibrationForest<R> {
             edges,
             stiffness: arrays.stiffness(),
             cells: self.packed.cells(&edges)?,
-            metric: Metric { at_points: &self.points, place: &self.place, distortions: &[] },
+            metric: Metric { at_points: &self.points, place: &self.place, ..Metric::default() },
             stability: self.stability,
         })
     }

@@ -221,7 +221,7 @@ fn certificate<R: Bits, const T: usize, const Q: usize, const E: usize>(
     // All cells at the same 64 points.
     let (at_points, place) = ([[tensor; POINTS * POINTS]], [0_u32; 2 * SQUARES]);
     let place = place.get(..cells).unwrap_or(&[]);
-    let metric = Metric { at_points: black_box(&at_points), place, distortions: &[] };
+    let metric = Metric { at_points: black_box(&at_points), place, ..Metric::default() };
     let varying = Discretization { metric, ..discretization };
     meter.count("certificate, A varies", "cell", cells, || {
         let buffers = Buffers {

@@ -1,0 +1,145 @@
+//! A cell whose own points do not resolve A: all integrals of its share as a triangular factor.
+//!
+//! ```text
+//!   ‖p^{−½}(τ − p∇v)‖² = |F c|²,   c = (coefficients of v, outward fluxes of τ),   F upper triangular
+//! ```
+//! with p ≤ A, worked out once from as many points as A asks for. Functions of v, whose gradients these are in reference coordinates:
+//! on a triangle ŝ at the second and third vertex less that at the first; on a quad three such differences, the four bubbles and the
+//! function of u_h that is curved, see [`curved`].
+
+use super::parts::CellTerms;
+use super::quad::{Means, Values};
+use signorini_kernel::Real;
+use signorini_kernel::element::nonparametric::affine;
+
+/// Coefficients on a quad: eight of v, then four fluxes.
+pub const ON_QUAD: usize = 12;
+/// Coefficients on a triangle: two of v, then three fluxes.
+pub const ON_TRIANGLE: usize = 5;
+/// Those of v.
+pub const GRADIENTS: [usize; 2] = [2, 8];
+/// Entries of F, column after column; a triangle has 15 of them.
+pub const ENTRIES: usize = ON_QUAD * (ON_QUAD + 1) / 2;
+
+/// F, its columns one after the other.
+pub type Factor<R> = [R; ENTRIES];
+
+/// What A has above p: ‖A^{−½}(A − p)∇v‖² is at most the first of these times |F (v, 0)|², and ‖A^½∇v‖² no more than 1 plus the second.
+pub type Above<R> = [R; 2];
+
+/// The means of u_h over the sides at which its curved function, and nothing else, is 1.
+pub const CURVED: [f64; 4] = [0.0, 0.5, 0.0, 0.5];
+
+/// |F c|², and the same of the sums of the moduli.
+fn squares<R: Real, const N: usize>(factor: &Factor<R>, c: &[R; N]) -> [R; 2] {
+    let mut rows = [[R::ZERO; 2]; N];
+    let mut entries = factor.iter();
+    for (column, &value) in c.iter().enumerate() {
+        for (row, &entry) in rows.iter_mut().zip(entries.by_ref().take(column + 1)) {
+            let term = entry * value;
+            row[0] += term;
+            row[1] += term.magnitude();
+        }
+    }
+    let mut sums = [R::ZERO; 2];
+    for [sum, size] in rows {
+        sums[0] += sum * sum;
+        sums[1] += size * size;
+    }
+    sums
+}
+
+/// The square of the norm of the columns of fluxes: softness, the weight of a square of the balance in the uncertainty.
+pub(super) fn softness<R: Real, const N: usize>(factor: &Factor<R>, gradients: usize) -> R {
+    let first = gradients * (gradients + 1) / 2;
+    let count = N * (N + 1) / 2 - first;
+    factor.iter().skip(first).take(count).fold(R::ZERO, |sum, &entry| sum + entry * entry)
+}
+
+/// Coefficients with these ones of v, then these fluxes.
+fn coefficients<R: Real, const N: usize>(v: &[R], tau: &[R]) -> [R; N] {
+    let mut c = [R::ZERO; N];
+    c.iter_mut().zip(v.iter().chain(tau)).for_each(|(to, from)| *to = *from);
+    c
+}
+
+/// ‖p^{−½}·‖² of the Raviart–Thomas field with these outward fluxes, behind so many coefficients of v.
+pub(super) fn energy<R: Real, const N: usize>(
+    factor: &Factor<R>,
+    gradients: usize,
+    out: &[R],
+) -> R {
+    let none = [R::ZERO; ON_QUAD];
+    let (v, _) = none.split_at(gradients.min(ON_QUAD));
+    squares(factor, &coefficients::<R, N>(v, out))[0]
+}
+
+/// The share of a cell: coefficients of s and u_h, fluxes of τ and τ − σ_h.
+fn share<R: Real, const N: usize, const V: usize>(
+    factor: &Factor<R>,
+    [open, beyond]: Above<R>,
+    [s, u]: [[R; V]; 2],
+    [tau, difference]: [&[R]; 2],
+    load: R,
+) -> CellTerms<R> {
+    let none = [R::ZERO; ON_QUAD];
+    let of = |v: &[R], tau: &[R]| squares(factor, &coefficients::<R, N>(v, tau));
+    let [gap, size] = of(&s, tau);
+    let ([energy, size_of_s], [_, size_of_u]) = (of(&s, &[]), of(&u, &[]));
+    let mut jump = s;
+    jump.iter_mut().zip(u).for_each(|(s, u)| *s -= u);
+    let [nonconforming, _] = of(&jump, &[]);
+    let [algebraic, _] = of(none.split_at(V.min(ON_QUAD)).0, difference);
+    let terms = tau.iter().fold(load * load, |sum, &flux| sum + flux * flux);
+    let (four, scale) = (R::from_count(4), R::ONE + beyond);
+    CellTerms {
+        gap,
+        algebraic,
+        nonconforming: scale * nonconforming,
+        // A sum of twelve products loses eight ε of their moduli at most; the bound takes four.
+        uncertainty: four * size + softness::<R, N>(factor, V) * terms,
+        uncertainty_of_u: four * R::TWO * scale * (size_of_s + size_of_u),
+        terms,
+        open: open * energy,
+    }
+}
+
+/// The share of a triangle, in the order of the mesh.
+#[inline(never)]
+pub(super) fn of_triangle<R: Real>(
+    factor: &Factor<R>,
+    above: Above<R>,
+    [s0, s1, s2]: [R; 3],
+    [u0, u1, u2]: [R; 3],
+    [tau, difference]: [[R; 3]; 2],
+    load: R,
+) -> CellTerms<R> {
+    // u_h at a vertex is the sum of the means beside it less the one opposite.
+    let values = [[s1 - s0, s2 - s0], [R::TWO * (u1 - u2), R::TWO * (u1 - u0)]];
+    share::<R, ON_TRIANGLE, 2>(factor, above, values, [&tau, &difference], load)
+}
+
+/// The share of a quad, in the order of the mesh.
+#[inline(never)]
+pub(super) fn of_quad<R: Real>(
+    factor: &Factor<R>,
+    above: Above<R>,
+    s: Values<R>,
+    u: Means<R>,
+    [tau, difference]: [[R; 4]; 2],
+    load: R,
+) -> CellTerms<R> {
+    let ([s0, s1, s2, s3], [d0, d1, d2, d3]) = (s.corners, s.bubbles);
+    let [u0, u1, u2, u3] = u.means;
+    // X and Y at a vertex less what they are at the first one.
+    let [zero, one] = [R::ZERO, R::ONE];
+    let [origin, corners @ ..] =
+        [[zero, zero], [one, zero], [one, one], [zero, one]].map(|at| affine(u.distortion, at));
+    let linear = |[x, y]: [R; 2]| (u1 - u3) * (x - origin[0]) + (u2 - u0) * (y - origin[1]);
+    let ([a, b, c], curved) = (corners.map(linear), (u1 - u0) + (u3 - u2));
+    let values = [
+        [s1 - s0, s2 - s0, s3 - s0, d0, d1, d2, d3, zero],
+        [a, b, c, zero, zero, zero, zero, curved],
+    ];
+    share::<R, ON_QUAD, 8>(factor, above, values, [&tau, &difference], load)
+}
