@@ -40,8 +40,8 @@ impl<'s> Conductivity<'s> {
     }
 
     /// Part of the root of an integral over the cell that its points miss, and what they leave open of what they see.
-    pub fn missed(&self) -> [f64; 2] {
-        self.pieces.map_or([0.0; 2], |pieces| [pieces.slack(), 2.0 * pieces.left])
+    pub fn missed(&self, cell: Cell) -> [f64; 2] {
+        self.pieces.map_or([0.0; 2], |pieces| [pieces.slack(cell), 2.0 * pieces.left])
     }
 
     /// ν of a cell that is not cut.

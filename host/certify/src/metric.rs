@@ -7,6 +7,7 @@ use signorini_kernel::element::nonparametric::axes;
 use signorini_kernel::element::rannacher_turek::place;
 use signorini_kernel::{Real, Tensor};
 
+use super::cell::Cell;
 use super::conductivity::Conductivity;
 use super::factor::factor;
 use signorini_problem::quadrature::{DATA_POINTS, on_quad, on_triangle};
@@ -96,7 +97,8 @@ impl<R: Scalar> Metric<R> {
         // ‖A^{−½}(τ − A∇s)‖ ≤ √(1 + ν) of what the points see and 2ν‖A^½∇s‖.
         let share = pieces.map_or(0.0, |pieces| pieces.share());
         self.above.push([4.0 * share * share, 0.0].map(R::narrow));
-        self.slack = self.slack.max(pieces.map_or(0.0, |pieces| pieces.slack()));
+        self.slack =
+            self.slack.max(pieces.map_or(0.0, |pieces| pieces.slack(Cell::of(problem, cell))));
     }
 
     /// Adds the factors of the cells whose points do not resolve A.
@@ -109,7 +111,7 @@ impl<R: Scalar> Metric<R> {
             self.place[cell] = (self.at_points.len() + self.factors.len()) as u32;
             self.factors.push(factor.map(R::narrow));
             self.above.push(above.map(R::narrow));
-            self.slack = self.slack.max(pieces.slack());
+            self.slack = self.slack.max(pieces.slack(Cell::of(problem, cell)));
         }
         if self.above.iter().all(|above| *above == [R::ZERO; 2]) {
             self.above.clear();

@@ -136,7 +136,7 @@ fn squares(problem: &Problem, f: &Sum, weights: &[f64]) -> Result<Vec<Integral>>
     let known: f64 = all.map(|(of, weight)| of.value * weight * weight).sum();
     let is_enough = |size: f64, missed: f64| missed <= LEFT * size.max(known);
     let parts = refined(
-        |region| f.switch(region),
+        |region| f.cut(region),
         whole.collect(),
         MOST + EACH * open.len(),
         is_enough,

@@ -161,7 +161,7 @@ fn of_cell(
         Some(pieces) => pieces.points(cell).collect(),
         None => rough.unwrap_or_else(smooth).into_iter().map(seen).collect(),
     };
-    let missed = conductivity.missed();
+    let missed = conductivity.missed(cell);
     for at in points {
         let (point, local) = (at.point, cell.local(at.point.reference));
         let vertices =

@@ -69,17 +69,7 @@ pub(super) fn coefficients(scene: &Scene, mesh: &Mesh, binding: &Binding) -> Res
     let of_cell = |at: usize| binding.materials[at] as usize;
     let varying: Vec<usize> =
         (0..binding.materials.len()).filter(|&at| constants[of_cell(at)].is_none()).collect();
-    let pieces = in_portions(varying.len(), |portion| {
-        let of = |&at: &usize| {
-            let material = &scene.materials[of_cell(at)];
-            let pieces = Pieces::new(material, Cell::in_mesh(mesh, at), varying.len());
-            // Where it is none, that is told with the point.
-            let unproved = pieces.unproved().map(|x| at_point(scene, material, x)).transpose();
-            unproved.map(|_| (at, pieces))
-        };
-        varying[portion].iter().map(of).collect::<Result<Vec<_>>>()
-    })?;
-    let pieces: BTreeMap<usize, Pieces> = pieces.into_iter().flatten().collect();
+    let pieces = pieces(scene, mesh, binding, &varying)?;
     let triangles = mesh.triangles.iter().enumerate().map(|(at, _)| {
         let material = of_cell(at);
         match (constants[material], pieces.get(&at)) {
@@ -101,6 +91,40 @@ pub(super) fn coefficients(scene: &Scene, mesh: &Mesh, binding: &Binding) -> Res
     });
     let quads = quads.collect::<Result<_>>()?;
     Ok(Coefficients { triangles, quads, pieces, matrices: OnceLock::new() })
+}
+
+/// Most pieces of a cell, and of all cells; fewest that one may be cut into.
+const MOST: [usize; 2] = [1024, 40_000];
+const FEWEST: usize = 16;
+
+/// A on pieces of these cells.
+fn pieces(
+    scene: &Scene,
+    mesh: &Mesh,
+    binding: &Binding,
+    cells: &[usize],
+) -> Result<BTreeMap<usize, Pieces>> {
+    let of_cells = |cells: &[usize], most: usize| -> Result<BTreeMap<usize, Pieces>> {
+        let portions = in_portions(cells.len(), |portion| {
+            let of = |&at: &usize| {
+                let material = &scene.materials[binding.materials[at] as usize];
+                (at, Pieces::new(material, Cell::in_mesh(mesh, at), most))
+            };
+            Ok(cells[portion].iter().map(of).collect::<Vec<_>>())
+        })?;
+        Ok(portions.into_iter().flatten().collect())
+    };
+    let mut all = of_cells(cells, 0)?;
+    let is_open = |at: &&usize| all.get(at).is_some_and(Pieces::is_open);
+    let open: Vec<usize> = cells.iter().filter(is_open).copied().collect();
+    let most = (MOST[1] / open.len().max(1)).clamp(FEWEST, MOST[0]);
+    all.extend(of_cells(&open, most)?);
+    // Where it is no tensor of a material, that is told with the point.
+    for (&at, pieces) in &all {
+        let material = &scene.materials[binding.materials[at] as usize];
+        pieces.unproved().map(|x| at_point(scene, material, x)).transpose()?;
+    }
+    Ok(all)
 }
 
 /// The tensor of a material whose entries are all constant.

@@ -15,22 +15,23 @@
 //! constant A.)
 
 use signorini_kernel::{Real, Tensor};
+use signorini_scene::expression::Expression;
 use signorini_scene::expression::enclosure::{Form, Region, Shape};
-use signorini_scene::scene::Material;
+use signorini_scene::scene::{Located, Material};
 
 use crate::cell::Cell;
 use crate::integrals::average;
 use crate::quadrature::refined::{Part, refined};
 use crate::quadrature::{DATA_POINTS, Point, enclosed, on_quad, on_triangle};
 
+/// A variation of A that rounding makes.
+const ROUNDING: f64 = 1e-10;
+/// Of the root of an integral over a piece twice this may be missed.
+const MISSED: f64 = 1e-3;
 /// The most that p may vary in a piece, as η: κ is 2e−3 then.
 const VARIES: f64 = 0.18;
 /// Pieces are small enough where ‖N′^½v‖ is this part of what the variation of A makes of ‖A^½v‖.
 const LEFT: f64 = 1e-3;
-/// Most pieces of a cell, and in all.
-const MOST: [usize; 2] = [1024, 20_000];
-/// Fewest that a cell may be cut into.
-const FEWEST: usize = 16;
 
 /// A on a piece of a cell.
 #[derive(Debug, Clone)]
@@ -87,11 +88,11 @@ impl PiecePoint {
 }
 
 impl Pieces {
-    /// A of `material` on a cell, among so many others in which it varies.
-    pub fn new(material: &Material, cell: Cell, others: usize) -> Self {
+    /// A of `material` on a cell, of no more than so many pieces.
+    pub fn new(material: &Material, cell: Cell, most: usize) -> Self {
         let whole = enclosed::region(cell);
         let flat = Piece::flat(material, &forms(material, &whole), whole);
-        let variation = flat.share.min(1.0);
+        let variation = flat.share.clamp(ROUNDING, 1.0);
         let part = |region: &Region| {
             let piece = Piece::of(material, *region);
             let missed = match piece.share.is_finite() {
@@ -103,15 +104,17 @@ impl Pieces {
         let [value, missed] = part(&whole);
         let is_enough = |size: f64, missed: f64| missed <= (LEFT * variation).powi(2) * size;
         let whole = Part { of: 0, region: whole, value, missed };
-        let most = (MOST[1] / others.max(1)).clamp(FEWEST, MOST[0]);
-        let switch = |region: &Region| {
-            material.conductivity.iter().find_map(|entry| entry.value.switch(region, 0.0))
-        };
-        let parts = refined(switch, vec![whole], most, is_enough, |_, region| part(region));
+        let cut = |region: &Region| Some(parts(material, region));
+        let parts = refined(cut, vec![whole], most, is_enough, |_, region| part(region));
         let missed: f64 = parts.iter().map(|part| part.missed / value).sum();
         let piece = |part: Part| Piece::of(material, part.region);
         let left = missed.sqrt() / variation;
         Self { all: parts.into_iter().map(piece).collect(), left }
+    }
+
+    /// Whether there is more to cut, with more pieces.
+    pub fn is_open(&self) -> bool {
+        self.left > LEFT || !self.left.is_finite()
     }
 
     /// Whether the points of the cell itself resolve A.
@@ -131,9 +134,11 @@ impl Pieces {
     }
 
     /// Part of the root of an integral that the rule misses: κ, and ν where it has A in the place of p.
-    pub fn slack(&self) -> f64 {
-        let varies = self.all.iter().fold(0.0_f64, |most, piece| most.max(piece.varies));
-        let power = varies.powi(4);
+    pub fn slack(&self, cell: Cell) -> f64 {
+        let power = match self.is_resolved() {
+            true => self.all[0].varies.powi(4),
+            false => self.all.iter().map(|piece| piece.rule(cell).1).fold(0.0, f64::max),
+        };
         let share = if self.is_resolved() { self.share() } else { 0.0 };
         share + ((1.0 + power) / (1.0 - power)).sqrt() - 1.0
     }
@@ -237,8 +242,25 @@ impl Piece {
         size_in(&sum(&self.below[0], &diagonal(self.above)), &diagonal(above))
     }
 
+    /// Points in a direction that it takes in this cell, and η to the power of what they leave.
+    fn rule(&self, cell: Cell) -> (usize, f64) {
+        let square = match (cell, self.varies > 0.0) {
+            (Cell::Triangle(_), false) => 2,
+            (Cell::Triangle(_), true) | (Cell::Quad(_), false) => 4,
+            (Cell::Quad(_), true) => 8,
+        };
+        let lost = if self.region.shape() == Shape::Quad { 1 } else { 2 };
+        let missed = |points: usize| {
+            let k = (2 * points).checked_sub(lost + square)? / 2;
+            Some((points, self.varies.powi(k as i32 + 1)))
+        };
+        let enough = (2..=DATA_POINTS).filter_map(missed).find(|(_, missed)| *missed <= MISSED);
+        enough.unwrap_or((DATA_POINTS, self.varies.powi(4)))
+    }
+
     fn points(&self, cell: Cell) -> Vec<PiecePoint> {
-        let rule = f64::GAUSS[DATA_POINTS - 1];
+        let (points, _) = self.rule(cell);
+        let rule = f64::GAUSS[points - 1];
         let share = self.share.min(1.0);
         let here = |own: Point| {
             let [first, second, third] = own.reference;
@@ -264,8 +286,23 @@ impl Piece {
     }
 }
 
+/// Parts of a region along a jump or a kink of A, or across the direction in which it varies most.
+fn parts(material: &Material, region: &Region) -> Vec<Region> {
+    let switch = material.conductivity.iter().find_map(|of| of.value.switch(region, 0.0));
+    let along = switch.and_then(|zero| region.cut(&zero));
+    let slope = |entry: &Located<Expression>, way: [f64; 2]| {
+        entry.value.enclose_slope(region, 0.0, way)[1].range().size()
+    };
+    let entries = &material.conductivity[..if material.is_scalar { 1 } else { 3 }];
+    let steepest = |way: [f64; 2]| entries.iter().map(|of| slope(of, way)).fold(0.0, f64::max);
+    along.unwrap_or_else(|| region.parts_across(steepest))
+}
+
 fn forms(material: &Material, region: &Region) -> [Form; 3] {
-    material.conductivity.each_ref().map(|entry| entry.value.enclose(region, 0.0))
+    let [xx, xy, yy] = &material.conductivity;
+    let form = |entry: &Located<Expression>| entry.value.enclose(region, 0.0);
+    let first = form(xx);
+    [first, form(xy), if material.is_scalar { first } else { form(yy) }]
 }
 
 fn diagonal([xx, yy]: [f64; 2]) -> Tensor<f64> {

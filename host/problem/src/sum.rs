@@ -116,14 +116,14 @@ impl<'s> Sum<'s> {
         added.fold(of(&self.base.value), |sum, term| sum + term)
     }
 
-    /// The first argument of a kink or a jump whose sign is not known in a region.
-    pub fn switch(&self, region: &Region) -> Option<Form> {
+    /// Parts of a region along the first kink or jump in it.
+    pub fn cut(&self, region: &Region) -> Option<Vec<Region>> {
         if self.is_smooth() {
             return None;
         }
         let of = |expression: &Expression| expression.switch(region, self.time);
         let mut all = self.inputs.iter().map(|(_, pattern)| &pattern.value);
-        of(&self.base.value).or_else(|| all.find_map(of))
+        region.cut(&of(&self.base.value).or_else(|| all.find_map(of))?)
     }
 
     /// How it grows in a region where it is not bounded, if that is known: an input's pattern may be unbounded where the rest is not.

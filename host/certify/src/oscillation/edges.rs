@@ -74,7 +74,7 @@ fn length_square(g: &Sum, segment: [[f64; 2]; 2], length: f64, mean: Integral) -
     let [value, missed] = integral(0, &region);
     let whole = vec![Part { of: 0, region, value, missed }];
     let cut = refined(
-        |region| g.switch(region),
+        |region| g.cut(region),
         whole,
         MOST,
         |size, missed| missed <= LEFT * size,

@@ -157,7 +157,7 @@ fn on_parts(f: &Sum, regions: &[Region], open: &[usize], sizes: f64) -> Vec<Inte
     let measure: f64 = open.iter().map(|&at| regions[at].measure()).sum();
     let is_enough = |size: f64, missed: f64| missed <= RESOLVED * size.max(sizes) + faint * measure;
     let parts = refined(
-        |region| f.switch(region),
+        |region| f.cut(region),
         whole.collect(),
         most,
         is_enough,

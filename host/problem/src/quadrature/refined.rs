@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use signorini_scene::expression::enclosure::{Form, Region};
+use signorini_scene::expression::enclosure::Region;
 
 /// A part of a region, an integral over it and what it may be off by.
 #[derive(Debug, Clone, Copy)]
@@ -46,10 +46,10 @@ const ROUND: usize = 32;
 /// Part of the largest region in which a pole is enough enclosed: cutting goes on elsewhere.
 const POLE: f64 = 1e-18;
 
-/// Cuts parts, at most `most` new ones, until Σ|value| and Σ missed are as they should be; `integral` gives a part's own. Where `switch` tells
-/// the argument of a kink or a jump, parts are cut along it.
+/// Cuts parts, at most `most` new ones, until Σ|value| and Σ missed are as they should be; `integral` gives a part's own. Parts are those that `cut` tells, such as beside a kink
+/// or a jump, or else [`Region::parts`].
 pub fn refined(
-    switch: impl Fn(&Region) -> Option<Form>,
+    cut: impl Fn(&Region) -> Option<Vec<Region>>,
     parts: Vec<Part>,
     most: usize,
     is_enough: impl Fn(f64, f64) -> bool,
@@ -73,8 +73,7 @@ pub fn refined(
                 new += 1;
                 continue;
             }
-            let along = switch(&worst.region).and_then(|zero| worst.region.cut(&zero));
-            for region in along.unwrap_or_else(|| worst.region.parts()) {
+            for region in cut(&worst.region).unwrap_or_else(|| worst.region.parts()) {
                 let [value, missed] = integral(worst.of, &region);
                 parts.push(Part { region, value, missed, ..worst });
                 new += 1;

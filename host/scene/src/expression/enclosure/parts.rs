@@ -1,7 +1,7 @@
 //! Parts of regions: quarters, and halves of what is thin.
 
 use super::polynomial::Shape;
-use super::region::{Region, centroid, cross, middle};
+use super::region::{Region, centroid, cross, from, middle};
 
 impl Region {
     /// Halves of a segment; quarters of a triangle or a quad, or halves across its longer direction where it is thin.
@@ -17,6 +17,24 @@ impl Region {
                 }
             }
             Shape::Triangle => self.parts_of_triangle(),
+        }
+    }
+
+    /// Halves across the direction in which a function varies most, by its slope along a vector; [`Region::parts`] where that
+    /// tells nothing.
+    pub fn parts_across(&self, slope: impl Fn([f64; 2]) -> f64) -> Vec<Self> {
+        let ([a, b, c, _], [u, v, _]) = (self.corners, self.along);
+        let [along_u, along_v] = [u, v].map(&slope);
+        let beside = if self.shape == Shape::Triangle { slope(from(u, v)) } else { 0.0 };
+        let most = along_u.max(along_v).max(beside);
+        let back = |u: [f64; 2]| u.map(|x| -x);
+        match self.shape {
+            _ if most == 0.0 || !most.is_finite() => self.parts(),
+            Shape::Segment => self.halves(0),
+            Shape::Quad => self.halves(if along_u == most { 0 } else { 1 }),
+            Shape::Triangle if along_u == most => Self::halved(([a, b, c], [u, v])),
+            Shape::Triangle if beside == most => Self::halved(([b, c, a], [from(u, v), back(u)])),
+            Shape::Triangle => Self::halved(([c, a, b], [back(v), from(v, u)])),
         }
     }
 
