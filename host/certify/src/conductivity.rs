@@ -118,32 +118,3 @@ pub fn eigenvalues(a: &Tensor<f64>) -> [f64; 2] {
     let largest = half + (0.5 * (a.xx - a.yy)).hypot(a.xy);
     [(a.xx / largest) * a.yy - (a.xy / largest) * a.xy, largest]
 }
-
-/// √w L of a tensor A = LLᵀ at a point of weight w.
-pub struct Root {
-    xx: f64,
-    yx: f64,
-    yy: f64,
-    /// √w
-    weight: f64,
-}
-
-impl Root {
-    /// The root of `a`, times that of the weight, `weight`.
-    pub fn of(a: &Tensor<f64>, weight: f64) -> Self {
-        let xx = a.xx.sqrt();
-        let yx = a.xy / xx;
-        Self { xx, yx, yy: (a.yy - yx * yx).max(f64::MIN_POSITIVE).sqrt(), weight }
-    }
-
-    /// √w Lᵀg
-    pub fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [self.weight * (self.xx * x + self.yx * y), self.weight * self.yy * y]
-    }
-
-    /// √w L⁻¹τ
-    pub fn flux(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let first = x / self.xx;
-        [self.weight * first, self.weight * (y - self.yx * first) / self.yy]
-    }
-}

@@ -23,7 +23,7 @@ mod edge_flux;
 pub mod ends;
 pub mod energy;
 pub mod exact;
-mod factor;
+pub mod factor;
 pub mod forest;
 mod imbalance;
 mod legendre;
@@ -39,7 +39,6 @@ mod stretch;
 pub mod term;
 #[cfg(test)]
 mod tests;
-pub mod triangular;
 pub mod weighed;
 
 pub use bound::{Certified, ErrorBound};

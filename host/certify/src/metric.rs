@@ -103,15 +103,13 @@ impl<R: Scalar> Metric<R> {
 
     /// Adds the factors of the cells whose points do not resolve A.
     fn cut(&mut self, problem: &Problem) {
-        for (&cell, pieces) in problem.coefficients.pieces.iter() {
-            if pieces.is_resolved() {
-                continue;
-            }
-            let (factor, above) = factor(problem, cell, pieces);
+        for (&cell, cut) in problem.cuts() {
+            let (factor, above) = factor(cut);
             self.place[cell] = (self.at_points.len() + self.factors.len()) as u32;
             self.factors.push(factor.map(R::narrow));
             self.above.push(above.map(R::narrow));
-            self.slack = self.slack.max(pieces.slack(Cell::of(problem, cell)));
+            let slack = Conductivity::of(problem, cell).missed(Cell::of(problem, cell))[0];
+            self.slack = self.slack.max(slack);
         }
         if self.above.iter().all(|above| *above == [R::ZERO; 2]) {
             self.above.clear();

@@ -10,9 +10,9 @@ use super::ends::nearest;
 use super::evaluate::dot;
 use super::factor::column;
 use super::{CondensedModel, Corner, Form};
-use signorini_certify::triangular::norm;
 use signorini_kernel::excess::Excess;
 use signorini_kernel::flux_range::{FluxRange, Span};
+use signorini_problem::triangular::norm;
 
 /// An excess this far on a side that there is not, against the size of its terms, is rounding of its sum.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;

@@ -12,9 +12,9 @@ use signorini_kernel::mesh::boundary::Robin;
 use super::block::{Block, Functions};
 use signorini_certify::TermData;
 use signorini_certify::robin::{RobinPoints, robin};
-use signorini_certify::triangular::triangular;
 use signorini_problem::Problem;
 use signorini_problem::quadrature::DATA_POINTS;
+use signorini_problem::triangular::triangular;
 use signorini_scene::error::Result;
 
 /// Points along an edge with their weights.

@@ -13,14 +13,14 @@ use super::chain::is_left_out;
 use super::laws::{Laws, of_law, of_robin, transfer};
 use signorini_certify::TermData;
 use signorini_certify::cell::{Cell, Local};
-use signorini_certify::conductivity::{Conductivity, Root};
+use signorini_certify::conductivity::Conductivity;
 use signorini_certify::curved::{FINE, POINTS, between_smooth_rays, of_rough_sides};
 use signorini_certify::deviation::Deviations;
-use signorini_certify::triangular::triangular;
 use signorini_problem::Problem;
 use signorini_problem::field::CellField;
-use signorini_problem::pieces::PiecePoint;
+use signorini_problem::pieces::{PiecePoint, Root};
 use signorini_problem::quadrature::{DATA_POINTS, Point, gauss, on_panels};
+use signorini_problem::triangular::triangular;
 use signorini_scene::error::Result;
 
 /// The rows of all cells and Robin edges.

@@ -13,13 +13,15 @@ use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::{Conductivity, apply, dot, inverse};
 use signorini_certify::curved;
 use signorini_certify::deviation::{Deviation, Deviations};
+use signorini_certify::factor::coefficients;
 use signorini_certify::robin::robin;
 use signorini_kernel::Real;
 use signorini_problem::Problem;
 use signorini_problem::field::CellField;
-use signorini_problem::pieces::PiecePoint;
+use signorini_problem::pieces::{Cut, PiecePoint, Rows};
 use signorini_problem::quadrature::{DATA_POINTS, gauss};
 use signorini_problem::threads::in_portions;
+use signorini_problem::triangular::norm;
 use signorini_scene::error::Result;
 
 /// Squares and products.
@@ -130,6 +132,28 @@ impl Products {
         }
     }
 
+    /// The products on the pieces of a cell, from the coefficients of s and τ, z and ζ; see [`Products::beside`].
+    fn on_pieces(cut: &Cut, [s, tau]: [Vec<f64>; 2], [z, zeta]: [Vec<f64>; 2]) -> Self {
+        let minus = |v: &[f64]| v.iter().map(|x| -x).collect::<Vec<_>>();
+        let none = |of: &[f64]| vec![0.0; of.len()];
+        let residual = [s.clone(), tau].concat();
+        let sum = [minus(&z), zeta.clone()].concat();
+        let size = |rows: &Rows, c: &[f64]| norm(&product(rows, c));
+        let seen = product(&cut.seen, &residual);
+        let [by_s, by_z] = [&s, &z].map(|v| size(&cut.above[0], v));
+        let lost = size(&cut.doubtful, &residual);
+        let (r, y) = (norm(&seen), size(&cut.seen, &sum));
+        let of_z = size(&cut.seen, &[z.clone(), none(&zeta)].concat());
+        let of_zeta = size(&cut.seen, &[none(&z), zeta.clone()].concat());
+        Self {
+            residual: ((r * r - lost * lost).max(0.0).sqrt() - by_s).max(0.0).powi(2),
+            weights: (size(&cut.seen, &[z.clone(), zeta].concat()) + by_z).powi(2),
+            both: seen.iter().zip(product(&cut.seen, &sum)).map(|(a, b)| a * b).sum(),
+            off: lost * size(&cut.doubtful, &sum) + by_s * y + r * by_z + by_s * by_z,
+            sizes: [(of_z + size(&cut.above[1], &z)).powi(2), of_zeta * of_zeta],
+        }
+    }
+
     fn and(self, other: Self) -> Self {
         Self {
             residual: self.residual + other.residual,
@@ -139,6 +163,11 @@ impl Products {
             sizes: [0, 1].map(|at| self.sizes[at] + other.sizes[at]),
         }
     }
+}
+
+/// Rc
+fn product(rows: &Rows, c: &[f64]) -> Vec<f64> {
+    rows.iter().map(|row| row.iter().zip(c).map(|(a, b)| a * b).sum()).collect()
 }
 
 /// Points a direction where s has no lift.
@@ -188,6 +217,12 @@ impl<'p> Residual<'p> {
 
     fn add_cell(&self, at: usize, z: &Admissible, sum: &mut Products) {
         let problem = self.problem;
+        let is_lifted = self.lifted.contains_key(&at);
+        if let Some(cut) = problem.cuts().get(&at).filter(|_| !is_lifted) {
+            let of = |fields| coefficients(problem, at, fields);
+            *sum = sum.and(Products::on_pieces(cut, of(&self.s), of(z)));
+            return;
+        }
         let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
         let z_here = z.chordal(problem, at);
         let [tau, zeta] = [self.s.tau, z.tau].map(|flux| CellField::new(problem, at, flux, flux));

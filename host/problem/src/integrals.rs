@@ -7,9 +7,9 @@ use signorini_kernel::{Error as KernelError, Real, Tensor};
 
 use super::{Binding, Problem};
 use crate::cell::Cell;
-use crate::pieces::Pieces;
+use crate::pieces::{Cut, Pieces};
 use crate::quadrature::{DATA_POINTS, Point, TRIANGLE_POINTS, on_quad};
-use crate::threads::in_portions;
+use crate::threads::{in_portions, on_two_threads};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::{Material, Scene};
@@ -23,6 +23,8 @@ pub struct Coefficients {
     pub quads: Vec<QuadCoefficient>,
     /// A on the pieces of cells in which it varies, triangles first.
     pub pieces: BTreeMap<usize, Pieces>,
+    /// Integrals over those of cells whose own points do not resolve A, once somebody asks.
+    cuts: OnceLock<BTreeMap<usize, Cut>>,
     /// Element matrices that follow, once somebody asks.
     pub(super) matrices: OnceLock<std::result::Result<Integrated, KernelError>>,
 }
@@ -63,13 +65,23 @@ pub(super) struct Integrated {
 }
 
 /// Evaluates and checks A on every cell.
-pub(super) fn coefficients(scene: &Scene, mesh: &Mesh, binding: &Binding) -> Result<Coefficients> {
+///
+/// `known` are its pieces, where these have been found.
+pub(super) fn coefficients(
+    scene: &Scene,
+    mesh: &Mesh,
+    binding: &Binding,
+    known: Option<BTreeMap<usize, Pieces>>,
+) -> Result<Coefficients> {
     let constants =
         scene.materials.iter().map(|m| constant(scene, m)).collect::<Result<Vec<_>>>()?;
     let of_cell = |at: usize| binding.materials[at] as usize;
     let varying: Vec<usize> =
         (0..binding.materials.len()).filter(|&at| constants[of_cell(at)].is_none()).collect();
-    let pieces = pieces(scene, mesh, binding, &varying)?;
+    let pieces = match known {
+        Some(pieces) => pieces,
+        None => pieces(scene, mesh, binding, &varying)?,
+    };
     let triangles = mesh.triangles.iter().enumerate().map(|(at, _)| {
         let material = of_cell(at);
         match (constants[material], pieces.get(&at)) {
@@ -90,12 +102,17 @@ pub(super) fn coefficients(scene: &Scene, mesh: &Mesh, binding: &Binding) -> Res
         Ok(QuadCoefficient::AtPoints(tensors.collect::<Result<_>>()?))
     });
     let quads = quads.collect::<Result<_>>()?;
-    Ok(Coefficients { triangles, quads, pieces, matrices: OnceLock::new() })
+    Ok(Coefficients { triangles, quads, pieces, cuts: OnceLock::new(), matrices: OnceLock::new() })
 }
 
-/// Most pieces of a cell, and of all cells; fewest that one may be cut into.
-const MOST: [usize; 2] = [1024, 40_000];
-const FEWEST: usize = 16;
+/// Pieces are small enough where what is not seen is this part of what can be seen.
+const LEFT: f64 = 1e-3;
+/// Most cuts of all cells, and of those where nothing is proved otherwise.
+const MOST: usize = 40_000;
+const MOST_UNPROVED: usize = 200_000;
+/// Most cuts of a cell, and the number that any may have.
+const MOST_OF_CELL: usize = 1024;
+const FEWEST: usize = 32;
 
 /// A on pieces of these cells.
 fn pieces(
@@ -104,21 +121,24 @@ fn pieces(
     binding: &Binding,
     cells: &[usize],
 ) -> Result<BTreeMap<usize, Pieces>> {
-    let of_cells = |cells: &[usize], most: usize| -> Result<BTreeMap<usize, Pieces>> {
+    let of_cells = |cells: &[usize], most: usize, left: f64| -> Result<BTreeMap<usize, Pieces>> {
         let portions = in_portions(cells.len(), |portion| {
             let of = |&at: &usize| {
                 let material = &scene.materials[binding.materials[at] as usize];
-                (at, Pieces::new(material, Cell::in_mesh(mesh, at), most))
+                (at, Pieces::new(material, Cell::in_mesh(mesh, at), (most, left)))
             };
             Ok(cells[portion].iter().map(of).collect::<Vec<_>>())
         })?;
         Ok(portions.into_iter().flatten().collect())
     };
-    let mut all = of_cells(cells, 0)?;
-    let is_open = |at: &&usize| all.get(at).is_some_and(Pieces::is_open);
-    let open: Vec<usize> = cells.iter().filter(is_open).copied().collect();
-    let most = (MOST[1] / open.len().max(1)).clamp(FEWEST, MOST[0]);
-    all.extend(of_cells(&open, most)?);
+    let mut all = of_cells(cells, 0, LEFT)?;
+    // First what is to be small enough, then what is to be proved at all.
+    for (most, left) in [(MOST, LEFT), (MOST_UNPROVED, f64::MAX)] {
+        let is_open = |at: &&usize| all.get(at).is_some_and(|of| of.left > left);
+        let open: Vec<usize> = cells.iter().filter(is_open).copied().collect();
+        let most = (most / open.len().max(1)).clamp(FEWEST, MOST_OF_CELL);
+        all.extend(of_cells(&open, most, left)?);
+    }
     // Where it is no tensor of a material, that is told with the point.
     for (&at, pieces) in &all {
         let material = &scene.materials[binding.materials[at] as usize];
@@ -135,6 +155,17 @@ fn constant(scene: &Scene, material: &Material) -> Result<Option<Tensor<f64>>> {
 }
 
 impl Problem {
+    /// Integrals over the cells whose own points do not resolve A.
+    pub fn cuts(&self) -> &BTreeMap<usize, Cut> {
+        self.coefficients.cuts.get_or_init(|| {
+            let pieces = self.coefficients.pieces.iter().filter(|(_, of)| !of.is_resolved());
+            let pieces: Vec<_> = pieces.collect();
+            let of = |&(&at, pieces): &(&usize, &Pieces)| Ok((at, Cut::of(self, at, pieces)));
+            let cuts = on_two_threads(&pieces, of, || ());
+            cuts.map(|cuts| cuts.into_iter().collect()).unwrap_or_default()
+        })
+    }
+
     /// The mean of A over a cell, triangles first.
     pub fn mean_conductivity(&self, cell: usize) -> Tensor<f64> {
         let Coefficients { triangles, quads, .. } = &*self.coefficients;

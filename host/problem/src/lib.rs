@@ -41,6 +41,7 @@ mod tests;
 pub mod threads;
 mod topology;
 mod transfer;
+pub mod triangular;
 mod warnings;
 mod widths;
 
@@ -125,7 +126,7 @@ impl Problem {
         let kinds = (0..count).map(|edge| binding.kind(scene, &topology, edge, ends[edge]));
         let at = |ends: [u32; 2]| ends.map(|vertex| mesh.vertices[vertex as usize]);
         let lengths = ends.iter().map(|&ends| shape::edge_length(at(ends)));
-        let coefficients = integrals::coefficients(scene, &mesh, &binding)?;
+        let coefficients = integrals::coefficients(scene, &mesh, &binding, None)?;
         let mut problem = Self {
             scene: Arc::new(scene.clone()),
             kinds: kinds.collect(),

@@ -86,7 +86,10 @@ impl Problem {
     /// Data that are not finite in these units.
     pub fn in_units(&self, units: &Units) -> Result<Self> {
         let scene = units.scene(&self.scene);
-        let coefficients = integrals::coefficients(&scene, &self.mesh, &self.binding)?;
+        let pieces = self.coefficients.pieces.iter();
+        let pieces = pieces.map(|(&at, of)| (at, of.divided(units.conductivity))).collect();
+        let coefficients =
+            integrals::coefficients(&scene, &self.mesh, &self.binding, Some(pieces))?;
         let mut problem = self.restated(scene);
         problem.units = units.within(&self.units);
         problem.coefficients = Arc::new(coefficients);

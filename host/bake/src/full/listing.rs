@@ -3,7 +3,9 @@
 use std::fmt::Write as _;
 
 use signorini_bound::cells::{Cells, Quad, Triangle};
-use signorini_bound::certificate::{Above, Curved, Discretization, Factor, Metric, POINTS};
+use signorini_bound::certificate::{
+    Above, Curved, Discretization, ENTRIES, Factor, Metric, POINTS,
+};
 use signorini_device::full::{Base, CurvedPart, CurvedSum, Full, Product};
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
@@ -24,7 +26,7 @@ pub(super) const NAMES: &str = "\
     kernel::assembly::CellLoads kernel::flux_range::Room contact::dense::tableau::InitialTableau \
     kernel::mesh::boundary::Neumann kernel::mesh::boundary::Robin bound::cells::Cell \
     bound::cells::Cells bound::cells::Quad bound::cells::Triangle bound::certificate::Curved \
-    bound::certificate::Discretization bound::certificate::Factor bound::certificate::Metric bound::certificate::Stability \
+    bound::certificate::Discretization bound::certificate::Metric bound::certificate::Stability \
     bound::conforming::VertexData kernel::mesh::edges::EdgeCounts kernel::mesh::edges::Edges \
     full::AmbientShare full::Base full::EdgeTrace full::CurvedPart full::CurvedSum full::Full \
     full::Functional full::Pattern full::Points full::TransferPattern full::Product \
@@ -128,9 +130,9 @@ fn cells<R: Scalar, I: Index>(of: &Cells<R, u32>, to: &mut Statics) -> String {
 fn metric<R: Scalar>(of: &Metric<R>, to: &mut Statics) -> String {
     record("Metric", [
         ("at_points", to.array::<[Tensor<R>; POINTS * POINTS]>("METRIC", "A in reference coordinates at 64 points of the cells in which it varies.", "[Tensor<Scalar>; 64]", of.at_points)),
-        ("factors", to.array::<Factor<R>>("METRIC_FACTORS", "Triangular factors of the integrals over cells whose 64 points do not resolve A.", "Factor<Scalar>", of.factors)),
+        ("factors", to.array::<Factor<R>>("METRIC_INTEGRALS", "Triangular factors of the integrals over cells whose 64 points do not resolve A.", &format!("[Scalar; {ENTRIES}]"), of.factors)),
         ("above", to.array::<Above<R>>("METRIC_ABOVE", "What A has above these points and factors.", "[Scalar; 2]", of.above)),
-        ("place", to.array::<u32>("METRIC_PLACE", "Where each cell stands in `METRIC` and `METRIC_FACTORS` behind it; beyond both where A is constant.", "u32", of.place)),
+        ("place", to.array::<u32>("METRIC_PLACE", "Where each cell stands in `METRIC` and `METRIC_INTEGRALS` behind it; beyond both where A is constant.", "u32", of.place)),
         ("distortions", to.array::<[R; 2]>("QUAD_DISTORTIONS", "By how much each quad is no parallelogram.", "[Scalar; 2]", of.distortions)),
     ])
 }

@@ -20,7 +20,7 @@ use super::reduced::Reduced;
 use super::sides::Sides;
 use crate::factor::column;
 use crate::{CondensedModel, Corner, Form, Vertex};
-use signorini_certify::triangular::norm;
+use signorini_problem::triangular::norm;
 use signorini_reference::ReferenceError;
 
 /// Pieces at most.

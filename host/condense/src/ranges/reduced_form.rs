@@ -7,7 +7,7 @@ use super::reduction::Affine;
 use super::sides::VertexSide;
 use crate::factor::{column, packed};
 use crate::{Corner, Form, Vertex};
-use signorini_certify::triangular::norm;
+use signorini_problem::triangular::norm;
 
 impl Build<'_> {
     pub fn form(&self, form: &Form) -> Form {

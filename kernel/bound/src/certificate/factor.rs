@@ -5,7 +5,7 @@
 //! ```
 //! with p ≤ A, worked out once from as many points as A asks for. Functions of v, whose gradients these are in reference coordinates:
 //! on a triangle ŝ at the second and third vertex less that at the first; on a quad three such differences, the four bubbles and the
-//! function of u_h that is curved, see [`curved`].
+//! function of u_h with the means 0, ½, 0, ½ over its sides.
 
 use super::parts::CellTerms;
 use super::quad::{Means, Values};
@@ -26,9 +26,6 @@ pub type Factor<R> = [R; ENTRIES];
 
 /// What A has above p: ‖A^{−½}(A − p)∇v‖² is at most the first of these times |F (v, 0)|², and ‖A^½∇v‖² no more than 1 plus the second.
 pub type Above<R> = [R; 2];
-
-/// The means of u_h over the sides at which its curved function, and nothing else, is 1.
-pub const CURVED: [f64; 4] = [0.0, 0.5, 0.0, 0.5];
 
 /// |F c|², and the same of the sums of the moduli.
 fn squares<R: Real, const N: usize>(factor: &Factor<R>, c: &[R; N]) -> [R; 2] {

@@ -50,7 +50,7 @@ mod triangle;
 mod walk;
 
 pub use extension::{Curved, is_clear};
-pub use factor::{Above, CURVED, ENTRIES, Factor, GRADIENTS, ON_QUAD, ON_TRIANGLE};
+pub use factor::{Above, ENTRIES, Factor};
 pub use metric::{Metric, POINTS, of_quad, of_triangle};
 pub use signorini_kernel::verdict::{Certificate, Verdict};
 pub use stability::stability;

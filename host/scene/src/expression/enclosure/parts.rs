@@ -20,21 +20,28 @@ impl Region {
         }
     }
 
-    /// Halves across the direction in which a function varies most, by its slope along a vector; [`Region::parts`] where that
-    /// tells nothing.
-    pub fn parts_across(&self, slope: impl Fn([f64; 2]) -> f64) -> Vec<Self> {
-        let ([a, b, c, _], [u, v, _]) = (self.corners, self.along);
-        let [along_u, along_v] = [u, v].map(&slope);
-        let beside = if self.shape == Shape::Triangle { slope(from(u, v)) } else { 0.0 };
-        let most = along_u.max(along_v).max(beside);
+    /// Vectors along ξ and η, of a triangle along all its sides.
+    pub fn directions(&self) -> [[f64; 2]; 3] {
+        let [u, v, _] = self.along;
+        let beside = if self.shape == Shape::Triangle { from(u, v) } else { [0.0; 2] };
+        [u, v, beside]
+    }
+
+    /// Halves across the direction in which a function varies most, if it does so much along each; else [`Region::parts`].
+    pub fn parts_across(&self, variations: [f64; 3]) -> Vec<Self> {
+        let ([a, b, c, _], [u, v, beside]) = (self.corners, self.directions());
+        let most = variations.iter().copied().fold(0.0, f64::max);
+        let [along_u, along_v, _] = variations;
         let back = |u: [f64; 2]| u.map(|x| -x);
         match self.shape {
             _ if most == 0.0 || !most.is_finite() => self.parts(),
             Shape::Segment => self.halves(0),
             Shape::Quad => self.halves(if along_u == most { 0 } else { 1 }),
             Shape::Triangle if along_u == most => Self::halved(([a, b, c], [u, v])),
-            Shape::Triangle if beside == most => Self::halved(([b, c, a], [from(u, v), back(u)])),
-            Shape::Triangle => Self::halved(([c, a, b], [back(v), from(v, u)])),
+            Shape::Triangle if along_v == most => {
+                Self::halved(([c, a, b], [back(v), back(beside)]))
+            }
+            Shape::Triangle => Self::halved(([b, c, a], [beside, back(u)])),
         }
     }
 

@@ -7,14 +7,16 @@
 //! any flux τ and gradient v:
 //! ```text
 //!   ‖A^{−½}(τ − Av)‖ ≤ ‖p^{−½}(τ − pv)‖ + ‖N′^½v‖,   N′ = min(1, ν) N
-//!   ∫ over the piece  ≤ (1 + κ) Σ over 8×8 points,     κ ≈ 2 η⁴
+//!   ∫ over the piece  ≤ (1 + ηᵏ⁺¹)/(1 − ηᵏ⁺¹) Σ over n×n points
 //! ```
-//! Since p ≤ A, |A^{−½}·| ≤ |p^{−½}·|; and with X = A − p, XA⁻¹X is at most X and at most Xp⁻¹X ≤ νX. For κ: with p = p̄^½(1 + E)p̄^½ the
-//! polynomial q = p̄^{−½}(1 − E + E² − E³)p̄^{−½} is p⁻¹ up to the factor 1 − E⁴, and the rule integrates (τ − pv)·q(τ − pv) exactly: of degree 14 in
-//! all on triangles; in each coordinate, 2·(2 + 2) + 2·3 ≤ 15 on parallelograms. (On other quads the map has a share in it, which is that of a
-//! constant A.)
+//! Since p ≤ A, |A^{−½}·| ≤ |p^{−½}·|; and with X = A − p, XA⁻¹X is at most X and at most Xp⁻¹X ≤ νX. For the points: with
+//! p = p̄^½(1 + E)p̄^½ the polynomial q = p̄^{−½}(1 − E + … ± Eᵏ)p̄^{−½} is p⁻¹ up to a factor 1 ± Eᵏ⁺¹, and a rule of n points that is exact
+//! for polynomials as long as (τ − pv)·q(τ − pv) integrates that exactly. (On quads that are no parallelograms the map has a share in it,
+//! which is that of a constant A.)
 
-use signorini_kernel::{Real, Tensor};
+mod rows;
+
+use signorini_kernel::Tensor;
 use signorini_scene::expression::Expression;
 use signorini_scene::expression::enclosure::{Form, Region, Shape};
 use signorini_scene::scene::{Located, Material};
@@ -22,16 +24,36 @@ use signorini_scene::scene::{Located, Material};
 use crate::cell::Cell;
 use crate::integrals::average;
 use crate::quadrature::refined::{Part, refined};
-use crate::quadrature::{DATA_POINTS, Point, enclosed, on_quad, on_triangle};
+use crate::quadrature::{Point, enclosed, gauss, on_quad, on_triangle};
 
+/// The most of ξ, η, ξ², ξη and η² on a triangle.
+const IN_TRIANGLE: [f64; 5] = [2.0 / 3.0, 2.0 / 3.0, 4.0 / 9.0, 2.0 / 9.0, 4.0 / 9.0];
+/// Part of a range that a form has to see in its coefficients.
+const SEEN: f64 = 0.25;
 /// A variation of A that rounding makes.
 const ROUNDING: f64 = 1e-10;
 /// Of the root of an integral over a piece twice this may be missed.
-const MISSED: f64 = 1e-3;
-/// The most that p may vary in a piece, as η: κ is 2e−3 then.
-const VARIES: f64 = 0.18;
+const MISSED: f64 = 4e-3;
+/// The most that p may vary in a piece, as η, and in a cell whose own points resolve A.
+const VARIES: [f64; 2] = [0.5, 0.18];
+/// Points in a direction, at most.
+const MOST_POINTS: usize = 16;
+/// The most of ξ, η, ξ², ξη and η² on a triangle.
+const IN_TRIANGLE: [f64; 5] = [2.0 / 3.0, 2.0 / 3.0, 4.0 / 9.0, 2.0 / 9.0, 4.0 / 9.0];
+/// Part of a range that a form has to see in its coefficients.
+const SEEN: f64 = 0.25;
+/// A variation of A that rounding makes.
+const ROUNDING: f64 = 1e-10;
+/// Of the root of an integral over a piece twice this may be missed.
+const MISSED: f64 = 4e-3;
+/// The most that p may vary in a piece, as η, and in a cell whose own points resolve A.
+const VARIES: [f64; 2] = [0.5, 0.18];
+/// Points in a direction, at most.
+const MOST_POINTS: usize = 16;
 /// Pieces are small enough where ‖N′^½v‖ is this part of what the variation of A makes of ‖A^½v‖.
 const LEFT: f64 = 1e-3;
+
+pub use rows::{Cut, Root, Rows};
 
 /// A on a piece of a cell.
 #[derive(Debug, Clone)]
@@ -88,8 +110,8 @@ impl PiecePoint {
 }
 
 impl Pieces {
-    /// A of `material` on a cell, of no more than so many pieces.
-    pub fn new(material: &Material, cell: Cell, most: usize) -> Self {
+    /// A of `material` on a cell, cut no more than so often until so much is `left`.
+    pub fn new(material: &Material, cell: Cell, (most, left): (usize, f64)) -> Self {
         let whole = enclosed::region(cell);
         let flat = Piece::flat(material, &forms(material, &whole), whole);
         let variation = flat.share.clamp(ROUNDING, 1.0);
@@ -102,7 +124,7 @@ impl Pieces {
             [region.measure(), region.measure() * missed]
         };
         let [value, missed] = part(&whole);
-        let is_enough = |size: f64, missed: f64| missed <= (LEFT * variation).powi(2) * size;
+        let is_enough = |size: f64, missed: f64| missed <= (left * variation).powi(2) * size;
         let whole = Part { of: 0, region: whole, value, missed };
         let cut = |region: &Region| Some(parts(material, region));
         let parts = refined(cut, vec![whole], most, is_enough, |_, region| part(region));
@@ -112,14 +134,20 @@ impl Pieces {
         Self { all: parts.into_iter().map(piece).collect(), left }
     }
 
-    /// Whether there is more to cut, with more pieces.
-    pub fn is_open(&self) -> bool {
-        self.left > LEFT || !self.left.is_finite()
+    /// A over a power of two.
+    #[must_use]
+    pub fn divided(&self, by: f64) -> Self {
+        let divided = |piece: &Piece| Piece {
+            below: piece.below.map(|of| scaled(&of, 1.0 / by)),
+            above: piece.above.map(|of| of / by),
+            ..*piece
+        };
+        Self { all: self.all.iter().map(divided).collect(), left: self.left }
     }
 
     /// Whether the points of the cell itself resolve A.
     pub fn is_resolved(&self) -> bool {
-        self.all.len() == 1 && self.unproved().is_none()
+        matches!(&self.all[..], [of] if of.share.is_finite() && of.varies <= VARIES[1])
     }
 
     /// A point near which A is not proved to be positive definite and bounded.
@@ -192,9 +220,11 @@ impl Piece {
         let rest = forms.each_ref().map(|of| [of.remainder.middle(), 0.5 * of.remainder.width()]);
         below[0] = sum(&below[0], &tensor(rest.map(|of| of[0])));
         let piece = Self::less(below, rest.map(|of| of[1]), region)?;
-        let varies = piece.below[1..].iter().map(|of| piece.size_of(of)).sum::<f64>();
+        let most = if region.shape() == Shape::Triangle { IN_TRIANGLE } else { [1.0; 5] };
+        let terms = piece.below[1..].iter().zip(most);
+        let varies = terms.map(|(of, most)| most * piece.size_of(of)).sum::<f64>();
         let piece = Self { varies, share: piece.share / (1.0 - varies), ..piece };
-        (varies <= VARIES).then_some(piece)
+        (varies <= VARIES[0]).then_some(piece)
     }
 
     /// With a constant p; with A of the centre and an infinite ν where nothing is proved.
@@ -254,14 +284,13 @@ impl Piece {
             let k = (2 * points).checked_sub(lost + square)? / 2;
             Some((points, self.varies.powi(k as i32 + 1)))
         };
-        let enough = (2..=DATA_POINTS).filter_map(missed).find(|(_, missed)| *missed <= MISSED);
-        enough.unwrap_or((DATA_POINTS, self.varies.powi(4)))
+        let mut all = (2..=MOST_POINTS).filter_map(missed);
+        all.find(|(_, missed)| *missed <= MISSED).unwrap_or((MOST_POINTS, f64::INFINITY))
     }
 
     fn points(&self, cell: Cell) -> Vec<PiecePoint> {
         let (points, _) = self.rule(cell);
-        let rule = f64::GAUSS[points - 1];
-        let share = self.share.min(1.0);
+        let (rule, share) = (gauss(points), self.share.min(1.0));
         let here = |own: Point| {
             let [first, second, third] = own.reference;
             let at = match self.region.shape() {
@@ -272,8 +301,8 @@ impl Piece {
             PiecePoint { point, below: self.at(at), above: self.above, share }
         };
         match *self.region.corners() {
-            [a, b, c] => on_triangle([a, b, c], rule).map(here).collect(),
-            [a, b, c, d] => on_quad([a, b, c, d], rule).map(here).collect(),
+            [a, b, c] => on_triangle([a, b, c], &rule).map(here).collect(),
+            [a, b, c, d] => on_quad([a, b, c, d], &rule).map(here).collect(),
             _ => Vec::new(),
         }
     }
@@ -290,12 +319,27 @@ impl Piece {
 fn parts(material: &Material, region: &Region) -> Vec<Region> {
     let switch = material.conductivity.iter().find_map(|of| of.value.switch(region, 0.0));
     let along = switch.and_then(|zero| region.cut(&zero));
-    let slope = |entry: &Located<Expression>, way: [f64; 2]| {
-        entry.value.enclose_slope(region, 0.0, way)[1].range().size()
-    };
+    along.unwrap_or_else(|| region.parts_across(variations(material, region)))
+}
+
+/// How much A varies along the directions of a region: by its forms, where they say most of it, or by its slopes.
+fn variations(material: &Material, region: &Region) -> [f64; 3] {
     let entries = &material.conductivity[..if material.is_scalar { 1 } else { 3 }];
-    let steepest = |way: [f64; 2]| entries.iter().map(|of| slope(of, way)).fold(0.0, f64::max);
-    along.unwrap_or_else(|| region.parts_across(steepest))
+    let most =
+        |of: &dyn Fn(&Located<Expression>) -> f64| entries.iter().map(of).fold(0.0, f64::max);
+    let by_form = |of: &Located<Expression>| {
+        let form = of.value.enclose(region, 0.0);
+        let [_, x, y, xx, xy, yy] = form.coefficients.map(f64::abs);
+        let beside = (form.coefficients[1] - form.coefficients[2]).abs();
+        ([x + xx, y + yy, beside + xx + xy + yy], form.range().width())
+    };
+    let told = entries.iter().map(by_form).reduce(|a, b| if a.1 >= b.1 { a } else { b });
+    match told {
+        Some((along, width)) if along.iter().sum::<f64>() > SEEN * width => along,
+        _ => region
+            .directions()
+            .map(|way| most(&|of| of.value.enclose_slope(region, 0.0, way)[1].range().size())),
+    }
 }
 
 fn forms(material: &Material, region: &Region) -> [Form; 3] {

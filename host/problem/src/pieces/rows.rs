@@ -1,0 +1,134 @@
+//! Integrals over the pieces of a cell as rows over what v and τ are made of: of many points' rows the triangular factor is all that
+//! matters.
+
+use signorini_kernel::Tensor;
+
+use super::{PiecePoint, Pieces};
+use crate::Problem;
+use crate::cell::Cell;
+use crate::field::CellField;
+use crate::triangular::triangular;
+
+/// The means of the function of u_h on a quad that is curved.
+const CURVED: [f64; 4] = [0.0, 0.5, 0.0, 0.5];
+
+/// Rows over the coefficients of v and then of τ.
+pub type Rows = Vec<Vec<f64>>;
+
+/// Integrals over a cell as rows, ν being that of each piece.
+#[derive(Debug, Clone)]
+pub struct Cut {
+    /// p^½∇v − p^{−½}τ
+    pub seen: Rows,
+    /// That times √ν′, ν′ = min(1, ν).
+    pub doubtful: Rows,
+    /// √N′∇v and √N∇v
+    pub above: [Rows; 2],
+    /// Coefficients of v.
+    pub gradients: usize,
+}
+
+impl Cut {
+    /// The integrals over cell `at`.
+    pub fn of(problem: &Problem, at: usize, pieces: &Pieces) -> Self {
+        let functions = Functions::of(problem, at);
+        let (sides, gradients) = match functions.cell {
+            Cell::Triangle(_) => (3, 2),
+            Cell::Quad(_) => (4, 8),
+        };
+        let [mut seen, mut doubtful] = [0, 1].map(|_| vec![Vec::new(); gradients + sides]);
+        let mut above = [0, 1].map(|_| vec![Vec::new(); gradients]);
+        for at in pieces.points(functions.cell) {
+            let (root, weight) = (Root::of(&at.below, at.point.weight.sqrt()), at.point.weight);
+            let slopes = functions.slopes(&at);
+            let of_v = slopes.iter().map(|slope| root.gradient(*slope));
+            let of_tau = (0..sides).map(|side| root.flux(functions.flux(&at, side)).map(|x| -x));
+            let rows: Vec<[f64; 2]> = of_v.chain(of_tau).collect();
+            extend(&mut seen, rows.iter().copied());
+            if at.share == 0.0 {
+                continue;
+            }
+            extend(&mut doubtful, rows.iter().map(|row| row.map(|x| at.share.sqrt() * x)));
+            for (columns, share) in above.iter_mut().zip([at.share, 1.0]) {
+                let [xx, yy] = at.above.map(|n| (weight * share * n).sqrt());
+                extend(columns, slopes.iter().map(|[x, y]| [xx * x, yy * y]));
+            }
+        }
+        let [seen, doubtful] = [seen, doubtful].map(triangular);
+        Self { seen, doubtful, above: above.map(triangular), gradients }
+    }
+}
+
+fn extend(columns: &mut [Vec<f64>], rows: impl Iterator<Item = [f64; 2]>) {
+    columns.iter_mut().zip(rows).for_each(|(column, row)| column.extend(row));
+}
+
+/// The functions of v and τ on a cell.
+struct Functions {
+    cell: Cell,
+    field: CellField,
+    /// The curved function of u_h.
+    curved: CellField,
+}
+
+impl Functions {
+    fn of(problem: &Problem, at: usize) -> Self {
+        let cell = Cell::of(problem, at);
+        let field = |means: [f64; 4]| match cell {
+            Cell::Triangle(corners) => CellField::Triangle(corners, [0.0; 3], [0.0; 3]),
+            Cell::Quad(corners) => CellField::Quad(corners, means, [0.0; 4], problem.element),
+        };
+        Self { cell, field: field([0.0; 4]), curved: field(CURVED) }
+    }
+
+    /// Gradients at a point, in the order of the factor's columns.
+    fn slopes(&self, at: &PiecePoint) -> Vec<[f64; 2]> {
+        let local = self.cell.local(at.point.reference);
+        let corners = self.cell.corners().len();
+        let mut slopes: Vec<_> = local.vertices[1..corners].iter().map(|of| of.gradient).collect();
+        if corners == 4 {
+            slopes.extend(local.sides.iter().map(|side| side.bubble().gradient));
+            slopes.push(self.curved.sample(&at.point).gradient);
+        }
+        slopes
+    }
+
+    /// The Raviart–Thomas field with the outward flux 1 through a side.
+    fn flux(&self, at: &PiecePoint, side: usize) -> [f64; 2] {
+        let mut field = self.field;
+        match &mut field {
+            CellField::Triangle(_, _, fluxes) => fluxes[side] = 1.0,
+            CellField::Quad(_, _, fluxes, _) => fluxes[side] = 1.0,
+        }
+        field.sample(&at.point).flux
+    }
+}
+
+/// √w L of a tensor A = LLᵀ at a point of weight w.
+pub struct Root {
+    xx: f64,
+    yx: f64,
+    yy: f64,
+    /// √w
+    weight: f64,
+}
+
+impl Root {
+    /// The root of `a`, times that of the weight, `weight`.
+    pub fn of(a: &Tensor<f64>, weight: f64) -> Self {
+        let xx = a.xx.sqrt();
+        let yx = a.xy / xx;
+        Self { xx, yx, yy: (a.yy - yx * yx).max(f64::MIN_POSITIVE).sqrt(), weight }
+    }
+
+    /// √w Lᵀg
+    pub fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.weight * (self.xx * x + self.yx * y), self.weight * self.yy * y]
+    }
+
+    /// √w L⁻¹τ
+    pub fn flux(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let first = x / self.xx;
+        [self.weight * first, self.weight * (y - self.yx * first) / self.yy]
+    }
+}
