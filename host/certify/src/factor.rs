@@ -10,10 +10,14 @@ use crate::admissible::Admissible;
 /// A gradient with less than this part of itself that is not in those before is in their span.
 const IN_SPAN: f64 = 1e-9;
 
-/// F of a cell, and what A has above it.
+/// F and M of a cell, and what A has above F.
 pub fn factor(cut: &Cut) -> (Factor<f64>, Above<f64>) {
-    let above = cut.above.each_ref().map(|rows| beside(rows, &cut.seen, cut.gradients));
-    (packed(&cut.seen), above)
+    let [open, beyond] = &cut.above;
+    let mut entries = packed(&cut.seen);
+    let columns = cut.seen.first().map_or(0, Vec::len);
+    let (_, to) = entries.split_at_mut(columns * (columns + 1) / 2);
+    to.iter_mut().zip(packed(open)).for_each(|(to, from)| *to = from);
+    (entries, [0.0, beside(beyond, &cut.seen, cut.gradients)])
 }
 
 /// The coefficients of s and τ on cell `at`.

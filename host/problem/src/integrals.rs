@@ -7,7 +7,7 @@ use signorini_kernel::{Error as KernelError, Real, Tensor};
 
 use super::{Binding, Problem};
 use crate::cell::Cell;
-use crate::pieces::{Cut, Pieces};
+use crate::pieces::{Cut, Pieces, average};
 use crate::quadrature::{DATA_POINTS, Point, TRIANGLE_POINTS, on_quad};
 use crate::threads::{in_portions, on_two_threads};
 use signorini_scene::error::Result;
@@ -107,6 +107,8 @@ pub(super) fn coefficients(
 
 /// Pieces are small enough where what is not seen is this part of what can be seen.
 const LEFT: f64 = 1e-3;
+/// So much is left of what is proved at all.
+const PROVED: f64 = 1e100;
 /// Most cuts of all cells, and of those where nothing is proved otherwise.
 const MOST: usize = 40_000;
 const MOST_UNPROVED: usize = 200_000;
@@ -133,7 +135,7 @@ fn pieces(
     };
     let mut all = of_cells(cells, 0, LEFT)?;
     // First what is to be small enough, then what is to be proved at all.
-    for (most, left) in [(MOST, LEFT), (MOST_UNPROVED, f64::MAX)] {
+    for (most, left) in [(MOST, LEFT), (MOST_UNPROVED, PROVED)] {
         let is_open = |at: &&usize| all.get(at).is_some_and(|of| of.left > left);
         let open: Vec<usize> = cells.iter().filter(is_open).copied().collect();
         let most = (most / open.len().max(1)).clamp(FEWEST, MOST_OF_CELL);
@@ -186,18 +188,6 @@ fn mean(scene: &Scene, material: &Material, cell: Cell) -> Result<Tensor<f64>> {
     let weighted =
         points.map(|Point { x, weight, .. }| Ok((weight, at_point(scene, material, x)?)));
     Ok(average(weighted.collect::<Result<Vec<_>>>()?))
-}
-
-pub(super) fn average(weighted: impl IntoIterator<Item = (f64, Tensor<f64>)>) -> Tensor<f64> {
-    let mut sum = Tensor::<f64>::default();
-    let mut area = 0.0;
-    for (weight, tensor) in weighted {
-        sum.xx += weight * tensor.xx;
-        sum.xy += weight * tensor.xy;
-        sum.yy += weight * tensor.yy;
-        area += weight;
-    }
-    Tensor { xx: sum.xx / area, xy: sum.xy / area, yy: sum.yy / area }
 }
 
 fn at_point(scene: &Scene, material: &Material, [x, y]: [f64; 2]) -> Result<Tensor<f64>> {

@@ -93,3 +93,26 @@ fn the_bound_is_the_identity_for_gaps_with_kinks() -> Result<()> {
     }
     Ok(())
 }
+
+/// A that no rule of points sees: a step, a bump of a hundredth of a cell and a wave shorter than cells, with u = y along them.
+#[test]
+fn of_conductivities_that_vary_inside_cells() -> Result<()> {
+    let step = "1 + 10*(0.5 + 0.5*sign(x - 0.002))";
+    let bump = "1 + 100*exp(-((x - 0.12)/0.004)^2)";
+    let wave = "1 + 0.9*sin(48*x)";
+    let exact = "[exact]\nu = \"y\"\ngradient = [\"0\", \"1\"]\n";
+    for [xx, yy] in [[step; 2], [bump; 2], [wave; 2], ["1", bump], [bump, "1"]] {
+        let text = fixtures::PARABOLA
+            .replace("\"1\"", &format!("[\"{xx}\", \"0\", \"{yy}\"]"))
+            .replace("20 + 1e6*y", "y")
+            .replace("gap = \"-x^2\"", "gap = \"0\", flux = \"-2000\"")
+            + exact;
+        for (cells, height) in [(Cells::Triangles, 1.0), (Cells::Quads, 0.5), (Cells::Mixed, 1.0)] {
+            let [total, combined] = bound(&text, cells, height, Options::default())?;
+            let what = format!("{xx}, {yy} on {cells:?}");
+            GUARANTEE.check_at_most(&what, combined, total);
+            assert!(total <= 3.0 * combined + 1e-3, "{what}: {total}, {combined}");
+        }
+    }
+    Ok(())
+}

@@ -18,17 +18,18 @@ pub const ON_QUAD: usize = 12;
 pub const ON_TRIANGLE: usize = 5;
 /// Those of v.
 pub const GRADIENTS: [usize; 2] = [2, 8];
-/// Entries of F, column after column; a triangle has 15 of them.
-pub const ENTRIES: usize = ON_QUAD * (ON_QUAD + 1) / 2;
+/// Entries of F and M on a quad; a triangle has 18.
+pub const ENTRIES: usize = ON_QUAD * (ON_QUAD + 1) / 2 + GRADIENTS[1] * (GRADIENTS[1] + 1) / 2;
 
-/// F, its columns one after the other.
+/// F, its columns one after the other, and then M of v alone: ‖A^{−½}(A − p)∇v‖ ≤ |M v|.
 pub type Factor<R> = [R; ENTRIES];
 
-/// What A has above p: ‖A^{−½}(A − p)∇v‖² is at most the first of these times |F (v, 0)|², and ‖A^½∇v‖² no more than 1 plus the second.
+/// What A has above what it is taken for: of points the most of ‖A^{−½}(A − p)∇v‖² over ‖A^½∇v‖²; of a factor ‖A^½∇v‖² is no more
+/// than 1 plus the second times |F (v, 0)|².
 pub type Above<R> = [R; 2];
 
 /// |F c|², and the same of the sums of the moduli.
-fn squares<R: Real, const N: usize>(factor: &Factor<R>, c: &[R; N]) -> [R; 2] {
+fn squares<R: Real, const N: usize>(factor: &[R], c: &[R; N]) -> [R; 2] {
     let mut rows = [[R::ZERO; 2]; N];
     let mut entries = factor.iter();
     for (column, &value) in c.iter().enumerate() {
@@ -74,7 +75,7 @@ pub(super) fn energy<R: Real, const N: usize>(
 /// The share of a cell: coefficients of s and u_h, fluxes of τ and τ − σ_h.
 fn share<R: Real, const N: usize, const V: usize>(
     factor: &Factor<R>,
-    [open, beyond]: Above<R>,
+    [_, beyond]: Above<R>,
     [s, u]: [[R; V]; 2],
     [tau, difference]: [&[R]; 2],
     load: R,
@@ -82,7 +83,8 @@ fn share<R: Real, const N: usize, const V: usize>(
     let none = [R::ZERO; ON_QUAD];
     let of = |v: &[R], tau: &[R]| squares(factor, &coefficients::<R, N>(v, tau));
     let [gap, size] = of(&s, tau);
-    let ([energy, size_of_s], [_, size_of_u]) = (of(&s, &[]), of(&u, &[]));
+    let ([_, size_of_s], [_, size_of_u]) = (of(&s, &[]), of(&u, &[]));
+    let (_, above) = factor.split_at((N * (N + 1) / 2).min(ENTRIES));
     let mut jump = s;
     jump.iter_mut().zip(u).for_each(|(s, u)| *s -= u);
     let [nonconforming, _] = of(&jump, &[]);
@@ -97,7 +99,7 @@ fn share<R: Real, const N: usize, const V: usize>(
         uncertainty: four * size + softness::<R, N>(factor, V) * terms,
         uncertainty_of_u: four * R::TWO * scale * (size_of_s + size_of_u),
         terms,
-        open: open * energy,
+        open: squares(above, &s)[0],
     }
 }
 

@@ -36,7 +36,7 @@ impl Region {
         match self.shape {
             _ if most == 0.0 || !most.is_finite() => self.parts(),
             Shape::Segment => self.halves(0),
-            Shape::Quad => self.halves(if along_u == most { 0 } else { 1 }),
+            Shape::Quad => self.halves(if along_u >= along_v { 0 } else { 1 }),
             Shape::Triangle if along_u == most => Self::halved(([a, b, c], [u, v])),
             Shape::Triangle if along_v == most => {
                 Self::halved(([c, a, b], [back(v), back(beside)]))
