@@ -9,6 +9,9 @@ use signorini_problem::quadrature::Point;
 use signorini_scene::expression::Expression;
 use signorini_scene::scene::Located;
 
+/// A ν that is as good as nothing: functions with a lift are integrated less exactly.
+const SAME: f64 = 1e-9;
+
 /// The tensor A on one cell.
 pub struct Conductivity<'s> {
     entries: &'s [Located<Expression>; 3],
@@ -42,6 +45,11 @@ impl<'s> Conductivity<'s> {
     /// Part of the root of an integral over the cell that its points miss, and what they leave open of what they see.
     pub fn missed(&self, cell: Cell) -> [f64; 2] {
         self.pieces.map_or([0.0; 2], |pieces| [pieces.slack(cell), 2.0 * pieces.left])
+    }
+
+    /// The pieces that count for functions which are no polynomials: where p is A but for rounding, rules of their own see more.
+    pub fn cut_for_curves(&self) -> Option<&'s Pieces> {
+        self.cut().filter(|pieces| pieces.share() > SAME)
     }
 
     /// ν of a cell that is not cut.

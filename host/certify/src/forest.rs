@@ -72,7 +72,6 @@ impl<R: Scalar> EquilibrationForest<R> {
         let a = Conductivities { alpha, compliance, metric: metric.view() };
         let (mesh, of_edges) = (assembled.mesh()?, (edges, assembled.stiffness()));
         self.stability = prepare(&mesh, of_edges, &boundary, a, root, buffers, cells)?;
-        self.stability.oblique += R::narrow(metric.slack());
         Ok(())
     }
 

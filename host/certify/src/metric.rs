@@ -30,7 +30,7 @@ pub struct Metric<R: Scalar> {
     place: Vec<u32>,
     distortions: Vec<[R; 2]>,
     alpha: Vec<R>,
-    slack: f64,
+    missed: f64,
 }
 
 impl<R: Scalar> Metric<R> {
@@ -50,7 +50,7 @@ impl<R: Scalar> Metric<R> {
             place: vec![u32::MAX; problem.cells()],
             distortions: distortions(problem),
             alpha: (0..problem.cells()).map(|at| R::narrow(half_trace(problem, at))).collect(),
-            slack: 0.0,
+            missed: 0.0,
         };
         for cell in 0..problem.cells() {
             metric.add(problem, cell);
@@ -65,6 +65,7 @@ impl<R: Scalar> Metric<R> {
             at_points: &self.at_points,
             factors: &self.factors,
             above: &self.above,
+            missed: R::narrow(self.missed),
             place: &self.place,
             distortions: &self.distortions,
         }
@@ -80,11 +81,6 @@ impl<R: Scalar> Metric<R> {
         &self.alpha
     }
 
-    /// Part of a bound that rules in pieces may miss of it, see [`Pieces`](signorini_problem::pieces::Pieces).
-    pub fn slack(&self) -> f64 {
-        self.slack
-    }
-
     /// Adds B at the points of a cell where it varies, and what A has above what the points see.
     fn add(&mut self, problem: &Problem, cell: usize) {
         let pieces = problem.coefficients.pieces.get(&cell);
@@ -97,8 +93,8 @@ impl<R: Scalar> Metric<R> {
         // ‖A^{−½}(τ − A∇s)‖ ≤ √(1 + ν) of what the points see and 2ν‖A^½∇s‖.
         let share = pieces.map_or(0.0, |pieces| pieces.share());
         self.above.push([4.0 * share * share, 0.0].map(R::narrow));
-        self.slack =
-            self.slack.max(pieces.map_or(0.0, |pieces| pieces.slack(Cell::of(problem, cell))));
+        self.missed =
+            self.missed.max(pieces.map_or(0.0, |pieces| pieces.slack(Cell::of(problem, cell))));
     }
 
     /// Adds the factors of the cells whose points do not resolve A.
@@ -108,8 +104,8 @@ impl<R: Scalar> Metric<R> {
             self.place[cell] = (self.at_points.len() + self.factors.len()) as u32;
             self.factors.push(factor.map(R::narrow));
             self.above.push(above.map(R::narrow));
-            let slack = Conductivity::of(problem, cell).missed(Cell::of(problem, cell))[0];
-            self.slack = self.slack.max(slack);
+            let [missed, _] = Conductivity::of(problem, cell).missed(Cell::of(problem, cell));
+            self.missed = self.missed.max(missed);
         }
         if self.above.iter().all(|above| *above == [R::ZERO; 2]) {
             self.above.clear();

@@ -157,9 +157,10 @@ fn of_cell(
         let local = cell.local(reference);
         conductivity.resolved(Point { x: local.x, reference, weight: weight * local.determinant })
     };
-    let points: Vec<_> = match conductivity.cut() {
-        Some(pieces) => pieces.points(cell).collect(),
-        None => rough.unwrap_or_else(smooth).into_iter().map(seen).collect(),
+    let points: Vec<_> = match (conductivity.cut(), conductivity.cut_for_curves()) {
+        (Some(pieces), _) if curved.is_empty() => pieces.points(cell).collect(),
+        (_, Some(pieces)) => pieces.many_points(cell).collect(),
+        _ => rough.unwrap_or_else(smooth).into_iter().map(seen).collect(),
     };
     let missed = conductivity.missed(cell);
     for at in points {

@@ -57,8 +57,8 @@ fn gradients(
 ) -> Result<Vec<(PiecePoint, [f64; 2])>> {
     let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
     let s = s.on_cell(problem, at, deviations);
-    let points = match conductivity.cut() {
-        Some(pieces) => pieces.points(cell).collect(),
+    let points = match conductivity.cut_for_curves() {
+        Some(pieces) => pieces.many_points(cell).collect(),
         None => curved::points_along_sides(problem, at, deviations, &gauss(curved::POINTS))?
             .into_iter()
             .map(|point| conductivity.resolved(point))

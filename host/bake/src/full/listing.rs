@@ -132,6 +132,7 @@ fn metric<R: Scalar>(of: &Metric<R>, to: &mut Statics) -> String {
         ("at_points", to.array::<[Tensor<R>; POINTS * POINTS]>("METRIC", "A in reference coordinates at 64 points of the cells in which it varies.", "[Tensor<Scalar>; 64]", of.at_points)),
         ("factors", to.array::<Factor<R>>("METRIC_INTEGRALS", "Triangular factors of the integrals over cells whose 64 points do not resolve A.", &format!("[Scalar; {ENTRIES}]"), of.factors)),
         ("above", to.array::<Above<R>>("METRIC_ABOVE", "What A has above these points and factors.", "[Scalar; 2]", of.above)),
+        ("missed", format!("{:?}", of.missed)),
         ("place", to.array::<u32>("METRIC_PLACE", "Where each cell stands in `METRIC` and `METRIC_INTEGRALS` behind it; beyond both where A is constant.", "u32", of.place)),
         ("distortions", to.array::<[R; 2]>("QUAD_DISTORTIONS", "By how much each quad is no parallelogram.", "[Scalar; 2]", of.distortions)),
     ])

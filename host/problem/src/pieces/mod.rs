@@ -25,11 +25,14 @@ use signorini_scene::scene::Material;
 
 use crate::cell::Cell;
 use crate::quadrature::refined::{Part, refined};
-use crate::quadrature::{Point, enclosed};
+use crate::quadrature::{DATA_POINTS, Point, enclosed, gauss};
 
 pub use piece::{Piece, PiecePoint};
 use piece::{ROUNDING, VARIES, parts};
 pub use rows::{Cut, Root, Rows};
+
+/// Points in a direction where functions are smooth and no more.
+const MANY_POINTS: usize = 12;
 
 /// A on the pieces of a cell in which it varies.
 #[derive(Debug, Clone)]
@@ -90,7 +93,7 @@ impl Pieces {
     /// Part of the root of an integral that the rule misses: κ, and ν where it has A in the place of p.
     pub fn slack(&self, cell: Cell) -> f64 {
         let power = match self.is_resolved() {
-            true => self.all[0].varies.powi(4),
+            true => self.all[0].missed_by(cell, DATA_POINTS).unwrap_or(f64::INFINITY),
             false => self.all.iter().map(|piece| piece.rule(cell).1).fold(0.0, f64::max),
         };
         let share = if self.is_resolved() { self.share() } else { 0.0 };
@@ -121,7 +124,13 @@ impl Pieces {
 
     /// The 8×8 points of every piece.
     pub fn points(&self, cell: Cell) -> impl Iterator<Item = PiecePoint> + '_ {
-        self.all.iter().flat_map(move |piece| piece.points(cell))
+        self.all.iter().flat_map(move |piece| piece.points(cell, &gauss(piece.rule(cell).0)))
+    }
+
+    /// More points, for functions that are no polynomials in the cell.
+    pub fn many_points(&self, cell: Cell) -> impl Iterator<Item = PiecePoint> + '_ {
+        let rule = gauss(MANY_POINTS);
+        self.all.iter().flat_map(move |piece| piece.points(cell, &rule))
     }
 }
 

@@ -6,7 +6,7 @@ use signorini_scene::expression::enclosure::{Form, Region, Shape};
 use signorini_scene::scene::{Located, Material};
 
 use crate::cell::Cell;
-use crate::quadrature::{Point, gauss, on_quad, on_triangle};
+use crate::quadrature::{Point, on_quad, on_triangle};
 
 /// The most of ξ, η, ξ², ξη and η² on a triangle.
 const IN_TRIANGLE: [f64; 5] = [2.0 / 3.0, 2.0 / 3.0, 4.0 / 9.0, 2.0 / 9.0, 4.0 / 9.0];
@@ -141,26 +141,28 @@ impl Piece {
         size_in(&sum(&self.below[0], &diagonal(self.above)), &diagonal(above))
     }
 
-    /// Points in a direction that it takes in this cell, and η to the power of what they leave.
-    pub(super) fn rule(&self, cell: Cell) -> (usize, f64) {
+    /// η to the power of what a rule of so many points in a direction leaves in this cell; nothing where it is not exact for constants.
+    pub(super) fn missed_by(&self, cell: Cell, points: usize) -> Option<f64> {
         let square = match (cell, self.varies > 0.0) {
             (Cell::Triangle(_), false) => 2,
             (Cell::Triangle(_), true) | (Cell::Quad(_), false) => 4,
             (Cell::Quad(_), true) => 8,
         };
         let lost = if self.region.shape() == Shape::Quad { 1 } else { 2 };
-        let missed = |points: usize| {
-            let k = (2 * points).checked_sub(lost + square)? / 2;
-            Some((points, self.varies.powi(k as i32 + 1)))
-        };
+        let k = (2 * points).checked_sub(lost + square)? / 2;
+        Some(self.varies.powi(k as i32 + 1))
+    }
+
+    /// Points in a direction that it takes in this cell, and what they leave.
+    pub(super) fn rule(&self, cell: Cell) -> (usize, f64) {
+        let missed = |points: usize| Some((points, self.missed_by(cell, points)?));
         let mut all = (2..=MOST_POINTS).filter_map(missed);
         all.find(|(_, missed)| *missed <= MISSED).unwrap_or((MOST_POINTS, f64::INFINITY))
     }
 
-    /// The points of its rule, as those of the cell.
-    pub(super) fn points(&self, cell: Cell) -> Vec<PiecePoint> {
-        let (points, _) = self.rule(cell);
-        let (rule, share) = (gauss(points), self.share.min(1.0));
+    /// The points of a rule, as those of the cell.
+    pub(super) fn points(&self, cell: Cell, rule: &[[f64; 2]]) -> Vec<PiecePoint> {
+        let share = self.share.min(1.0);
         let here = |own: Point| {
             let [first, second, third] = own.reference;
             let at = match self.region.shape() {
@@ -171,8 +173,8 @@ impl Piece {
             PiecePoint { point, below: self.at(at), above: self.above, share }
         };
         match *self.region.corners() {
-            [a, b, c] => on_triangle([a, b, c], &rule).map(here).collect(),
-            [a, b, c, d] => on_quad([a, b, c, d], &rule).map(here).collect(),
+            [a, b, c] => on_triangle([a, b, c], rule).map(here).collect(),
+            [a, b, c, d] => on_quad([a, b, c, d], rule).map(here).collect(),
             _ => Vec::new(),
         }
     }

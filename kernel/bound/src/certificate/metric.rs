@@ -25,6 +25,8 @@ pub struct Metric<'a, R> {
     pub factors: &'a [Factor<R>],
     /// What A has above its points or its factor in these cells; may be empty where that is nothing.
     pub above: &'a [Above<R>],
+    /// Part of the root of an integral that points and factors may miss.
+    pub missed: R,
     /// Where a cell stands in `at_points` with `factors` behind it, triangles first; beyond both where B is constant. May be
     /// empty: B is constant everywhere then.
     pub place: &'a [u32],

@@ -184,7 +184,8 @@ pub fn certify_with<R: Real, I: Index>(
         return Ok(Verdict::Pulled { edge });
     }
     boundary::add(discretization, given, iterate, s, tau, indicators, &mut parts);
-    Ok(parts.conclude(cells.len(), discretization.stability, given.oscillation))
+    let missed = discretization.metric.missed;
+    Ok(parts.conclude(cells.len(), (discretization.stability, missed), given.oscillation))
 }
 
 /// The function s: vertex values and bubbles of edges.

@@ -80,7 +80,12 @@ impl<R: Real> Parts<R> {
 
     /// `cells`: how many there are.
     #[inline(always)]
-    pub fn conclude(&self, cells: usize, stability: Stability<R>, oscillation: R) -> Verdict<R> {
+    pub fn conclude(
+        &self,
+        cells: usize,
+        (stability, missed): (Stability<R>, R),
+        oscillation: R,
+    ) -> Verdict<R> {
         let root = |square: R| square.or_larger(R::ZERO).rounded_sqrt();
         let gap = root(self.gap.value());
         let times = |count: u32| R::from_count(count) * R::EPSILON;
@@ -96,8 +101,9 @@ impl<R: Real> Parts<R> {
         let rounding =
             uncertainty + unbalanced + root(self.perturbation) + lifted + lost + times(16) * gap;
         let rounding = rounding + times(4) * oscillation;
-        let (seen, open) = (gap, if features::VARYING { root(self.open) } else { R::ZERO });
-        let gap = gap + open;
+        // What rules and points do not see of A.
+        let seen = gap;
+        let gap = if features::VARYING { gap + (missed * gap + root(self.open)) } else { gap };
         let both = root(gap * gap + oscillation * oscillation);
         // √(gap²) underflows before gap does.
         let exact = oscillation + both.or_larger(gap);
@@ -110,6 +116,7 @@ impl<R: Real> Parts<R> {
         let summed = times(16) + R::QUARTER * times(cells as u32);
         let uncertainty_of_u = times(4) * root(self.uncertainty_of_u) + summed * jump + lost;
         let apart = jump + root(self.lifted) + uncertainty_of_u;
+        let apart = if features::VARYING { apart + missed * apart } else { apart };
         let of_u = total + (apart + stability.oblique * apart);
         let certificate =
             Certificate { duality_gap: seen, algebraic, oscillation, rounding, total, of_u };
