@@ -8,7 +8,8 @@
 
 use super::attempt::Attempt;
 use super::case::{RandomCase, Way, Yardstick};
-use super::nested::{Apart, MeshSolution, apart};
+use super::cut::cut_along;
+use super::nested::{Apart, MeshSolution, Nesting, apart};
 use super::outputs::{Asked, Intervals};
 use crate::extremes::measure::solve_directly;
 use signorini_certify::ErrorBound;
@@ -18,6 +19,7 @@ use signorini_intervals::Answered;
 use signorini_problem::Problem;
 use signorini_problem::quadrature::{gauss, on_panels};
 use signorini_scene::error::Result;
+use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::refine::refined;
 use signorini_scene::scene::units::Units;
 use signorini_solve::norms::errors;
@@ -129,7 +131,7 @@ impl Held<'_> {
         let (scalar, bound) = (self.case.effort.scalar, Some(self.bound));
         let total = Some(self.bound.total);
         Asked {
-            number: self.case.number,
+            number: self.case.number / 2,
             problem: self.problem,
             answer: Answered { certified, bound, scalar },
             reading: Reading { scalar, u, flux, bound: total },
@@ -144,7 +146,7 @@ impl Held<'_> {
 
     fn by_exact(&self) -> Result<Measured> {
         let (problem, own) = (self.problem, self.side());
-        let within = apart(&own, &own, 0, &gauss(POINTS))?;
+        let within = apart(&own, &own, &Nesting::default(), &gauss(POINTS))?;
         let mut found = Measured {
             bound: self.bound,
             combined: f64::NAN,
@@ -189,14 +191,28 @@ impl Held<'_> {
         Ok(squares.sum::<Result<f64>>()?.sqrt())
     }
 
+    /// A finer mesh: cut and graded for a feature of the data, and halved.
+    fn finer(&self) -> Result<(Mesh, Nesting)> {
+        let (RandomCase { number, lines, .. }, coarse) = (self.case, &self.problem.mesh);
+        // One in so many cases gets the finest that is allowed for.
+        let most = UNKNOWNS[usize::from(number.is_multiple_of(2 * 97))];
+        let (mut mesh, mut nesting) = match lines.is_empty() {
+            true => (refined(coarse)?, Nesting { levels: 1, cut: None }),
+            false => {
+                let (mesh, parents) = cut_along(coarse, lines);
+                (mesh, Nesting { levels: 0, cut: Some(parents) })
+            }
+        };
+        while nesting.levels < LEVELS && 8 * mesh.cells() <= most {
+            mesh = refined(&mesh)?;
+            nesting.levels += 1;
+        }
+        Ok((mesh, nesting))
+    }
+
     fn by_finer(&self) -> Result<Option<Measured>> {
         let (problem, own) = (self.problem, self.side());
-        // One in so many cases gets the finest that is allowed for.
-        let most = UNKNOWNS[usize::from(self.case.number.is_multiple_of(97))];
-        let (mut mesh, mut levels) = (refined(&problem.mesh)?, 1);
-        while levels < LEVELS && 8 * mesh.cells() <= most {
-            (mesh, levels) = (refined(&mesh)?, levels + 1);
-        }
+        let (mesh, nesting) = self.finer()?;
         let mut finer = Problem::new(&problem.scene, mesh)?;
         finer.set_time(problem.time)?;
         let Ok(solution) = solve_directly(&finer) else { return Ok(None) };
@@ -209,7 +225,7 @@ impl Held<'_> {
         let (mut found, mut uncertain) = (Apart::default(), [0.0; 2]);
         for (panels, points) in RULES {
             let rule = on_panels(panels, &gauss(points));
-            let next = apart(&own, &fine, levels, &rule)?;
+            let next = apart(&own, &fine, &nesting, &rule)?;
             uncertain = difference(&found, &next);
             found = next;
             if !is_above(&found) {
