@@ -1,7 +1,7 @@
 //! Scenes whose data have one feature that fixed rules of a coarse mesh miss: narrow, stepped, unbounded, fading, cancelling.
 //!
 //! The other data are smooth, so that a mesh of a few lines resolves all of them: lines through steps, kinks and poles, and lines
-//! that are graded to the middle of what is narrow, down to a quarter of its width. What its own bound says then holds by any rule.
+//! that are graded to the middle of what is narrow, down to half of its width. What its own bound says then holds by any rule.
 
 use std::fmt::Write;
 
@@ -63,7 +63,8 @@ impl Feature {
 /// Draws a scene, and the lines of a mesh that resolves its data.
 pub(super) fn draw(random: &mut Random, plan: &MeshPlan, feature: Feature) -> (Posed, Vec<Line>) {
     let whole = (Outline::Whole, Regions::Halves, false);
-    let plan = MeshPlan { outline: whole.0, regions: whole.1, split: whole.2, ..*plan };
+    let cells = plan.cells.min(200);
+    let plan = MeshPlan { cells, outline: whole.0, regions: whole.1, split: whole.2, ..*plan };
     if feature == Feature::Cancellation {
         let contrast = random.log(1e6, 1e9);
         let jump = Solution::Jump(random.pick(&[contrast, 1.0 / contrast]));
@@ -124,9 +125,9 @@ impl Spot {
 
     /// Lines through its middle, and graded to it.
     fn lines(&self) -> Vec<Line> {
-        let mut factors = vec![0.25, 0.5, 0.75, 1.0];
+        let mut factors = vec![0.5, 1.0, 1.5, 2.0, 3.0];
         while let Some(last) = factors.last().filter(|last| *last * self.width < 2.0) {
-            factors.push(last * if *last < 6.0 { 1.5 } else { 2.5 });
+            factors.push(3.0 * last);
         }
         let both = factors.iter().flat_map(|factor| [-factor, *factor]);
         let all: Vec<f64> = both.chain([0.0]).map(|factor| factor * self.width).collect();

@@ -71,11 +71,15 @@ impl Measured {
 
 /// Unknowns of a finer solve: mostly, and at most.
 const UNKNOWNS: [usize; 2] = [12_000, 200_000];
+/// The same before its mesh is cut along lines.
+const BEFORE_CUTS: usize = 4000;
 /// Most refinements of a finer solve.
 const LEVELS: u32 = 3;
 /// Panels, and points on each, in a direction of a cell of the finer mesh: more and more while an error seems above its
 /// bounds.
 const RULES: [(u32, usize); 4] = [(1, 4), (1, 7), (4, 8), (16, 8)];
+/// Outputs that one case is asked for; one where the finer mesh is large.
+const OUTPUTS: usize = 3;
 /// Points a direction for the energy of one answer.
 const POINTS: usize = 7;
 /// Panels a direction of a cell beside an exact solution: more and more while kinks and layers inside cells seem to take them.
@@ -132,6 +136,7 @@ impl Held<'_> {
         let total = Some(self.bound.total);
         Asked {
             number: self.case.number / 2,
+            most: if self.case.feature.is_some() { 1 } else { OUTPUTS },
             problem: self.problem,
             answer: Answered { certified, bound, scalar },
             reading: Reading { scalar, u, flux, bound: total },
@@ -191,23 +196,23 @@ impl Held<'_> {
         Ok(squares.sum::<Result<f64>>()?.sqrt())
     }
 
-    /// A finer mesh: cut and graded for a feature of the data, and halved.
+    /// A finer mesh, cut and graded for a feature of the data.
     fn finer(&self) -> Result<(Mesh, Nesting)> {
-        let (RandomCase { number, lines, .. }, coarse) = (self.case, &self.problem.mesh);
+        let RandomCase { number, lines, .. } = self.case;
         // One in so many cases gets the finest that is allowed for.
-        let most = UNKNOWNS[usize::from(number.is_multiple_of(2 * 97))];
-        let (mut mesh, mut nesting) = match lines.is_empty() {
-            true => (refined(coarse)?, Nesting { levels: 1, cut: None }),
-            false => {
-                let (mesh, parents) = cut_along(coarse, lines);
-                (mesh, Nesting { levels: 0, cut: Some(parents) })
-            }
+        let most = match lines.is_empty() {
+            true => UNKNOWNS[usize::from(number.is_multiple_of(2 * 97))],
+            false => BEFORE_CUTS,
         };
-        while nesting.levels < LEVELS && 8 * mesh.cells() <= most {
-            mesh = refined(&mesh)?;
-            nesting.levels += 1;
+        let (mut mesh, mut levels) = (refined(&self.problem.mesh)?, 1);
+        while levels < LEVELS && 8 * mesh.cells() <= most {
+            (mesh, levels) = (refined(&mesh)?, levels + 1);
         }
-        Ok((mesh, nesting))
+        if lines.is_empty() {
+            return Ok((mesh, Nesting { levels, cut: None }));
+        }
+        let (mesh, parents) = cut_along(&mesh, lines);
+        Ok((mesh, Nesting { levels, cut: Some(parents) }))
     }
 
     fn by_finer(&self) -> Result<Option<Measured>> {

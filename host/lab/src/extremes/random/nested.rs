@@ -1,4 +1,4 @@
-//! How far two answers are from each other, one on a mesh and one on its uniform refinement, or on that of a mesh cut along lines.
+//! How far two answers are from each other, one on a mesh and one on its uniform refinement, which may be cut along lines.
 //!
 //! A child's reference coordinates are an affine function of its parent's, on quads too: what both functions are
 //! is known at any point of the finer mesh, without a search. In a cut cell they follow from the point.
@@ -40,7 +40,7 @@ pub struct Apart {
 pub struct Nesting {
     /// How often its cells were halved.
     pub levels: u32,
-    /// The cell of the coarser mesh in which each lies before that, where it was cut.
+    /// The cell in which each cell of the finer mesh lies, where these were then cut.
     pub cut: Option<Vec<u32>>,
 }
 
@@ -123,15 +123,9 @@ impl OnCell<'_> {
 impl NestedPair<'_> {
     /// The cell of the coarser mesh in which cell `at` of the finer one lies.
     fn parent(&self, at: usize) -> usize {
-        let shift = 2 * self.nesting.levels;
-        if let Some(cut) = &self.nesting.cut {
-            return cut[at >> shift] as usize;
-        }
-        let triangles = self.fine.side.problem.mesh.triangles.len();
-        match at.checked_sub(triangles) {
-            None => at >> shift,
-            Some(quad) => self.coarse.side.problem.mesh.triangles.len() + (quad >> shift),
-        }
+        // Four times as many triangles are before four times as many quads.
+        let halved = self.nesting.cut.as_ref().map_or(at, |cut| cut[at] as usize);
+        halved >> (2 * self.nesting.levels)
     }
 
     /// Where a point of cell `at` lies in its parent.
