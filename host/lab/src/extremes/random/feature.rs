@@ -175,7 +175,7 @@ impl Data {
             least: "0".to_owned(),
             limit: "inf".to_owned(),
             coefficient: number(0.1, 5.0),
-            ambient: number(-1.0, 1.0),
+            ambient: number(-3.0, 3.0),
             flux: number(-2.0, 1.0),
             value: format!("{}*({along}+1)", number(0.0, 1.0)),
         }
@@ -194,7 +194,7 @@ impl Data {
             Feature::Conductivity => self.conductivity(random, width),
             Feature::Transfer => {
                 let (spot, shape) = self.narrow(random, 1, width);
-                let _ = write!(self.coefficient, "*(1+{:e}*{shape})", random.log(1.0, 1e4));
+                let _ = write!(self.coefficient, "*(1+{:e}*{shape})", random.log(1.0, 1e3) / width);
                 spot
             }
             Feature::Flux => {
@@ -227,7 +227,7 @@ impl Data {
     fn conductivity(&mut self, random: &mut Random, width: f64) -> Spot {
         let spot = Spot::inside(random, width, true);
         let shape = shape(random, &spot.square(&[0, 1]));
-        let (sign, most) = (random.pick(&["*", "/"]), random.log(0.5, 1e4));
+        let (sign, most) = (random.pick(&["*", "/"]), random.log(1.0, 1e3) / width);
         for entry in &mut self.tensor {
             let _ = write!(entry, "{sign}(1+{most:e}*{shape})");
         }

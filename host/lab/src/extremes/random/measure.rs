@@ -228,7 +228,9 @@ impl Held<'_> {
         let most = [self.bound.total + its.total, self.bound.of_u + its.total];
         let is_above = |of: &Apart| of.combined > most[0] || of.of_u > most[1];
         let (mut found, mut uncertain) = (Apart::default(), [0.0; 2]);
-        for (panels, points) in RULES {
+        // A mesh that is cut resolves its data.
+        let rules = if nesting.cut.is_some() { &RULES[..2] } else { &RULES };
+        for &(panels, points) in rules {
             let rule = on_panels(panels, &gauss(points));
             let next = apart(&own, &fine, &nesting, &rule)?;
             uncertain = difference(&found, &next);

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::row::Row;
 use crate::extremes::judge::Outcome;
+use crate::record_file::word;
 
 /// A run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -22,6 +23,9 @@ pub struct Record {
     pub classes: BTreeMap<String, BTreeMap<String, usize>>,
     /// The largest ratios and the cases that they belong to.
     pub worst: BTreeMap<String, Worst>,
+    /// What became of each feature.
+    #[serde(default)]
+    pub features: BTreeMap<String, Spread>,
     /// Everything that is wrong.
     pub violations: Vec<Violation>,
 }
@@ -33,6 +37,37 @@ pub struct Worst {
     pub ratio: f64,
     /// Which case it is of.
     pub case: u32,
+}
+
+/// The bounds of all scenes with one feature.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Spread {
+    /// How many there are.
+    pub scenes: usize,
+    /// How many have a bound.
+    pub with_bound: usize,
+    /// The bound over the distance to the truth, where there is one to measure by: at 50, 90, 99 and 100 % of them.
+    pub over_error: Vec<f64>,
+    /// How many were measured.
+    pub measured: usize,
+}
+
+/// Of the ratios of a feature those that so many are not above.
+const SHARES: [f64; 4] = [0.5, 0.9, 0.99, 1.0];
+
+impl Spread {
+    fn add(&mut self, row: &Row) {
+        self.scenes += 1;
+        self.with_bound += usize::from(row.has_bound);
+        self.over_error.extend(row.bound_over_error);
+    }
+
+    fn reduce(&mut self) {
+        self.over_error.sort_by(f64::total_cmp);
+        let (all, last) = (&self.over_error, self.over_error.len().saturating_sub(1));
+        let at = |share: &f64| all.get((share * last as f64).round() as usize).copied();
+        (self.measured, self.over_error) = (all.len(), SHARES.iter().filter_map(at).collect());
+    }
 }
 
 /// A promise that was broken: `signorini extremes --random 1 --seed SEED --case CASE` shows it again.
@@ -55,6 +90,7 @@ impl Record {
         for row in rows {
             record.add(row);
         }
+        record.features.values_mut().for_each(Spread::reduce);
         record
     }
 
@@ -63,6 +99,9 @@ impl Record {
         *self.outcomes.entry(outcome.clone()).or_default() += 1;
         for class in row.classes() {
             *self.classes.entry(class).or_default().entry(outcome.clone()).or_default() += 1;
+        }
+        if let Some(feature) = &row.feature {
+            self.features.entry(word(feature)).or_default().add(row);
         }
         for (name, ratio) in row.ratios() {
             let worst = Worst { ratio, case: row.case };
@@ -104,6 +143,13 @@ impl Record {
         let mut lines = vec![format!("{} random scenes: {}", self.cases, counts.join(", "))];
         for (name, worst) in &self.worst {
             lines.push(format!("  largest {name}: {:.6} (case {})", worst.ratio, worst.case));
+        }
+        for (name, Spread { scenes, with_bound, over_error, measured }) in &self.features {
+            let ratios: Vec<_> = over_error.iter().map(|ratio| format!("{ratio:.3}")).collect();
+            let ratios = ratios.join(", ");
+            lines.push(format!(
+                "  {name}: {with_bound} of {scenes} have a bound, {measured} measured; over the error {ratios}"
+            ));
         }
         for Violation { case, class, what, words } in &self.violations {
             lines.push(format!("  broken, case {case} ({class}): {what}: {words}"));
