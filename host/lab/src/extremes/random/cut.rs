@@ -1,10 +1,6 @@
 //! A mesh cut along lines x = c and y = c, whose cells each lie in one of the mesh before.
 //!
-//! ```text
-//!      ╱│            ╱│         cells become convex polygons, and these become triangles that start at their
-//!     ╱ │    ─►    ╱╷ │         first corner; a vertex of a line on an edge belongs to both cells beside it
-//!    ╱──│         ╱─┴─│
-//! ```
+//! Cells become convex polygons, and these become triangles. A vertex of a line on an edge belongs to both cells beside it.
 
 use std::collections::HashMap;
 

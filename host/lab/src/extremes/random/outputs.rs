@@ -50,7 +50,7 @@ type Known = BTreeMap<String, [f64; 2]>;
 impl Asked<'_> {
     /// Its intervals beside the exact solution.
     pub fn by_exact(&self) -> Intervals {
-        let problem = self.with_outputs(self.problem, true);
+        let problem = with_outputs(self.problem, self, true);
         let value =
             |output: &Output| Some((output.name.value.clone(), exact_value(&problem, output)?));
         self.beside(&problem, &problem.scene.outputs.iter().filter_map(value).collect())
@@ -58,8 +58,8 @@ impl Asked<'_> {
 
     /// Its intervals beside those of a finer answer.
     pub fn by_finer(&self, finer: (&Problem, &Solution)) -> Intervals {
-        let problem = self.with_outputs(self.problem, false);
-        let its = of_answer(&self.with_outputs(finer.0, false), &finer.1.into());
+        let problem = with_outputs(self.problem, self, false);
+        let its = of_answer(&with_outputs(finer.0, self, false), &finer.1.into());
         let known = its.into_iter().filter_map(|(name, found)| {
             let found = found.ok()?;
             Some((name, [found.center, found.plus_minus]))
@@ -113,45 +113,6 @@ impl Asked<'_> {
         let all = named.zip(values).zip(within).filter(|(_, by)| by.is_finite());
         all.filter_map(|((name, value), by)| Some((name, value?, by))).collect()
     }
-
-    /// The problem with some of the outputs that it may have; others for each number.
-    fn with_outputs(&self, problem: &Problem, probes: bool) -> Problem {
-        let scene = &problem.scene;
-        let named = |value: String| Located { value, key: "output".to_owned(), span: 0..0 };
-        let mut all = Vec::new();
-        for boundary in &scene.boundaries {
-            let name = &boundary.name.value;
-            let mut add = |word: &str, quantity: Quantity| {
-                let of = vec![named(name.clone())];
-                all.push(Output {
-                    name: named(format!("{word} of {name}")),
-                    quantity,
-                    of,
-                    unit: None,
-                });
-            };
-            add("mean", Quantity::Mean);
-            add("flux", Quantity::Flux);
-            if matches!(boundary.condition, Condition::Contact { .. }) {
-                add("force", Quantity::Force);
-            }
-        }
-        all.push(Output {
-            name: named("all".to_owned()),
-            quantity: Quantity::Force,
-            of: Vec::new(),
-            unit: None,
-        });
-        if probes {
-            let at = Cell::of(problem, self.number as usize % problem.cells()).middle();
-            let (name, quantity) = (named("probe".to_owned()), Quantity::Probe { at });
-            all.push(Output { name, quantity, of: Vec::new(), unit: None });
-        }
-        let first = self.number as usize % all.len();
-        all.rotate_left(first);
-        all.truncate(self.most);
-        problem.restated(Scene { outputs: all, ..Scene::clone(scene) })
-    }
 }
 
 impl Intervals {
@@ -162,4 +123,39 @@ impl Intervals {
             (self.worst, self.name) = (ratio, name);
         }
     }
+}
+
+/// The problem with some of the outputs that it may have; others for each number.
+fn with_outputs(problem: &Problem, asked: &Asked, probes: bool) -> Problem {
+    let (number, most) = (asked.number as usize, asked.most);
+    let scene = &problem.scene;
+    let named = |value: String| Located { value, key: "output".to_owned(), span: 0..0 };
+    let mut all = Vec::new();
+    for boundary in &scene.boundaries {
+        let name = &boundary.name.value;
+        let mut add = |word: &str, quantity: Quantity| {
+            let of = vec![named(name.clone())];
+            all.push(Output { name: named(format!("{word} of {name}")), quantity, of, unit: None });
+        };
+        add("mean", Quantity::Mean);
+        add("flux", Quantity::Flux);
+        if matches!(boundary.condition, Condition::Contact { .. }) {
+            add("force", Quantity::Force);
+        }
+    }
+    all.push(Output {
+        name: named("all".to_owned()),
+        quantity: Quantity::Force,
+        of: Vec::new(),
+        unit: None,
+    });
+    if probes {
+        let at = Cell::of(problem, number % problem.cells()).middle();
+        let (name, quantity) = (named("probe".to_owned()), Quantity::Probe { at });
+        all.push(Output { name, quantity, of: Vec::new(), unit: None });
+    }
+    let first = number % all.len();
+    all.rotate_left(first);
+    all.truncate(most);
+    problem.restated(Scene { outputs: all, ..Scene::clone(scene) })
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::feature::Feature;
 use super::row::Row;
 use crate::extremes::judge::Outcome;
 use crate::record_file::word;
@@ -52,21 +53,18 @@ pub struct Spread {
     pub measured: usize,
 }
 
-/// Of the ratios of a feature those that so many are not above.
-const SHARES: [f64; 4] = [0.5, 0.9, 0.99, 1.0];
-
 impl Spread {
-    fn add(&mut self, row: &Row) {
-        self.scenes += 1;
-        self.with_bound += usize::from(row.has_bound);
-        self.over_error.extend(row.bound_over_error);
-    }
-
-    fn reduce(&mut self) {
-        self.over_error.sort_by(f64::total_cmp);
-        let (all, last) = (&self.over_error, self.over_error.len().saturating_sub(1));
-        let at = |share: &f64| all.get((share * last as f64).round() as usize).copied();
-        (self.measured, self.over_error) = (all.len(), SHARES.iter().filter_map(at).collect());
+    fn of(rows: &[&Row]) -> Self {
+        let mut all: Vec<f64> = rows.iter().filter_map(|row| row.bound_over_error).collect();
+        all.sort_by(f64::total_cmp);
+        let last = all.len().saturating_sub(1) as f64;
+        let at = |share: f64| all.get((share * last).round() as usize).copied();
+        Self {
+            scenes: rows.len(),
+            with_bound: rows.iter().filter(|row| row.has_bound).count(),
+            measured: all.len(),
+            over_error: [0.5, 0.9, 0.99, 1.0].into_iter().filter_map(at).collect(),
+        }
     }
 }
 
@@ -90,7 +88,12 @@ impl Record {
         for row in rows {
             record.add(row);
         }
-        record.features.values_mut().for_each(Spread::reduce);
+        for feature in Feature::ALL {
+            let own: Vec<_> = rows.iter().filter(|row| row.feature == Some(feature)).collect();
+            if !own.is_empty() {
+                record.features.insert(word(&feature), Spread::of(&own));
+            }
+        }
         record
     }
 
@@ -99,9 +102,6 @@ impl Record {
         *self.outcomes.entry(outcome.clone()).or_default() += 1;
         for class in row.classes() {
             *self.classes.entry(class).or_default().entry(outcome.clone()).or_default() += 1;
-        }
-        if let Some(feature) = &row.feature {
-            self.features.entry(word(feature)).or_default().add(row);
         }
         for (name, ratio) in row.ratios() {
             let worst = Worst { ratio, case: row.case };
