@@ -30,6 +30,7 @@ extremes.json, extremes.csv and extremes.html, a page with a map a study. Two th
 same command goes on where it was.
 
 With --random N whole scenes are drawn instead: materials, loads, conditions, cells, solver, scalar and a limit on sweeps. \
+Odd ones have a feature that fixed rules miss, such as a narrow source or a step of A inside a cell. \
 Each is measured against its exact solution or a finer solve that counts with its own bound. Leaves random.json (counts, \
 the largest ratios, all that is broken), random.csv (a line a case) and the scene and mesh of every case that breaks a \
 promise. 20 000 cases take about an hour.

@@ -60,7 +60,7 @@ impl Mesh {
     }
 
     /// The surfaces of a mesh whose cell `c` lies in cell `origins[c]` of this one.
-    fn inherited(&self, origins: &[u32]) -> Vec<Surface> {
+    pub fn inherited(&self, origins: &[u32]) -> Vec<Surface> {
         let inherited = |surface: &Surface| {
             let mut inside = vec![false; self.cells()];
             surface.cells.iter().for_each(|&cell| inside[cell as usize] = true);

@@ -4,8 +4,10 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
+use super::cut::Line;
+use super::feature::{self, Feature};
 use super::mesh::{Kind, MeshPlan, Outline, Regions};
-use super::posed::Hold;
+use super::posed::{Hold, Posed};
 use super::{catalogue, data, made};
 use crate::record_file::word;
 use signorini_problem::random::Random;
@@ -62,6 +64,10 @@ pub struct Effort {
 pub struct RandomCase {
     /// Its number in the run.
     pub number: u32,
+    /// What its data have, in every other case.
+    pub feature: Option<Feature>,
+    /// Lines along which a finer mesh is cut for that.
+    pub lines: Vec<Line>,
     /// Where its truth comes from.
     pub truth: Yardstick,
     /// The condition that holds it.
@@ -77,12 +83,14 @@ pub struct RandomCase {
 }
 
 impl RandomCase {
-    /// Case `number` of the run with this seed.
+    /// Case `number` of the run with this seed: an odd one has a feature, each in turn.
     pub fn draw(seed: u64, number: u32) -> Self {
-        let mut random = Random::of_case(seed, number);
-        let truth = match random.below(10) {
-            0..2 => Yardstick::Catalogue,
-            2..5 => Yardstick::Made,
+        let (pair, is_odd) = (number / 2, !number.is_multiple_of(2));
+        let feature = is_odd.then(|| Feature::ALL[pair as usize % Feature::ALL.len()]);
+        let mut random = Random::of_case(if is_odd { !seed } else { seed }, pair);
+        let truth = match (feature, random.below(10)) {
+            (Some(Feature::Cancellation), _) | (None, 0..2) => Yardstick::Catalogue,
+            (None, 2..5) => Yardstick::Made,
             _ => Yardstick::Finer,
         };
         let way = match random.below(20) {
@@ -93,14 +101,16 @@ impl RandomCase {
         };
         let kind = random.pick(&[Kind::Triangles, Kind::Quads, Kind::Both]);
         let plan = plan(&mut random, truth, way, kind);
-        let posed = match truth {
-            Yardstick::Catalogue => catalogue::draw(&mut random, &plan),
-            Yardstick::Made => made::draw(&mut random, &plan),
-            Yardstick::Finer => data::draw(&mut random, &plan, ticks(way)),
+        let (posed, lines) = match (feature, truth) {
+            (Some(feature), _) => feature::draw(&mut random, &plan, feature),
+            (_, Yardstick::Catalogue) => (catalogue::draw(&mut random, &plan), Vec::new()),
+            (_, Yardstick::Made) => (made::draw(&mut random, &plan), Vec::new()),
+            (_, Yardstick::Finer) => (data::draw(&mut random, &plan, ticks(way)), Vec::new()),
         };
         let effort = effort(&mut random, way, &posed.inputs);
         let scene = posed.scene + &setting(&mut random, &effort, kind);
-        Self { number, truth, hold: posed.hold, kind, scene, mesh: posed.mesh, effort }
+        let Posed { hold, mesh, .. } = posed;
+        Self { number, feature, lines, truth, hold, kind, scene, mesh, effort }
     }
 }
 

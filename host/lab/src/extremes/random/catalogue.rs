@@ -23,6 +23,11 @@ pub(super) fn draw(random: &mut Random, plan: &MeshPlan) -> Posed {
             Solution::ThreeStates([least, least + span(random)])
         }
     };
+    posed(random, plan, solution)
+}
+
+/// Draws how one is posed.
+pub(super) fn posed(random: &mut Random, plan: &MeshPlan, solution: Solution) -> Posed {
     let sides = sides(random, solution);
     let known = Known {
         solution,

@@ -8,7 +8,8 @@
 
 use super::attempt::Attempt;
 use super::case::{RandomCase, Way, Yardstick};
-use super::nested::{Apart, MeshSolution, apart};
+use super::cut::cut_along;
+use super::nested::{Apart, MeshSolution, Nesting, apart};
 use super::outputs::{Asked, Intervals};
 use crate::extremes::measure::solve_directly;
 use signorini_certify::ErrorBound;
@@ -18,6 +19,7 @@ use signorini_intervals::Answered;
 use signorini_problem::Problem;
 use signorini_problem::quadrature::{gauss, on_panels};
 use signorini_scene::error::Result;
+use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::refine::refined;
 use signorini_scene::scene::units::Units;
 use signorini_solve::norms::errors;
@@ -69,11 +71,15 @@ impl Measured {
 
 /// Unknowns of a finer solve: mostly, and at most.
 const UNKNOWNS: [usize; 2] = [12_000, 200_000];
+/// The same before its mesh is cut along lines.
+const BEFORE_CUTS: usize = 4000;
 /// Most refinements of a finer solve.
 const LEVELS: u32 = 3;
 /// Panels, and points on each, in a direction of a cell of the finer mesh: more and more while an error seems above its
 /// bounds.
 const RULES: [(u32, usize); 4] = [(1, 4), (1, 7), (4, 8), (16, 8)];
+/// Outputs that one case is asked for; one where the finer mesh is large.
+const OUTPUTS: usize = 3;
 /// Points a direction for the energy of one answer.
 const POINTS: usize = 7;
 /// Panels a direction of a cell beside an exact solution: more and more while kinks and layers inside cells seem to take them.
@@ -129,7 +135,8 @@ impl Held<'_> {
         let (scalar, bound) = (self.case.effort.scalar, Some(self.bound));
         let total = Some(self.bound.total);
         Asked {
-            number: self.case.number,
+            number: self.case.number / 2,
+            most: if self.case.feature.is_some() { 1 } else { OUTPUTS },
             problem: self.problem,
             answer: Answered { certified, bound, scalar },
             reading: Reading { scalar, u, flux, bound: total },
@@ -144,7 +151,7 @@ impl Held<'_> {
 
     fn by_exact(&self) -> Result<Measured> {
         let (problem, own) = (self.problem, self.side());
-        let within = apart(&own, &own, 0, &gauss(POINTS))?;
+        let within = apart(&own, &own, &Nesting::default(), &gauss(POINTS))?;
         let mut found = Measured {
             bound: self.bound,
             combined: f64::NAN,
@@ -189,14 +196,28 @@ impl Held<'_> {
         Ok(squares.sum::<Result<f64>>()?.sqrt())
     }
 
-    fn by_finer(&self) -> Result<Option<Measured>> {
-        let (problem, own) = (self.problem, self.side());
+    /// A finer mesh, cut and graded for a feature of the data.
+    fn finer(&self) -> Result<(Mesh, Nesting)> {
+        let RandomCase { number, lines, .. } = self.case;
         // One in so many cases gets the finest that is allowed for.
-        let most = UNKNOWNS[usize::from(self.case.number.is_multiple_of(97))];
-        let (mut mesh, mut levels) = (refined(&problem.mesh)?, 1);
+        let most = match lines.is_empty() {
+            true => UNKNOWNS[usize::from(number.is_multiple_of(2 * 97))],
+            false => BEFORE_CUTS,
+        };
+        let (mut mesh, mut levels) = (refined(&self.problem.mesh)?, 1);
         while levels < LEVELS && 8 * mesh.cells() <= most {
             (mesh, levels) = (refined(&mesh)?, levels + 1);
         }
+        if lines.is_empty() {
+            return Ok((mesh, Nesting { levels, cut: None }));
+        }
+        let (mesh, parents) = cut_along(&mesh, lines);
+        Ok((mesh, Nesting { levels, cut: Some(parents) }))
+    }
+
+    fn by_finer(&self) -> Result<Option<Measured>> {
+        let (problem, own) = (self.problem, self.side());
+        let (mesh, nesting) = self.finer()?;
         let mut finer = Problem::new(&problem.scene, mesh)?;
         finer.set_time(problem.time)?;
         let Ok(solution) = solve_directly(&finer) else { return Ok(None) };
@@ -207,9 +228,11 @@ impl Held<'_> {
         let most = [self.bound.total + its.total, self.bound.of_u + its.total];
         let is_above = |of: &Apart| of.combined > most[0] || of.of_u > most[1];
         let (mut found, mut uncertain) = (Apart::default(), [0.0; 2]);
-        for (panels, points) in RULES {
+        // A mesh that is cut resolves its data.
+        let rules = if nesting.cut.is_some() { &RULES[..2] } else { &RULES };
+        for &(panels, points) in rules {
             let rule = on_panels(panels, &gauss(points));
-            let next = apart(&own, &fine, levels, &rule)?;
+            let next = apart(&own, &fine, &nesting, &rule)?;
             uncertain = difference(&found, &next);
             found = next;
             if !is_above(&found) {

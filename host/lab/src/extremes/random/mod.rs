@@ -1,14 +1,16 @@
 //! `signorini extremes --random N --seed S`: whole scenes drawn at random, each judged by a truth of its own.
 //!
 //! ```text
-//!   mesh, function ─► catalogue, made, data ─► Case ─► attempt ─► measure (exact, or nested) ─► verdict ─► row ─► record
+//!   mesh, function ─► catalogue, made, data, feature ─► Case ─► attempt ─► measure (exact, or nested) ─► verdict ─► row ─► record
 //! ```
-//! Case k of a seed depends on nothing but k and the seed, so that each can be had alone.
+//! Case k of a seed depends on nothing but k and the seed, so that each can be had alone. Every odd one has a [`feature`].
 
 mod attempt;
 mod case;
 mod catalogue;
+mod cut;
 mod data;
+pub mod feature;
 mod function;
 mod made;
 mod measure;

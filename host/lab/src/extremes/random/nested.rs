@@ -1,7 +1,7 @@
-//! How far two answers are from each other, one on a mesh and one on its uniform refinement.
+//! How far two answers are from each other, one on a mesh and one on its uniform refinement, which may be cut along lines.
 //!
 //! A child's reference coordinates are an affine function of its parent's, on quads too: what both functions are
-//! is known at any point of the finer mesh, without a search.
+//! is known at any point of the finer mesh, without a search. In a cut cell they follow from the point.
 
 use signorini_certify::admissible::{self, Admissible};
 use signorini_certify::cell::{Cell, Jet};
@@ -12,7 +12,7 @@ use signorini_certify::weighed::{minus, on_robin};
 use signorini_problem::field::CellField;
 use signorini_problem::quadrature::{Point, gauss};
 use signorini_problem::{Problem, Sum};
-use signorini_scene::error::Result;
+use signorini_scene::error::{Error, Result};
 
 /// One of the two: its problem, s and τ, and u_h where that is asked for.
 pub struct MeshSolution<'a> {
@@ -35,11 +35,20 @@ pub struct Apart {
     pub energy: f64,
 }
 
+/// How the finer mesh lies in the coarser one.
+#[derive(Debug, Clone, Default)]
+pub struct Nesting {
+    /// How often its cells were halved.
+    pub levels: u32,
+    /// The cell in which each cell of the finer mesh lies, where these were then cut.
+    pub cut: Option<Vec<u32>>,
+}
+
 /// Both with what their boundary data add to s.
 struct NestedPair<'a> {
     coarse: Part<'a>,
     fine: Part<'a>,
-    levels: u32,
+    nesting: &'a Nesting,
 }
 
 struct Part<'a> {
@@ -55,19 +64,18 @@ struct OnCell<'a> {
     u: CellField,
 }
 
-/// The distance between `coarse` and `fine`, which has `levels` refinements more, by `rule` in both directions
-/// of a cell of the finer mesh.
+/// The distance between `coarse` and `fine` by `rule` in both directions of a cell of the finer mesh.
 ///
 /// # Errors
 /// Data that are not finite at a point.
 pub fn apart(
     coarse: &MeshSolution,
     fine: &MeshSolution,
-    levels: u32,
+    nesting: &Nesting,
     rule: &[[f64; 2]],
 ) -> Result<Apart> {
     let (coarse, fine) = (Part::new(coarse)?, Part::new(fine)?);
-    let study = NestedPair { coarse, fine, levels };
+    let study = NestedPair { coarse, fine, nesting };
     let fine = study.fine.side;
     let mut squares = Apart::default();
     let mut last = None;
@@ -115,22 +123,33 @@ impl OnCell<'_> {
 impl NestedPair<'_> {
     /// The cell of the coarser mesh in which cell `at` of the finer one lies.
     fn parent(&self, at: usize) -> usize {
-        let shift = 2 * self.levels;
-        let triangles = self.fine.side.problem.mesh.triangles.len();
-        match at.checked_sub(triangles) {
-            None => at >> shift,
-            Some(quad) => self.coarse.side.problem.mesh.triangles.len() + (quad >> shift),
-        }
+        // Four times as many triangles are before four times as many quads.
+        let halved = self.nesting.cut.as_ref().map_or(at, |cut| cut[at] as usize);
+        halved >> (2 * self.nesting.levels)
     }
 
     /// Where a point of cell `at` lies in its parent.
-    fn in_parent(&self, at: usize, mut reference: [f64; 3]) -> [f64; 3] {
+    fn in_parent(
+        &self,
+        at: usize,
+        own: &OnCell,
+        parent: &OnCell,
+        reference: [f64; 3],
+    ) -> Result<[f64; 3]> {
+        if self.nesting.cut.is_none() {
+            return Ok(self.in_halved(at, reference));
+        }
+        let x = own.cell.local(reference).x;
+        parent.tau.locate(x).ok_or_else(|| Error::Check(format!("{x:?} is not in its cell")))
+    }
+
+    fn in_halved(&self, at: usize, mut reference: [f64; 3]) -> [f64; 3] {
         let triangles = self.fine.side.problem.mesh.triangles.len();
         let (mut number, quad) = match at.checked_sub(triangles) {
             None => (at, false),
             Some(quad) => (quad, true),
         };
-        for _ in 0..self.levels {
+        for _ in 0..self.nesting.levels {
             reference = if quad {
                 of_quarter(number % 4, reference)
             } else {
@@ -151,7 +170,8 @@ impl NestedPair<'_> {
     ) -> Result<()> {
         let conductivity = Conductivity::of(self.fine.side.problem, at);
         for point in own.cell.points(rule) {
-            let there = Point { reference: self.in_parent(at, point.reference), ..point };
+            let reference = self.in_parent(at, own, parent, point.reference)?;
+            let there = Point { reference, ..point };
             let (s, of_parent) = (own.s(point.reference)?.gradient, parent.s(there.reference)?);
             let (tau, other) = (own.tau.sample(&point).flux, parent.tau.sample(&there).flux);
             let a = conductivity.at(point.x);
@@ -173,7 +193,7 @@ impl NestedPair<'_> {
         let (at, side) = fine.problem.topology.first_side(edge);
         let parent = self.parent(at);
         let (own, of_parent) = (self.fine.on_cell(at), self.coarse.on_cell(parent));
-        let middle = self.in_parent(at, own.cell.side_point(side, 0.5, 0.0));
+        let middle = self.in_parent(at, &own, &of_parent, own.cell.side_point(side, 0.5, 0.0))?;
         let whole = edge_at(coarse.problem, parent, &of_parent.cell, middle);
         let density = |side: &MeshSolution, edge: usize| {
             side.admissible.tau[edge] / side.problem.lengths[edge]
@@ -184,7 +204,8 @@ impl NestedPair<'_> {
         for [t, weight] in gauss(8) {
             let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
             let reference = own.cell.side_point(side, t, 0.0);
-            let error = own.s(reference)?.value - of_parent.s(self.in_parent(at, reference))?.value;
+            let there = self.in_parent(at, &own, &of_parent, reference)?;
+            let error = own.s(reference)?.value - of_parent.s(there)?.value;
             let h = h.finite(h.at(x, y), [x, y])?;
             sum += weight * fine.problem.lengths[edge] * on_robin(h, error, flux);
         }

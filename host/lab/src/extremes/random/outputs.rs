@@ -13,8 +13,6 @@ use signorini_scene::scene::{Condition, Located, Output, Quantity, Scene};
 use signorini_solve::Solution;
 use signorini_solve::outputs::{Reading, declared};
 
-/// Outputs that one case is asked for.
-const EACH: usize = 3;
 /// The part of the largest number that sums may round and quadrature of data may miss: intervals of controllers leave it out.
 const ROUNDED: f64 = 1e-6;
 
@@ -34,6 +32,8 @@ pub struct Intervals {
 pub struct Asked<'a> {
     /// The number of its case.
     pub number: u32,
+    /// How many outputs it is asked for.
+    pub most: usize,
     /// Its problem.
     pub problem: &'a Problem,
     /// s, τ and the bound.
@@ -50,7 +50,7 @@ type Known = BTreeMap<String, [f64; 2]>;
 impl Asked<'_> {
     /// Its intervals beside the exact solution.
     pub fn by_exact(&self) -> Intervals {
-        let problem = with_outputs(self.problem, self.number, true);
+        let problem = with_outputs(self.problem, self, true);
         let value =
             |output: &Output| Some((output.name.value.clone(), exact_value(&problem, output)?));
         self.beside(&problem, &problem.scene.outputs.iter().filter_map(value).collect())
@@ -58,8 +58,8 @@ impl Asked<'_> {
 
     /// Its intervals beside those of a finer answer.
     pub fn by_finer(&self, finer: (&Problem, &Solution)) -> Intervals {
-        let problem = with_outputs(self.problem, self.number, false);
-        let its = of_answer(&with_outputs(finer.0, self.number, false), &finer.1.into());
+        let problem = with_outputs(self.problem, self, false);
+        let its = of_answer(&with_outputs(finer.0, self, false), &finer.1.into());
         let known = its.into_iter().filter_map(|(name, found)| {
             let found = found.ok()?;
             Some((name, [found.center, found.plus_minus]))
@@ -126,7 +126,8 @@ impl Intervals {
 }
 
 /// The problem with some of the outputs that it may have; others for each number.
-fn with_outputs(problem: &Problem, number: u32, probes: bool) -> Problem {
+fn with_outputs(problem: &Problem, asked: &Asked, probes: bool) -> Problem {
+    let (number, most) = (asked.number as usize, asked.most);
     let scene = &problem.scene;
     let named = |value: String| Located { value, key: "output".to_owned(), span: 0..0 };
     let mut all = Vec::new();
@@ -149,12 +150,12 @@ fn with_outputs(problem: &Problem, number: u32, probes: bool) -> Problem {
         unit: None,
     });
     if probes {
-        let at = Cell::of(problem, number as usize % problem.cells()).middle();
+        let at = Cell::of(problem, number % problem.cells()).middle();
         let (name, quantity) = (named("probe".to_owned()), Quantity::Probe { at });
         all.push(Output { name, quantity, of: Vec::new(), unit: None });
     }
-    let first = number as usize % all.len();
+    let first = number % all.len();
     all.rotate_left(first);
-    all.truncate(EACH);
+    all.truncate(most);
     problem.restated(Scene { outputs: all, ..Scene::clone(scene) })
 }

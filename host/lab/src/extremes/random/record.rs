@@ -4,8 +4,10 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::feature::Feature;
 use super::row::Row;
 use crate::extremes::judge::Outcome;
+use crate::record_file::word;
 
 /// A run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -22,6 +24,9 @@ pub struct Record {
     pub classes: BTreeMap<String, BTreeMap<String, usize>>,
     /// The largest ratios and the cases that they belong to.
     pub worst: BTreeMap<String, Worst>,
+    /// What became of each feature.
+    #[serde(default)]
+    pub features: BTreeMap<String, Spread>,
     /// Everything that is wrong.
     pub violations: Vec<Violation>,
 }
@@ -33,6 +38,34 @@ pub struct Worst {
     pub ratio: f64,
     /// Which case it is of.
     pub case: u32,
+}
+
+/// The bounds of all scenes with one feature.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Spread {
+    /// How many there are.
+    pub scenes: usize,
+    /// How many have a bound.
+    pub with_bound: usize,
+    /// The bound over the distance to the truth, where there is one to measure by: at 50, 90, 99 and 100 % of them.
+    pub over_error: Vec<f64>,
+    /// How many were measured.
+    pub measured: usize,
+}
+
+impl Spread {
+    fn of(rows: &[&Row]) -> Self {
+        let mut all: Vec<f64> = rows.iter().filter_map(|row| row.bound_over_error).collect();
+        all.sort_by(f64::total_cmp);
+        let last = all.len().saturating_sub(1) as f64;
+        let at = |share: f64| all.get((share * last).round() as usize).copied();
+        Self {
+            scenes: rows.len(),
+            with_bound: rows.iter().filter(|row| row.has_bound).count(),
+            measured: all.len(),
+            over_error: [0.5, 0.9, 0.99, 1.0].into_iter().filter_map(at).collect(),
+        }
+    }
 }
 
 /// A promise that was broken: `signorini extremes --random 1 --seed SEED --case CASE` shows it again.
@@ -54,6 +87,12 @@ impl Record {
         let mut record = Self { seed, cases: rows.len(), seconds, ..Self::default() };
         for row in rows {
             record.add(row);
+        }
+        for feature in Feature::ALL {
+            let own: Vec<_> = rows.iter().filter(|row| row.feature == Some(feature)).collect();
+            if !own.is_empty() {
+                record.features.insert(word(&feature), Spread::of(&own));
+            }
         }
         record
     }
@@ -104,6 +143,13 @@ impl Record {
         let mut lines = vec![format!("{} random scenes: {}", self.cases, counts.join(", "))];
         for (name, worst) in &self.worst {
             lines.push(format!("  largest {name}: {:.6} (case {})", worst.ratio, worst.case));
+        }
+        for (name, Spread { scenes, with_bound, over_error, measured }) in &self.features {
+            let ratios: Vec<_> = over_error.iter().map(|ratio| format!("{ratio:.3}")).collect();
+            let ratios = ratios.join(", ");
+            lines.push(format!(
+                "  {name}: {with_bound} of {scenes} have a bound, {measured} measured; over the error {ratios}"
+            ));
         }
         for Violation { case, class, what, words } in &self.violations {
             lines.push(format!("  broken, case {case} ({class}): {what}: {words}"));

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::attempt::Attempt;
 use super::case::{Effort, RandomCase, Way, Yardstick};
+use super::feature::Feature;
 use super::measure::Measured;
 use super::mesh::Kind;
 use super::posed::Hold;
@@ -18,6 +19,8 @@ use signorini_solve::ScalarKind;
 pub struct Row {
     /// Its number.
     pub case: u32,
+    /// What its data have.
+    pub feature: Option<Feature>,
     /// Where its truth comes from.
     pub truth: Yardstick,
     /// The condition that holds it.
@@ -48,6 +51,10 @@ pub struct Row {
     pub output_over_interval: Option<f64>,
     /// The bound over ‖A^½∇s‖.
     pub relative_bound: Option<f64>,
+    /// Whether it has a bound.
+    pub has_bound: bool,
+    /// That over the true distance of s and τ, or their distance from those of a finer solve.
+    pub bound_over_error: Option<f64>,
     /// Wall-clock seconds of the answer, and with the truth.
     pub seconds: f64,
     /// See `seconds`.
@@ -63,8 +70,8 @@ impl Row {
     /// The row of a case before it is solved.
     pub fn of(case: &RandomCase) -> Self {
         let Effort { scalar, way, sweeps: limit, .. } = case.effort;
-        let RandomCase { number, truth, hold, kind: cells, .. } = *case;
-        Self { case: number, truth, hold, cells, scalar, way, limit, ..Self::default() }
+        let RandomCase { number, feature, truth, hold, kind: cells, .. } = *case;
+        Self { case: number, feature, truth, hold, cells, scalar, way, limit, ..Self::default() }
     }
 
     /// With the numbers of its answer.
@@ -83,6 +90,8 @@ impl Row {
             output_over_interval: measured
                 .filter(|of| of.intervals.found > 0)
                 .map(|of| of.intervals.worst),
+            has_bound: attempt.answer.bound.is_some(),
+            bound_over_error: measured.and_then(|of| ratio(of.bound.total, of.combined)),
             relative_bound: measured.and_then(|of| ratio(of.bound.total, of.energy)),
             ..self
         }
@@ -92,7 +101,8 @@ impl Row {
     pub fn classes(&self) -> Vec<String> {
         let cut = if self.limit.is_some() { "with a limit" } else { "to the end" };
         let how = [word(&self.cells), word(&self.scalar), word(&self.way), cut.to_owned()];
-        [word(&self.truth), word(&self.hold)].into_iter().chain(how).collect()
+        let what = self.feature.iter().map(word);
+        what.chain([word(&self.truth), word(&self.hold)]).chain(how).collect()
     }
 
     /// The ratios whose largest is recorded.
