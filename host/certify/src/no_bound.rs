@@ -8,6 +8,7 @@ use super::cell::Cell;
 use super::curved::{Curved, Rough};
 use super::ends::Ends;
 use super::robin::RobinPoints;
+use super::transfer_points;
 use signorini_problem::pieces::Pieces;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Problem, excess_within_ranges};
@@ -28,7 +29,7 @@ impl NoBound {
     }
 
     /// Reasons that [`NoBound::of_data`] may find, for callers that have not kept it.
-    pub const OF_DATA: &str = "u_D jumps between two edges, u_D or ψ jumps inside one, a transfer coefficient nearly vanishes, A is not proved to be positive definite, or an input without a range changes the range of a contact flux that varies along an edge";
+    pub const OF_DATA: &str = "u_D jumps between two edges, u_D or ψ jumps inside one, a transfer coefficient nearly vanishes or varies inside an edge, A is not proved to be positive definite, or an input without a range changes the range of a contact flux that varies along an edge";
 
     /// Why these data allow for no bound, whatever the iterate.
     pub fn of_data(
@@ -40,7 +41,9 @@ impl NoBound {
         let rough = || curved.iter().find_map(|edge| Self::rough(problem, edge));
         let jump = || ends.jump(problem).map(|jump| Self::values_differ(problem, jump));
         let vanishes = || Self::transfer_vanishes(problem, transfer);
-        rough().or_else(jump).or_else(vanishes).or_else(|| Self::not_definite(problem))
+        let unseen = || Self::transfer_unseen(problem);
+        let of_tensor = || Self::not_definite(problem);
+        rough().or_else(jump).or_else(vanishes).or_else(unseen).or_else(of_tensor)
     }
 
     /// u_D has two values where two Dirichlet edges meet.
@@ -92,6 +95,18 @@ impl NoBound {
                 spot(t)
             ),
         }))
+    }
+
+    /// The first transfer edge whose coefficient its points do not see.
+    fn transfer_unseen(problem: &Problem) -> Option<Self> {
+        let mut edges = problem.loads.robin.iter().map(|record| record.edge as usize);
+        let edge = edges.find(|&edge| !transfer_points::are_enough(problem, edge))?;
+        Some(Self(format!(
+            "the transfer coefficient of boundary.{} varies inside the edge around {} in a way that its 8 points do not \
+             see: a vertex where it jumps or a finer mesh gives a bound",
+            boundary(problem, edge),
+            middle(problem, edge)
+        )))
     }
 
     /// The first transfer edge along which the coefficient, which divides the square of a flux, varies too much.

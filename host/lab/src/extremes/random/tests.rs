@@ -9,7 +9,6 @@ use super::nested::{MeshSolution, Nesting, apart};
 use super::residual::residual;
 use super::*;
 use crate::extremes::measure::solve_directly;
-use crate::record_file::word;
 use signorini_certify::exact::distance;
 use signorini_problem::Problem;
 use signorini_problem::quadrature::gauss;
@@ -19,17 +18,12 @@ use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
 use signorini_solve::Solution;
 
-/// What bounds do not enclose yet.
-const OPEN: [Feature; 2] = [Feature::Conductivity, Feature::Transfer];
-
 /// A fixed seed: whatever is mended stays mended.
 #[test]
 fn two_hundred_random_scenes_keep_their_promises() {
     let record = run(21, 0..=199, || {}, &|_| Ok(())).unwrap();
     assert_eq!((record.cases, record.features.len()), (200, Feature::ALL.len()));
-    let open = |class: &str| OPEN.iter().any(|feature| class.starts_with(&word(feature)));
-    let broken = record.violations.iter().filter(|of| !open(&of.class)).count();
-    assert_eq!(broken, 0, "{}", record.text());
+    assert_eq!(record.violations.len(), 0, "{}", record.text());
 }
 
 /// The gap alone, which knows nothing of what the means of data miss, is no bound: among a few scenes the judge finds it.
