@@ -189,8 +189,8 @@ impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
         let chordal = self.admissible.chordal(problem, at);
         // Of this field only the flux is read, so that any numbers do for the means of u.
         let tau = CellField::new(problem, at, tau, tau);
-        let points = match (U::ANYWHERE && L::ANYWHERE, conductivity.cut()) {
-            (true, Some(pieces)) => pieces.points(cell).map(|of| of.point).collect(),
+        let points = match (U::ANYWHERE && L::ANYWHERE, conductivity.cut_for_curves()) {
+            (true, Some(pieces)) => pieces.many_points(cell).map(|of| of.point).collect(),
             (true, None) => curved::points(problem, at, self.deviations, rule)?,
             (false, _) => cell.points(rule),
         };

@@ -47,25 +47,28 @@ impl Pieces {
     /// A of `material` on a cell, cut no more than so often until so much is `left`.
     pub fn new(material: &Material, cell: Cell, (most, left): (usize, f64)) -> Self {
         let whole = enclosed::region(cell);
-        let flat = Piece::constant(material, whole);
+        let [flat, best] = Piece::both(material, whole);
         let variation = flat.share.clamp(ROUNDING, 1.0);
+        let missed = |piece: &Piece| match piece.share.is_finite() {
+            true => piece.share.min(1.0) * flat.relative(piece.above),
+            false => f64::INFINITY,
+        };
+        let of_whole = missed(&best);
+        let is_enough = |size: f64, missed: f64| missed <= (left * variation).powi(2) * size;
+        if most == 0 || is_enough(1.0, of_whole) {
+            return Self { left: of_whole.sqrt() / variation, all: vec![best] };
+        }
         let part = |region: &Region| {
             let piece = Piece::of(material, *region);
-            let missed = match piece.share.is_finite() {
-                true => piece.share.min(1.0) * flat.relative(piece.above),
-                false => f64::INFINITY,
-            };
-            [region.measure(), region.measure() * missed]
+            [region.measure(), region.measure() * missed(&piece)]
         };
-        let [value, missed] = part(&whole);
-        let is_enough = |size: f64, missed: f64| missed <= (left * variation).powi(2) * size;
-        let whole = Part { of: 0, region: whole, value, missed };
+        let value = whole.measure();
+        let first = Part { of: 0, region: whole, value, missed: value * of_whole };
         let cut = |region: &Region| Some(parts(material, region));
-        let parts = refined(cut, vec![whole], most, is_enough, |_, region| part(region));
-        let missed: f64 = parts.iter().map(|part| part.missed / value).sum();
+        let parts = refined(cut, vec![first], most, is_enough, |_, region| part(region));
+        let all: f64 = parts.iter().map(|part| part.missed / value).sum();
         let piece = |part: Part| Piece::of(material, part.region);
-        let left = missed.sqrt() / variation;
-        Self { all: parts.into_iter().map(piece).collect(), left }
+        Self { left: all.sqrt() / variation, all: parts.into_iter().map(piece).collect() }
     }
 
     /// A over a power of two.

@@ -67,19 +67,19 @@ impl PiecePoint {
 }
 
 impl Piece {
-    /// A with a constant p.
-    pub(super) fn constant(material: &Material, region: Region) -> Self {
-        Self::flat(material, &forms(material, &region), region)
+    /// A with a constant p, and with the better p.
+    pub(super) fn both(material: &Material, region: Region) -> [Self; 2] {
+        let forms = forms(material, &region);
+        let flat = Self::flat(material, &forms, region);
+        let curved = Self::curved(&forms, region).filter(|curved| curved.share <= flat.share);
+        let better = curved.unwrap_or_else(|| flat.clone());
+        [flat, better]
     }
 
     /// A with the better p.
     pub(super) fn of(material: &Material, region: Region) -> Self {
-        let forms = forms(material, &region);
-        let flat = Self::flat(material, &forms, region);
-        match Self::curved(&forms, region) {
-            Some(curved) if curved.share <= flat.share => curved,
-            _ => flat,
-        }
+        let [_, better] = Self::both(material, region);
+        better
     }
 
     /// With p of degree 2, where that varies little.
