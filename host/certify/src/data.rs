@@ -1,6 +1,6 @@
 //! Loads and boundary data of one time as the kernel's certificate takes them.
 
-use signorini_bound::certificate::{Curved, LoadCase};
+use signorini_bound::certificate::{Curved, LoadCase, TransferForm};
 use signorini_bound::conforming::VertexData;
 use signorini_kernel::Error as KernelError;
 
@@ -10,6 +10,7 @@ use super::imbalance::carried;
 use super::no_bound::NoBound;
 use super::oscillation::{Oscillation, oscillation};
 use super::robin::{RobinPoints, robin};
+use super::transfer_points::forms;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Assembled, Problem};
 use signorini_scene::error::Result;
@@ -21,6 +22,7 @@ pub struct Data<R> {
     given: Vec<[R; 2]>,
     curved: Vec<Curved<R, u32>>,
     transfer: Vec<[[R; 2]; 8]>,
+    forms: Vec<TransferForm<R, u32>>,
     oscillation: R,
     unresolved: f64,
     no_bound: Option<NoBound>,
@@ -35,6 +37,8 @@ pub struct Evaluated {
     pub curved: Vec<Bent>,
     /// h and u_ext along the transfer edges.
     pub transfer: Vec<RobinPoints>,
+    /// Transfer edges whose points do not see h.
+    pub forms: Vec<TransferForm<f64, u32>>,
     /// √Σ osc², and what is left out of ψ and u_D.
     pub oscillation: f64,
     /// The part of it that was enclosed and not resolved.
@@ -49,7 +53,7 @@ impl Evaluated {
     /// # Errors
     /// Data that are not finite.
     pub fn new(problem: &Problem) -> Result<Self> {
-        Self::with(problem, Ends::moved)
+        Self::with(problem, Ends::moved, false)
     }
 
     /// Data of one term of a sum. A term may break what the sum has to meet: where u_D is on a side of ψ that does not exist, the caller that
@@ -58,10 +62,10 @@ impl Evaluated {
     /// # Errors
     /// Data that are not finite.
     pub fn of_term(problem: &Problem) -> Result<Self> {
-        Self::with(problem, Ends::moved_on_dirichlet)
+        Self::with(problem, Ends::moved_on_dirichlet, true)
     }
 
-    fn with(problem: &Problem, moved: fn(&Ends, &Problem) -> f64) -> Result<Self> {
+    fn with(problem: &Problem, moved: fn(&Ends, &Problem) -> f64, is_baked: bool) -> Result<Self> {
         let time = problem.time;
         let ends = Ends::at_time(problem, time)?;
         let curved_edges = curved_edges(problem, time)?;
@@ -76,7 +80,9 @@ impl Evaluated {
             norm(&mut of_cells.iter().zip(&unresolved).map(|(all, missed)| all - missed));
         let transfer = robin(problem, time)?;
         let rough = pole.map(|(field, at, is_proved)| NoBound::not_square(field, at, is_proved));
-        let no_bound = rough.or_else(|| NoBound::of_data(problem, &ends, &curved, &transfer));
+        let forms = forms(problem)?;
+        let unseen = || NoBound::transfer_unseen(problem, &forms, is_baked);
+        let no_bound = rough.or_else(|| NoBound::of_data(problem, &ends, &curved)).or_else(unseen);
         let (carried, no_way) = match carried(problem) {
             Ok(carried) => (carried, None),
             Err(reason) => (0.0, Some(reason)),
@@ -85,6 +91,7 @@ impl Evaluated {
             ends,
             curved,
             transfer,
+            forms,
             // There is no bound where it is infinite.
             oscillation: left_out + if whole.is_finite() { whole + carried } else { 0.0 },
             unresolved: whole - resolved + carried,
@@ -120,6 +127,7 @@ impl<R: Scalar> Data<R> {
             given: pairs(&data.ends.given),
             curved: curved.collect(),
             transfer: transfer.iter().map(|edge| edge.map(|point| point.map(R::narrow))).collect(),
+            forms: data.forms.iter().map(narrowed).collect(),
             oscillation: R::narrow(data.oscillation),
             unresolved: data.unresolved,
             no_bound: data.no_bound,
@@ -161,7 +169,19 @@ impl<R: Scalar> Data<R> {
             ends: VertexData { gap: &self.gap, given: &self.given },
             curved: &self.curved,
             transfer: &self.transfer,
+            forms: &self.forms,
             oscillation: self.oscillation,
         })
+    }
+}
+
+fn narrowed<R: Scalar>(form: &TransferForm<f64, u32>) -> TransferForm<R, u32> {
+    TransferForm {
+        law: form.law,
+        compliance: R::narrow(form.compliance),
+        square: form.square.map(R::narrow),
+        linear: form.linear.map(R::narrow),
+        constant: R::narrow(form.constant),
+        mean: R::narrow(form.mean),
     }
 }

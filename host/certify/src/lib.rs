@@ -39,7 +39,7 @@ mod stretch;
 pub mod term;
 #[cfg(test)]
 mod tests;
-mod transfer_points;
+pub mod transfer_points;
 pub mod weighed;
 
 pub use bound::{Certified, ErrorBound};

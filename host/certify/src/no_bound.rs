@@ -2,21 +2,15 @@
 
 use std::fmt;
 
-use signorini_bound::certificate::Verdict;
+use signorini_bound::certificate::{TransferForm, Verdict};
 
 use super::cell::Cell;
 use super::curved::{Curved, Rough};
 use super::ends::Ends;
-use super::robin::RobinPoints;
-use super::transfer_points;
 use signorini_problem::pieces::Pieces;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Problem, excess_within_ranges};
 use signorini_scene::scene::{Field, Input};
-
-/// By how much a transfer coefficient may vary along an edge: where it nearly vanishes, ∫(τ·n)²/h is
-/// beyond 8 points, and infinite where it does.
-const VARYING: f64 = 10.0;
 
 /// Why there is no bound: one sentence that names boundary and place.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -32,18 +26,11 @@ impl NoBound {
     pub const OF_DATA: &str = "u_D jumps between two edges, u_D or ψ jumps inside one, a transfer coefficient nearly vanishes or varies inside an edge, A is not proved to be positive definite, or an input without a range changes the range of a contact flux that varies along an edge";
 
     /// Why these data allow for no bound, whatever the iterate.
-    pub fn of_data(
-        problem: &Problem,
-        ends: &Ends,
-        curved: &[Curved],
-        transfer: &[RobinPoints],
-    ) -> Option<Self> {
+    pub fn of_data(problem: &Problem, ends: &Ends, curved: &[Curved]) -> Option<Self> {
         let rough = || curved.iter().find_map(|edge| Self::rough(problem, edge));
         let jump = || ends.jump(problem).map(|jump| Self::values_differ(problem, jump));
-        let vanishes = || Self::transfer_vanishes(problem, transfer);
-        let unseen = || Self::transfer_unseen(problem);
         let of_tensor = || Self::not_definite(problem);
-        rough().or_else(jump).or_else(vanishes).or_else(unseen).or_else(of_tensor)
+        rough().or_else(jump).or_else(of_tensor)
     }
 
     /// u_D has two values where two Dirichlet edges meet.
@@ -97,28 +84,26 @@ impl NoBound {
         }))
     }
 
-    /// The first transfer edge whose coefficient its points do not see.
-    fn transfer_unseen(problem: &Problem) -> Option<Self> {
-        let mut edges = problem.loads.robin.iter().map(|record| record.edge as usize);
-        let edge = edges.find(|&edge| !transfer_points::are_enough(problem, edge))?;
-        Some(Self(format!(
-            "the transfer coefficient of boundary.{} varies inside the edge around {} in a way that its 8 points do not \
-             see: a vertex where it jumps or a finer mesh gives a bound",
-            boundary(problem, edge),
-            middle(problem, edge)
-        )))
-    }
-
-    /// The first transfer edge along which the coefficient, which divides the square of a flux, varies too much.
-    fn transfer_vanishes(problem: &Problem, transfer: &[RobinPoints]) -> Option<Self> {
-        let at = transfer.iter().position(|edge| !is_moderate(edge))?;
-        let edge = problem.loads.robin.get(at)?.edge as usize;
-        Some(Self(format!(
-            "the transfer coefficient of boundary.{} varies by more than a factor of {VARYING} along the edge \
-             around {}: the bound divides by it where it nearly vanishes",
-            boundary(problem, edge),
-            middle(problem, edge)
-        )))
+    /// The first transfer edge whose points do not see its coefficient: in firmware that is no bound, on the desk where it vanishes.
+    pub(super) fn transfer_unseen(
+        problem: &Problem,
+        forms: &[TransferForm<f64, u32>],
+        is_baked: bool,
+    ) -> Option<Self> {
+        let vanishes = |form: &&TransferForm<f64, u32>| is_baked || !form.compliance.is_finite();
+        let form = forms.iter().find(vanishes)?;
+        let edge = problem.loads.robin.get(form.law as usize)?.edge as usize;
+        let (name, place) = (boundary(problem, edge), middle(problem, edge));
+        Some(Self(match form.compliance.is_finite() {
+            true => format!(
+                "the transfer coefficient of boundary.{name} varies inside the edge around {place} in a way that 8 points do \
+                 not see: a vertex where it jumps or a finer mesh gives a controller a bound"
+            ),
+            false => format!(
+                "the transfer coefficient of boundary.{name} is not proved to be positive along the edge around {place}: the \
+                 bound divides by it where it vanishes"
+            ),
+        }))
     }
 
     /// A is not proved to be positive definite and bounded somewhere.
@@ -226,13 +211,6 @@ impl fmt::Display for NoBound {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.0)
     }
-}
-
-/// Whether a coefficient at the points of an edge allows for a bound.
-fn is_moderate(edge: &RobinPoints) -> bool {
-    let low = edge.iter().fold(f64::INFINITY, |low, point| low.min(point[0]));
-    let high = edge.iter().fold(0.0, |high: f64, point| high.max(point[0]));
-    high <= VARYING * low
 }
 
 fn middle(problem: &Problem, edge: usize) -> String {

@@ -15,6 +15,7 @@ use signorini_certify::curved;
 use signorini_certify::deviation::{Deviation, Deviations};
 use signorini_certify::factor::coefficients;
 use signorini_certify::robin::robin;
+use signorini_certify::transfer_points::unseen;
 use signorini_kernel::Real;
 use signorini_problem::Problem;
 use signorini_problem::field::CellField;
@@ -257,7 +258,14 @@ impl<'p> Residual<'p> {
             let edge = record.edge as usize;
             let length = problem.lengths[edge];
             let (value, density) = (goal.value_on(problem, edge), goal.density_on(problem, edge));
-            for (&[t, weight], &[h, outside]) in f64::GAUSS[DATA_POINTS - 1].iter().zip(points) {
+            let own = f64::GAUSS[DATA_POINTS - 1].iter().zip(points);
+            let points = match unseen(problem, edge)? {
+                Some(points) => {
+                    points.into_iter().map(|at| [at.t, at.weight, at.h, at.ambient]).collect()
+                }
+                None => own.map(|(&[t, weight], &[h, u])| [t, weight, h, u]).collect::<Vec<_>>(),
+            };
+            for [t, weight, h, outside] in points {
                 let h = h / length;
                 let s = self.s.on_edge(problem, edge, self.deviations.on(edge), t)?;
                 let here = Fluxes {

@@ -186,6 +186,7 @@ impl<R: Bits> Loads<R> {
             ends: VertexData { gap, given },
             curved: &self.curved,
             transfer: &self.transfer,
+            forms: &[],
             oscillation: self.oscillation,
         })
     }

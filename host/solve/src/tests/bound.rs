@@ -116,3 +116,21 @@ fn of_conductivities_that_vary_inside_cells() -> Result<()> {
     }
     Ok(())
 }
+
+/// Transfer coefficients that 8 points of an edge do not see, with u = x: what passes at the left is 1.
+#[test]
+fn of_transfer_that_varies_inside_edges() -> Result<()> {
+    for h in ["2 + sign(y - 0.4)", "1 + 50*exp(-((y - 0.4)/0.02)^2)", "0.01 + y"] {
+        let text = HIGH_UP
+            .replace("\"1000\", ambient = \"OFFSET - 1.001\"", "\"H\", ambient = \"-1 - 1/(H)\"")
+            .replace("OFFSET + ", "")
+            .replace("OFFSET", "0")
+            .replace('H', h);
+        for cells in [Cells::Triangles, Cells::Quads] {
+            let [total, combined] = bound(&text, cells, 1.0, Options::default())?;
+            GUARANTEE.check_at_most(format_args!("{h} on {cells:?}"), combined, total);
+            assert!(total <= 3.0 * combined, "{h} on {cells:?}: {total}, {combined}");
+        }
+    }
+    Ok(())
+}

@@ -2,6 +2,7 @@
 
 use super::extension::{Curved, extension, is_clear, jump, of_means, of_s};
 use super::parts::Parts;
+use super::transfer::Transfer;
 use super::{Continuous, Discretization, LoadCase};
 use crate::equilibrium::Iterate;
 use signorini_kernel::excess::Excess;
@@ -51,11 +52,13 @@ pub(super) fn add<R: Real, I: Index>(
             s: ends(discretization, s, edge),
             bubble: read(s.bubbles, edge),
         };
-        let term = match given.transfer.get(at) {
-            Some(points) => transfer.at_points(points),
-            None => transfer.constant(law.coefficient, law.ambient),
+        let form = given.forms.iter().find(|form| form.law.at() == at);
+        let (term, terms) = match (form, given.transfer.get(at)) {
+            (Some(form), _) => transfer.by_form(form),
+            (None, Some(points)) => (transfer.at_points(points), R::ZERO),
+            (None, None) => (transfer.constant(law.coefficient, law.ambient), R::ZERO),
         };
-        take(parts, edge, term, R::ZERO);
+        take(parts, edge, term, terms);
         moved += transfer.moved(law.coefficient, law.ambient);
         if law.coefficient > R::ZERO {
             let of_u = law.ambient - law.coefficient * read(u, edge);
@@ -128,57 +131,6 @@ fn ends<R: Real, I: Index>(
     edge: usize,
 ) -> [R; 2] {
     s.at(&discretization.edges.endpoints(&discretization.mesh, edge))
-}
-
-/// A transfer edge: r = ∫τ·n + H(s − u_ext) with H = ∫h along it.
-struct Transfer<R> {
-    flux: R,
-    s: [R; 2],
-    bubble: R,
-}
-
-impl<R: Real> Transfer<R> {
-    /// ∫ r²/H with H and u_ext constant, `ambient` = ∫h u_ext: Simpson's rule for the linear part of r,
-    /// and what the bubble H·4t(1 − t)d adds.
-    fn constant(&self, h: R, ambient: R) -> R {
-        if !(h > R::ZERO) {
-            // Nothing passes: a flux there has no finite bound.
-            return if self.flux == R::ZERO { R::ZERO } else { R::ONE / R::ZERO };
-        }
-        let [a, b] = self.s.map(|s| self.flux + (h * s - ambient));
-        let bubble = h * self.bubble;
-        let linear = (a * a + a * b + b * b) * R::THIRD;
-        let cross = R::TWO * R::THIRD * bubble * (a + b);
-        let square = R::from_count(8) / R::from_count(15) * bubble * bubble;
-        (linear + cross + square) / h
-    }
-
-    /// ∫ e²/H, e what rounding of the data and of r can do: r is a small difference of large terms where
-    /// u is large against its changes.
-    fn moved(&self, h: R, ambient: R) -> R {
-        if !(h > R::ZERO) {
-            return R::ZERO;
-        }
-        let [a, b] = self.s.map(R::magnitude);
-        let s = a.or_larger(b) + self.bubble.magnitude();
-        let terms = self.flux.magnitude() + h * s + ambient.magnitude();
-        let e = R::TWO * R::EPSILON * terms;
-        e * e / h
-    }
-
-    /// The term from H and u_ext at the 8 Gauss points.
-    fn at_points(&self, points: &[[R; 2]; 8]) -> R {
-        let [a, b] = self.s;
-        let rule = R::GAUSS[7].iter().zip(points);
-        rule.fold(R::ZERO, |sum, (&[t, weight], &[h, ambient])| {
-            let arch = (R::TWO + R::TWO) * t * (R::ONE - t);
-            let s = a * (R::ONE - t) + b * t + arch * self.bubble;
-            let r = self.flux + h * (s - ambient);
-            // Where nothing passes the law asks for τ·n = 0; a flux there has no finite bound.
-            let term = if r == R::ZERO { R::ZERO } else { r * r / h };
-            sum + weight * term
-        })
-    }
 }
 
 /// The square of what storing u_D and ψ in this scalar can do: each value moves by ε|value|, and the

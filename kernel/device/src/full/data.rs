@@ -103,6 +103,7 @@ impl<R: Real, I: Index> DataMemory<'_, R, I> {
             },
             curved: own_or(self.curved, base.curved),
             transfer: own_or(self.transfer, base.transfer),
+            forms: &[],
             oscillation,
         };
         let law = Law::above(own_or(self.gap, base.gap)).with_spans(spans);

@@ -202,6 +202,7 @@ fn certificate<R: Bits, const T: usize, const Q: usize, const E: usize>(
         ends: VertexData { gap: black_box(&at_gap), given: black_box(&given) },
         curved: &[],
         transfer: &[],
+        forms: &[],
         oscillation: R::ZERO,
     };
     let (mut vertices, mut bubbles, mut tau) = ([R::ZERO; VERTICES], [R::ZERO; E], [R::ZERO; E]);
