@@ -70,6 +70,9 @@ fn is_seen(own: &[EdgePoint], parts: &[EdgePoint]) -> bool {
         .iter()
         .fold([f64::INFINITY, 0.0_f64], |[low, high], at| [low.min(at.h), high.max(at.h)]);
     let size = of(parts, &|at| at.h);
+    if parts.iter().all(|at| at.h == 0.0) {
+        return true;
+    }
     high <= VARYING * low
         && agrees(&|at| 1.0 / at.h, of(parts, &|at| 1.0 / at.h))
         && (0..POWERS).all(|k| agrees(&|at| at.h * at.t.powi(k), size))
