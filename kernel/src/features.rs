@@ -9,6 +9,8 @@ pub const TRIANGLES: bool = cfg!(feature = "triangles");
 pub const QUADS: bool = cfg!(feature = "quads");
 /// Cells in which A in reference coordinates is not constant.
 pub const VARYING: bool = cfg!(feature = "varying");
+/// Cells whose points do not resolve A, and transfer edges whose points do not see h.
+pub const PIECES: bool = cfg!(feature = "pieces");
 /// Quads of the nonparametric element that are no parallelograms.
 pub const DISTORTED: bool = cfg!(feature = "distorted");
 /// Contact edges.

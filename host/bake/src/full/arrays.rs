@@ -258,6 +258,7 @@ impl<R: Scalar> Baked<R> {
             ("triangles", !self.of_triangles.is_empty()),
             ("quads", !self.of_quads.is_empty()),
             ("varying", !self.metric_place.is_empty()),
+            ("pieces", !self.factors.is_empty()),
             ("distorted", !self.distortions.is_empty()),
             ("contact", self.counts.contact > 0),
             ("limited", !self.data.spans.is_empty()),

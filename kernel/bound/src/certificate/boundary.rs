@@ -52,7 +52,8 @@ pub(super) fn add<R: Real, I: Index>(
             s: ends(discretization, s, edge),
             bubble: read(s.bubbles, edge),
         };
-        let form = given.forms.iter().find(|form| form.law.at() == at);
+        let forms = if features::PIECES { given.forms } else { &[] };
+        let form = forms.iter().find(|form| form.law.at() == at);
         let (term, terms) = match (form, given.transfer.get(at)) {
             (Some(form), _) => transfer.by_form(form),
             (None, Some(points)) => (transfer.at_points(points), R::ZERO),

@@ -52,7 +52,10 @@ impl<'a, R: Real> Metric<'a, R> {
             return None;
         }
         let at = *self.place.get(cell)? as usize;
-        let factor = || self.factors.get(at.checked_sub(self.at_points.len())?);
+        let factor = || match features::PIECES {
+            true => self.factors.get(at.checked_sub(self.at_points.len())?),
+            false => None,
+        };
         self.at_points.get(at).map(Varying::Points).or_else(|| factor().map(Varying::Factor))
     }
 
