@@ -3,7 +3,7 @@
 //! ```text
 //!   h⁻ ≤ h ≤ h⁺,   ∫r²/H ≤ τ²∫1/H⁻ + 2τ∫(s − u_ext) + ∫H⁺(s − u_ext)²
 //! ```
-//! A part is halved until both are 1e−6 apart, or beside a jump 2⁻²⁴ of the edge long.
+//! A part is halved until both are 1e−6 apart, or it is 2⁻²⁴ of the edge long, or there are 4096 points.
 
 use signorini_bound::certificate::TransferForm;
 use signorini_kernel::Real;
@@ -19,6 +19,10 @@ const MISSED: f64 = 1e-4;
 const VARYING: f64 = 10.0;
 /// Halvings of an edge.
 const HALVINGS: u32 = 24;
+/// Points of an edge, about, at most.
+const MOST: usize = 4096;
+/// Part of its terms that a sum may leave which is nothing.
+const ROUNDING: f64 = 1e-12;
 /// By how much h may vary in a part, and leave its parabola.
 const SMOOTH: [f64; 2] = [0.5, 1e-6];
 /// Powers of t: those of squares of functions of degree 2.
@@ -52,9 +56,12 @@ pub fn unseen(problem: &Problem, edge: usize) -> Result<Option<Vec<EdgePoint>>> 
         return Ok(None);
     }
     let along = Along { problem, edge, h: &h, ambient: &ambient };
-    let (mut own, mut parts) = (Vec::new(), Vec::new());
+    let mut own = Vec::new();
     along.add_points([0.0, 1.0], &mut own)?;
-    along.add_parts([0.0, 1.0], HALVINGS, &mut parts)?;
+    if along.is_nothing() {
+        return Ok(None);
+    }
+    let parts = along.parts()?;
     Ok((!is_seen(&own, &parts)).then_some(parts))
 }
 
@@ -70,9 +77,6 @@ fn is_seen(own: &[EdgePoint], parts: &[EdgePoint]) -> bool {
         .iter()
         .fold([f64::INFINITY, 0.0_f64], |[low, high], at| [low.min(at.h), high.max(at.h)]);
     let size = of(parts, &|at| at.h);
-    if parts.iter().all(|at| at.h == 0.0) {
-        return true;
-    }
     high <= VARYING * low
         && agrees(&|at| 1.0 / at.h, of(parts, &|at| 1.0 / at.h))
         && (0..POWERS).all(|k| agrees(&|at| at.h * at.t.powi(k), size))
@@ -119,21 +123,36 @@ struct Along<'p> {
 }
 
 impl Along<'_> {
-    fn add_parts(
-        &self,
-        part @ [from, to]: [f64; 2],
-        left: u32,
-        to_all: &mut Vec<EdgePoint>,
-    ) -> Result<()> {
+    /// The points of parts that h varies little in, of all at once a half at a time.
+    fn parts(&self) -> Result<Vec<EdgePoint>> {
+        let (mut open, mut points) = (vec![[0.0, 1.0]], Vec::new());
+        for level in 0..=HALVINGS {
+            let mut finer = Vec::new();
+            for part @ [from, to] in open {
+                let is_last = level == HALVINGS || points.len() + 16 * finer.len() > MOST;
+                if is_last || self.is_smooth(part) {
+                    self.add_points(part, &mut points)?;
+                    continue;
+                }
+                let middle = 0.5 * (from + to);
+                finer.extend([[from, middle], [middle, to]]);
+            }
+            open = finer;
+        }
+        Ok(points)
+    }
+
+    fn is_smooth(&self, part: [f64; 2]) -> bool {
         let form = self.h.enclose(&self.region(part));
         let (range, rest) = (form.range(), form.remainder.width());
-        let is_smooth = range.width() <= SMOOTH[0] * range.low && rest <= SMOOTH[1] * range.low;
-        if left == 0 || is_smooth {
-            return self.add_points(part, to_all);
-        }
-        let middle = 0.5 * (from + to);
-        self.add_parts([from, middle], left - 1, to_all)?;
-        self.add_parts([middle, to], left - 1, to_all)
+        range.width() <= SMOOTH[0] * range.low && rest <= SMOOTH[1] * range.low
+    }
+
+    /// Whether h is 0 all along the edge, but for the rounding of its terms.
+    fn is_nothing(&self) -> bool {
+        let [x, y] = self.problem.along(self.edge, 0.5);
+        let size = self.h.enclose(&self.region([0.0, 1.0])).range().size();
+        size <= ROUNDING * self.h.terms_at(x, y)
     }
 
     fn region(&self, part: [f64; 2]) -> Region {

@@ -173,7 +173,9 @@ impl Held<'_> {
             found.uncertain = [found.combined, found.of_u].map(rounding);
             // The identity has the oscillation of f, g and q in it, with its sign, but not that of u_ext.
             found.intervals = self.asked().by_exact();
-            let known = self.missed()? <= RESOLVED * self.bound.duality_gap;
+            // In cells that are cut the gap is that of a tensor below A.
+            let is_cut = !problem.cuts().is_empty();
+            let known = !is_cut && self.missed()? <= RESOLVED * self.bound.duality_gap;
             found.identity = known.then_some([distance.identity, distance.rounding]);
             found.may_exceed =
                 self.case.effort.way == Way::Condensed && problem.loads.span_excess > 0.0;
