@@ -129,7 +129,7 @@ fn of_transfer_that_varies_inside_edges() -> Result<()> {
         for cells in [Cells::Triangles, Cells::Quads] {
             let [total, combined] = bound(&text, cells, 1.0, Options::default())?;
             GUARANTEE.check_at_most(format_args!("{h} on {cells:?}"), combined, total);
-            assert!(total <= 3.0 * combined, "{h} on {cells:?}: {total}, {combined}");
+            assert!(total <= 3.0 * combined + 1e-3, "{h} on {cells:?}: {total}, {combined}");
         }
     }
     Ok(())
