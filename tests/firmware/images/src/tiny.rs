@@ -138,6 +138,7 @@ fn answer(
         ends: VertexData { gap: &gap, given: &given },
         curved: &[],
         transfer: &[],
+        forms: &[],
         oscillation: 0.0,
     };
     let data = Data { given, law: Law::above(&[0.0; COLUMNS]), dirichlet: &[above; COLUMNS] };
