@@ -22,7 +22,7 @@ pub struct ErrorBound {
     pub algebraic: f64,
     /// Oscillation: the part of f, g and q that their means leave out.
     pub oscillation: f64,
-    /// The part of the oscillation that was enclosed and not resolved.
+    /// What was enclosed and not resolved: parts of the oscillation, and what A has above pieces of cells.
     pub unresolved: f64,
     /// The part that rounding can have hidden.
     pub rounding: f64,
@@ -37,6 +37,13 @@ impl ErrorBound {
         let [total, of_u, gap, algebraic, oscillation, unresolved, rounding] =
             [total, of_u, gap, algebraic, oscillation, unresolved, rounding].map(|x| x * unit);
         Self { total, of_u, duality_gap: gap, algebraic, oscillation, unresolved, rounding }
+    }
+
+    /// What A has above what it is taken for: the total is oscillation + √((gap + open)² + oscillation²) + rounding.
+    pub fn open(&self) -> f64 {
+        let root = (self.total - self.oscillation - self.rounding).max(0.0);
+        let gap = (root * root - self.oscillation * self.oscillation).max(0.0).sqrt();
+        (gap - self.duality_gap).max(0.0)
     }
 
     /// Widens the kernel's numbers.
@@ -84,9 +91,12 @@ impl Certified {
         if let Some(found) = certificate.as_mut().filter(|_| !averages) {
             *found = certifier.relaxed(assembled, data, u, *found)?;
         }
-        let unresolved = data.unresolved();
-        let bound =
-            certificate.as_ref().map(|found| ErrorBound { unresolved, ..ErrorBound::new(found) });
+        let bound = certificate.as_ref().map(|found| {
+            let bound = ErrorBound::new(found);
+            // Where all cells are seen by their own points, what is open is as small as rounding.
+            let of_tensor = if problem.cuts().is_empty() { 0.0 } else { bound.open() };
+            ErrorBound { unresolved: data.unresolved() + of_tensor, ..bound }
+        });
         let no_bound = certifier.no_bound(data);
         Ok(Self { bound, no_bound, answer: certifier.answer() })
     }

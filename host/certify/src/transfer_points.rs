@@ -10,7 +10,7 @@ use signorini_kernel::Real;
 use signorini_problem::quadrature::DATA_POINTS;
 use signorini_problem::{Problem, Sum};
 use signorini_scene::error::Result;
-use signorini_scene::expression::enclosure::Region;
+use signorini_scene::expression::enclosure::{Interval, Region};
 use signorini_scene::scene::Field;
 
 /// Part of an integral that points may miss: a hundredth of the norm.
@@ -21,10 +21,15 @@ const VARYING: f64 = 10.0;
 const HALVINGS: u32 = 24;
 /// Points of an edge, about, at most.
 const MOST: usize = 4096;
+/// Rounding of a parabola, relative to it.
+const ROUNDED: f64 = 1e-14;
 /// Part of its terms that a sum may leave which is nothing.
 const ROUNDING: f64 = 1e-12;
 /// By how much h may vary in a part, and leave its parabola.
-const SMOOTH: [f64; 2] = [0.5, 1e-6];
+const SMOOTH: [f64; 2] = [0.1, 1e-6];
+/// Part of the root of an integral over a part that its 8 points miss: η⁴ of a parabola that varies by η = 0.05 (`pieces`), and η⁸ of ∫1/H.
+pub const MISSED_BETWEEN: f64 = 1e-5;
+const MISSED_OF_COMPLIANCE: f64 = 1e-10;
 /// Powers of t: those of squares of functions of degree 2.
 const POWERS: i32 = 5;
 
@@ -43,6 +48,13 @@ pub struct EdgePoint {
     pub ambient: f64,
 }
 
+impl EdgePoint {
+    /// A point of an edge whose points see H.
+    pub fn seen(t: f64, weight: f64, h: f64, ambient: f64) -> Self {
+        Self { t, weight, h, between: [h; 2], ambient }
+    }
+}
+
 /// The points of the parts of an edge; nothing where its own 8 points see its coefficient.
 ///
 /// # Errors
@@ -57,7 +69,7 @@ pub fn unseen(problem: &Problem, edge: usize) -> Result<Option<Vec<EdgePoint>>> 
     }
     let along = Along { problem, edge, h: &h, ambient: &ambient };
     let mut own = Vec::new();
-    along.add_points([0.0, 1.0], &mut own)?;
+    along.add_points([0.0, 1.0], false, &mut own)?;
     if along.is_nothing() {
         return Ok(None);
     }
@@ -100,7 +112,8 @@ fn form(law: u32, points: &[EdgePoint]) -> TransferForm<f64, u32> {
     let mut form = TransferForm { law, ..TransferForm::default() };
     for &EdgePoint { t, weight, between: [low, high], ambient, .. } in points {
         let functions = [1.0 - t, t, 4.0 * t * (1.0 - t)];
-        form.compliance += if low > 0.0 { weight / low } else { f64::INFINITY };
+        let compliance = if low > 0.0 { weight / low } else { f64::INFINITY };
+        form.compliance += (1.0 + MISSED_OF_COMPLIANCE) * compliance;
         let pairs = [[0, 0], [0, 1], [0, 2], [1, 1], [1, 2], [2, 2]];
         for (square, [i, j]) in form.square.iter_mut().zip(pairs) {
             *square += weight * high * functions[i] * functions[j];
@@ -130,8 +143,9 @@ impl Along<'_> {
             let mut finer = Vec::new();
             for part @ [from, to] in open {
                 let is_last = level == HALVINGS || points.len() + 16 * finer.len() > MOST;
-                if is_last || self.is_smooth(part) {
-                    self.add_points(part, &mut points)?;
+                let is_smooth = self.is_smooth(part);
+                if is_last || is_smooth {
+                    self.add_points(part, is_smooth, &mut points)?;
                     continue;
                 }
                 let middle = 0.5 * (from + to);
@@ -159,18 +173,26 @@ impl Along<'_> {
         Region::segment(part.map(|t| self.problem.along(self.edge, t)))
     }
 
-    /// The 8 points of a part.
-    fn add_points(&self, part @ [from, to]: [f64; 2], to_all: &mut Vec<EdgePoint>) -> Result<()> {
+    /// The 8 points of a part, between two parabolas where H is smooth in it, else between its ends.
+    fn add_points(
+        &self,
+        part @ [from, to]: [f64; 2],
+        is_smooth: bool,
+        to_all: &mut Vec<EdgePoint>,
+    ) -> Result<()> {
         let (length, form) = (self.problem.lengths[self.edge], self.h.enclose(&self.region(part)));
+        let [middle, slope, _, bend, ..] = form.coefficients;
         for &[own, share] in f64::GAUSS[DATA_POINTS - 1] {
             let (t, weight) = (from + own * (to - from), share * (to - from));
-            let x = self.problem.along(self.edge, t);
-            let value = form.at([2.0 * own - 1.0, 0.0]);
+            let (x, xi) = (self.problem.along(self.edge, t), 2.0 * own - 1.0);
+            let parabola = Interval::point(middle + xi * (slope + xi * bend)) + form.remainder;
+            let Interval { low, high } = if is_smooth { parabola } else { form.range() };
+            let rounding = ROUNDED * high.abs();
             to_all.push(EdgePoint {
                 t,
                 weight,
                 h: length * self.h.finite(self.h.at(x[0], x[1]), x)?,
-                between: [length * value.low, length * value.high],
+                between: [length * (low - rounding), length * (high + rounding)],
                 ambient: self.ambient.finite(self.ambient.at(x[0], x[1]), x)?,
             });
         }

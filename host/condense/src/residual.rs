@@ -120,7 +120,7 @@ impl Entry {
             Self::Gradient(v) => (root.gradient(v), v),
             Self::Flux(tau) => (root.flux(tau), [0.0; 2]),
         };
-        let beyond = [0, 1].map(|k| open * at.above[k].sqrt() * v[k]);
+        let beyond = Root::of(&at.above, open).gradient(v);
         if left == 0.0 { known.to_vec() } else { [known, beyond].concat() }
     }
 }

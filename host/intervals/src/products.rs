@@ -15,7 +15,7 @@ use signorini_certify::curved;
 use signorini_certify::deviation::{Deviation, Deviations};
 use signorini_certify::factor::coefficients;
 use signorini_certify::robin::robin;
-use signorini_certify::transfer_points::unseen;
+use signorini_certify::transfer_points::{EdgePoint, MISSED_BETWEEN, unseen};
 use signorini_kernel::Real;
 use signorini_problem::Problem;
 use signorini_problem::field::CellField;
@@ -112,23 +112,39 @@ impl Products {
         Self { residual, weights, both, off, sizes: sizes.map(|x| by * x) }
     }
 
-    /// These at a point where A is no more than p + N, with p in them: r differs by (A − p)∇s then, and
+    /// These at a point where A is no more than p + N, with p in them, and N ≤ νp. r differs by (A − p)∇s then, and
     /// ```text
     ///   |A^{−½}(A − p)v| ≤ |N′^½v|,   p⁻¹/(1 + ν) ≤ A⁻¹ ≤ p⁻¹
     /// ```
-    fn beside(self, of: &PiecePoint, [along_s, along_z]: [[f64; 2]; 2]) -> Self {
-        if of.share == 0.0 {
+    /// `open` are |N′^½∇s| and |N′^½∇z|, `beyond` is |N^½∇z|.
+    fn beside(self, share: f64, [by_s, by_z]: [f64; 2], beyond: f64) -> Self {
+        if share == 0.0 {
             return self;
         }
-        let [by_s, by_z] = [along_s, along_z].map(|v| of.open(v));
-        let beyond = PiecePoint { share: 1.0, ..*of }.open(along_z);
         let [of_z, of_zeta] = self.sizes.map(f64::sqrt);
         let (residual, sum) = (self.residual.sqrt(), of_zeta + of_z);
         Self {
-            residual: (residual / (1.0 + of.share).sqrt() - by_s).max(0.0).powi(2),
+            residual: (residual / (1.0 + share).sqrt() - by_s).max(0.0).powi(2),
             weights: (self.weights.sqrt() + by_z).powi(2),
-            off: of.share * residual * sum + by_s * sum + residual * by_z + by_s * by_z,
+            off: share * residual * sum + by_s * sum + residual * by_z + by_s * by_z,
             sizes: [(of_z + beyond).powi(2), self.sizes[1]],
+            ..self
+        }
+    }
+
+    /// These where rules miss a part of the roots of squares.
+    fn widened(self, missed: f64) -> Self {
+        if missed == 0.0 {
+            return self;
+        }
+        let (less, more) = ((1.0 - missed).max(0.0).powi(2), (1.0 + missed).powi(2));
+        let [of_z, of_zeta] = self.sizes.map(f64::sqrt);
+        let both = self.residual.sqrt() * (of_z + of_zeta);
+        Self {
+            residual: less * self.residual,
+            weights: more * self.weights,
+            off: more * self.off + (more - less) * both,
+            sizes: self.sizes.map(|size| more * size),
             ..self
         }
     }
@@ -221,12 +237,13 @@ impl<'p> Residual<'p> {
         let is_lifted = self.lifted.contains_key(&at);
         if let Some(cut) = problem.cuts().get(&at).filter(|_| !is_lifted) {
             let of = |fields| coefficients(problem, at, fields);
-            *sum = sum.and(Products::on_pieces(cut, of(&self.s), of(z)));
+            *sum = sum.and(Products::on_pieces(cut, of(&self.s), of(z)).widened(cut.missed));
             return;
         }
         let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
         let z_here = z.chordal(problem, at);
         let [tau, zeta] = [self.s.tau, z.tau].map(|flux| CellField::new(problem, at, flux, flux));
+        let mut own = Products::default();
         let mut add = |of: &PiecePoint, along_s: [f64; 2]| {
             let (point, a, local) = (&of.point, &of.below, cell.local(of.point.reference));
             let (tau, along_z) = (tau.sample(point).flux, z_here.at(&local).gradient);
@@ -238,16 +255,20 @@ impl<'p> Residual<'p> {
             };
             let inverse = inverse(a);
             let seen = here.products(|a, b| dot(apply(&inverse, a), b));
-            *sum = sum.and(seen.beside(of, [along_s, along_z]).times(point.weight));
+            let beyond = PiecePoint { share: 1.0, ..*of }.open(along_z);
+            let seen = seen.beside(of.share, [along_s, along_z].map(|v| of.open(v)), beyond);
+            own = own.and(seen.times(point.weight));
         };
         if let Some(lifted) = self.lifted.get(&at) {
             lifted.iter().for_each(|(point, along_s)| add(point, *along_s));
-            return;
+        } else {
+            let s = self.s.chordal(problem, at);
+            for of in conductivity.points(&cell, &gauss(points(&cell, &conductivity))) {
+                add(&of, s.at(&cell.local(of.point.reference)).gradient);
+            }
         }
-        let s = self.s.chordal(problem, at);
-        for of in conductivity.points(&cell, &gauss(points(&cell, &conductivity))) {
-            add(&of, s.at(&cell.local(of.point.reference)).gradient);
-        }
+        let [missed, _] = conductivity.missed(cell);
+        *sum = sum.and(own.widened(missed));
     }
 
     fn add_transfer(&self, goal: &Goal, z: &Admissible, sum: &mut Products) -> Result<()> {
@@ -258,27 +279,33 @@ impl<'p> Residual<'p> {
             let edge = record.edge as usize;
             let length = problem.lengths[edge];
             let (value, density) = (goal.value_on(problem, edge), goal.density_on(problem, edge));
+            let z_flux = z.tau[edge];
+            let unseen = unseen(problem, edge)?;
             let own = f64::GAUSS[DATA_POINTS - 1].iter().zip(points);
-            let points = match unseen(problem, edge)? {
-                Some(points) => {
-                    points.into_iter().map(|at| [at.t, at.weight, at.h, at.ambient]).collect()
-                }
-                None => own.map(|(&[t, weight], &[h, u])| [t, weight, h, u]).collect::<Vec<_>>(),
-            };
-            for [t, weight, h, outside] in points {
-                let h = h / length;
-                let s = self.s.on_edge(problem, edge, self.deviations.on(edge), t)?;
+            let own =
+                own.map(|(&[t, weight], &[h, ambient])| EdgePoint::seen(t, weight, h, ambient));
+            let missed = unseen.as_ref().map_or(0.0, |_| MISSED_BETWEEN);
+            let mut of_edge = Products::default();
+            for at in unseen.unwrap_or_else(|| own.collect()) {
+                let [h, more] = [at.between[0], at.between[1] - at.between[0]].map(|h| h / length);
+                let s = self.s.on_edge(problem, edge, self.deviations.on(edge), at.t)? - at.ambient;
+                let z = z.on_edge(problem, edge, None, at.t)? - value;
                 let here = Fluxes {
-                    residual: self.s.tau[edge] / length + h * (s - outside),
-                    zeta: z.tau[edge] / length - density,
-                    gradient: -h * (z.on_edge(problem, edge, None, t)? - value),
+                    residual: self.s.tau[edge] / length + h * s,
+                    zeta: z_flux / length - density,
+                    gradient: -h * z,
                 };
                 // Where h is 0 nothing passes, and what the solver rounds of nothing is none.
                 if h == 0.0 && here.is_rounding(rounding.map(|flux| flux / length)) {
                     continue;
                 }
-                *sum = sum.and(here.products(|a, b| weight * length * a * b / h));
+                let share = if more > 0.0 { more / h } else { 0.0 };
+                let open = |v: f64| (share.min(1.0) * more).sqrt() * v.abs();
+                let seen = here.products(|a, b| a * b / h);
+                let seen = seen.beside(share.min(1.0), [open(s), open(z)], more.sqrt() * z.abs());
+                of_edge = of_edge.and(seen.times(at.weight * length));
             }
+            *sum = sum.and(of_edge.widened(missed));
         }
         Ok(())
     }

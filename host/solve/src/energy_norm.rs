@@ -82,7 +82,11 @@ fn squares(
         let is_lifted = deviations.of_cell(problem, at).iter().any(Option::is_some);
         let rule = gauss(if is_lifted { POINTS } else { points(&cell, &conductivity) });
         let mut square = 0.0;
-        for point in curved::points(problem, at, deviations, &rule)? {
+        let points = match conductivity.cut_for_curves() {
+            Some(pieces) => pieces.many_points(cell).map(|of| of.point).collect(),
+            None => curved::points(problem, at, deviations, &rule)?,
+        };
+        for point in points {
             let [x, y] = s.at(&cell.local(point.reference))?.gradient;
             let [of_x, of_y] = field.map_or([0.0; 2], |field| field.sample(&point).gradient);
             let difference = [x - of_x, y - of_y];

@@ -121,7 +121,7 @@ fn a_tensor_that_varies_in_the_cell_is_taken_where_it_is() -> Result<()> {
     let scene = CURVED.replace("[\"2\", \"0.5\", \"1\"]", "[\"2+x\", \"0.5*y\", \"1+x^2\"]");
     assert_ne!(scene, CURVED);
     check_against_differences(grid(2, Cells::Triangles), &scene, DIFFERENCES_COLLAPSED)?;
-    // On quads that are no parallelograms x² is above what is integrated; x is it.
+    // On quads that are no parallelograms a polynomial below x² stands for it; x is one.
     let scene = scene.replace("1+x^2", "3+x");
     check_against_differences(fixtures::distorted(grid(2, Cells::Quads)), &scene, DIFFERENCES)?;
     Ok(())

@@ -27,8 +27,8 @@ use crate::cell::Cell;
 use crate::quadrature::refined::{Part, refined};
 use crate::quadrature::{DATA_POINTS, Point, enclosed, gauss};
 
+use piece::{MISSED, ROUNDING, parts};
 pub use piece::{Piece, PiecePoint};
-use piece::{ROUNDING, VARIES, parts};
 pub use rows::{Cut, Root, Rows};
 
 /// Points in a direction where functions are smooth and no more.
@@ -41,6 +41,7 @@ pub struct Pieces {
     pub all: Vec<Piece>,
     /// What ‖N′^½v‖ is of ‖(A − Ā)v‖ in A^{−½}, about: the part that is not seen of what can be seen.
     pub left: f64,
+    is_resolved: bool,
 }
 
 impl Pieces {
@@ -50,13 +51,15 @@ impl Pieces {
         let [flat, best] = Piece::both(material, whole);
         let variation = flat.share.clamp(ROUNDING, 1.0);
         let missed = |piece: &Piece| match piece.share.is_finite() {
-            true => piece.share.min(1.0) * flat.relative(piece.above),
+            true => piece.share.min(1.0) * flat.relative(&piece.above),
             false => f64::INFINITY,
         };
         let of_whole = missed(&best);
         let is_enough = |size: f64, missed: f64| missed <= (left * variation).powi(2) * size;
+        let is_seen = best.missed_by(cell, DATA_POINTS).is_some_and(|missed| missed <= MISSED);
         if most == 0 || is_enough(1.0, of_whole) {
-            return Self { left: of_whole.sqrt() / variation, all: vec![best] };
+            let is_resolved = is_seen && best.share.is_finite();
+            return Self { left: of_whole.sqrt() / variation, all: vec![best], is_resolved };
         }
         let part = |region: &Region| {
             let piece = Piece::of(material, *region);
@@ -68,18 +71,19 @@ impl Pieces {
         let parts = refined(cut, vec![first], most, is_enough, |_, region| part(region));
         let all: f64 = parts.iter().map(|part| part.missed / value).sum();
         let piece = |part: Part| Piece::of(material, part.region);
-        Self { left: all.sqrt() / variation, all: parts.into_iter().map(piece).collect() }
+        let all_pieces = parts.into_iter().map(piece).collect();
+        Self { left: all.sqrt() / variation, all: all_pieces, is_resolved: false }
     }
 
     /// A over a power of two.
     #[must_use]
     pub fn divided(&self, by: f64) -> Self {
-        Self { all: self.all.iter().map(|piece| piece.divided(by)).collect(), left: self.left }
+        Self { all: self.all.iter().map(|piece| piece.divided(by)).collect(), ..*self }
     }
 
     /// Whether the points of the cell itself resolve A.
     pub fn is_resolved(&self) -> bool {
-        matches!(&self.all[..], [of] if of.share.is_finite() && of.varies <= VARIES[1])
+        self.is_resolved
     }
 
     /// A point near which A is not proved to be positive definite and bounded.
@@ -111,7 +115,7 @@ impl Pieces {
     /// The points of a rule on a cell whose own points resolve A, with A there. What points see of √∫ is known within √(1 + ν) and 2N′.
     pub fn resolved(&self, point: Point, a: Tensor<f64>) -> PiecePoint {
         let [piece, ..] = &self.all[..] else { return PiecePoint::known(point, a) };
-        PiecePoint { point, below: a, above: piece.above.map(|n| 4.0 * n), share: piece.share }
+        PiecePoint { point, below: a, above: piece.four_times_above(), share: piece.share }
     }
 
     /// The mean of p + ½N, which is that of A where no piece leaves anything open.
@@ -125,7 +129,7 @@ impl Pieces {
         self.all.iter().map(|piece| piece.most(to)).fold(0.0, f64::max)
     }
 
-    /// The 8×8 points of every piece.
+    /// The points of every piece.
     pub fn points(&self, cell: Cell) -> impl Iterator<Item = PiecePoint> + '_ {
         self.all.iter().flat_map(move |piece| piece.points(cell, &gauss(piece.rule(cell).0)))
     }

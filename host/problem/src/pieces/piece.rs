@@ -6,7 +6,7 @@ use signorini_scene::expression::enclosure::{Form, Region, Shape};
 use signorini_scene::scene::{Located, Material};
 
 use crate::cell::Cell;
-use crate::quadrature::{Point, on_quad, on_triangle};
+use crate::quadrature::{DATA_POINTS, Point, on_quad, on_triangle};
 
 /// The most of ξ, η, ξ², ξη and η² on a triangle.
 const IN_TRIANGLE: [f64; 5] = [2.0 / 3.0, 2.0 / 3.0, 4.0 / 9.0, 2.0 / 9.0, 4.0 / 9.0];
@@ -15,9 +15,9 @@ const SEEN: f64 = 0.25;
 /// A variation of A that rounding makes.
 pub(super) const ROUNDING: f64 = 1e-10;
 /// Of the root of an integral over a piece twice this may be missed.
-const MISSED: f64 = 4e-3;
-/// The most that p may vary in a piece, as η, and in a cell whose own points resolve A.
-pub(super) const VARIES: [f64; 2] = [0.5, 0.18];
+pub(super) const MISSED: f64 = 4e-3;
+/// The most that p may vary in a piece, as η.
+const VARIES: f64 = 0.5;
 /// Points in a direction, at most.
 const MOST_POINTS: usize = 16;
 
@@ -27,8 +27,8 @@ pub struct Piece {
     region: Region,
     /// Of 1, ξ, η, ξ², ξη, η².
     below: [Tensor<f64>; 6],
-    /// N, which is diagonal.
-    pub above: [f64; 2],
+    /// N
+    pub above: Tensor<f64>,
     /// ν, infinite where A is not proved to be positive definite and bounded.
     pub share: f64,
     /// η
@@ -42,8 +42,8 @@ pub struct PiecePoint {
     pub point: Point,
     /// p
     pub below: Tensor<f64>,
-    /// N, which is diagonal.
-    pub above: [f64; 2],
+    /// N
+    pub above: Tensor<f64>,
     /// min(1, ν)
     pub share: f64,
 }
@@ -51,27 +51,87 @@ pub struct PiecePoint {
 impl PiecePoint {
     /// A point at which A is `a`, and known to be.
     pub fn known(point: Point, a: Tensor<f64>) -> Self {
-        Self { point, below: a, above: [0.0; 2], share: 0.0 }
+        Self { point, below: a, above: Tensor::default(), share: 0.0 }
     }
 
     /// |N′^½v|, at least |A^{−½}(A − p)v|.
     pub fn open(&self, [x, y]: [f64; 2]) -> f64 {
-        let [xx, yy] = self.above;
-        (self.share * (xx * x * x + yy * y * y)).sqrt()
+        let Tensor { xx, xy, yy } = self.above;
+        (self.share * (xx * x * x + 2.0 * xy * x * y + yy * y * y)).max(0.0).sqrt()
     }
 
     /// p + ½N
     pub fn middle(&self) -> Tensor<f64> {
-        sum(&self.below, &diagonal(self.above.map(|x| 0.5 * x)))
+        sum(&self.below, &scaled(&self.above, 0.5))
     }
+}
+
+/// A in a region, enclosed: its entries, or one function times a tensor.
+enum Enclosed {
+    Entries([Form; 3]),
+    Product(Form, Tensor<f64>),
+}
+
+impl Enclosed {
+    fn new(material: &Material, region: &Region) -> Self {
+        let form = |entry: &Located<Expression>| entry.value.enclose(region, 0.0);
+        let [xx, xy, yy] = &material.conductivity;
+        match proportions(material) {
+            Some(tensor) => Self::Product(form(xx), tensor),
+            None => Self::Entries([form(xx), form(xy), form(yy)]),
+        }
+    }
+
+    fn tensor(&self, of: impl Fn(&Form) -> f64) -> Tensor<f64> {
+        match self {
+            Self::Entries(forms) => tensor(forms.each_ref().map(of)),
+            Self::Product(form, tensor) => scaled(tensor, of(form)),
+        }
+    }
+
+    fn is_finite(&self) -> bool {
+        match self {
+            Self::Entries(forms) => forms.iter().all(Form::is_finite),
+            Self::Product(form, _) => form.is_finite(),
+        }
+    }
+
+    /// D ≥ |A − B| where the entries of A are `off` from those of B at most. What is exact is not lowered.
+    fn distance(&self, off: impl Fn(&Form) -> f64, b: &Tensor<f64>) -> Tensor<f64> {
+        let rounding = 16.0 * f64::EPSILON;
+        match self {
+            Self::Product(form, tensor) => match off(form) {
+                0.0 => Tensor::default(),
+                off => scaled(tensor, off + rounding * b.xx / tensor.xx),
+            },
+            Self::Entries(forms) => {
+                let off @ [xx, xy, yy] = forms.each_ref().map(off);
+                if off == [0.0; 3] {
+                    return Tensor::default();
+                }
+                // ±2ab ≤ ra² + b²/r
+                let ratio = (b.xx / b.yy).sqrt();
+                let [xx, yy] =
+                    [xx + xy * ratio + rounding * b.xx, yy + xy / ratio + rounding * b.yy];
+                Tensor { xx, xy: 0.0, yy }
+            }
+        }
+    }
+}
+
+/// C of A = kC, k being the first entry, where the scene states all entries as numbers times one expression.
+fn proportions(material: &Material) -> Option<Tensor<f64>> {
+    let [first, xy, yy] = material.conductivity.each_ref().map(|entry| &entry.value);
+    let tensor = Tensor { xx: 1.0, xy: xy.ratio(first)?, yy: yy.ratio(first)? };
+    Some(tensor).filter(Tensor::is_positive_definite)
 }
 
 impl Piece {
     /// A with a constant p, and with the better p.
     pub(super) fn both(material: &Material, region: Region) -> [Self; 2] {
-        let forms = forms(material, &region);
-        let flat = Self::flat(material, &forms, region);
-        let curved = Self::curved(&forms, region).filter(|curved| curved.share <= flat.share);
+        let a = Enclosed::new(material, &region);
+        let flat = Self::flat(material, &a, region);
+        let curved = Self::curved(&a, region).filter(|curved| curved.share <= flat.share);
         let better = curved.unwrap_or_else(|| flat.clone());
         [flat, better]
     }
@@ -83,52 +143,47 @@ impl Piece {
     }
 
     /// With p of degree 2, where that varies little.
-    fn curved(forms: &[Form; 3], region: Region) -> Option<Self> {
-        let mut below =
-            [0, 1, 2, 3, 4, 5].map(|k| tensor(forms.each_ref().map(|of| of.coefficients[k])));
-        let rest = forms.each_ref().map(|of| [of.remainder.middle(), 0.5 * of.remainder.width()]);
-        below[0] = sum(&below[0], &tensor(rest.map(|of| of[0])));
-        let piece = Self::less(below, rest.map(|of| of[1]), region)?;
-        let most = if region.shape() == Shape::Triangle { IN_TRIANGLE } else { [1.0; 5] };
-        let terms = piece.below[1..].iter().zip(most);
-        let varies = terms.map(|(of, most)| most * piece.size_of(of)).sum::<f64>();
+    fn curved(a: &Enclosed, region: Region) -> Option<Self> {
+        let mut below = [0, 1, 2, 3, 4, 5].map(|k| a.tensor(|of| of.coefficients[k]));
+        below[0] = sum(&below[0], &a.tensor(|of| of.remainder.middle()));
+        let down = a.distance(|of| 0.5 * of.remainder.width(), &below[0]);
+        let piece = Self::less(below, &down, region)?;
+        let varies = piece.terms().map(|of| piece.size_of(&of)).sum::<f64>();
         let piece = Self { varies, share: piece.share / (1.0 - varies), ..piece };
-        (varies <= VARIES[0]).then_some(piece)
+        (varies <= VARIES).then_some(piece)
     }
 
     /// With a constant p; with A of the centre and an infinite ν where nothing is proved.
-    fn flat(material: &Material, forms: &[Form; 3], region: Region) -> Self {
-        let ranges = forms.each_ref().map(Form::range);
+    fn flat(material: &Material, a: &Enclosed, region: Region) -> Self {
         let mut below = [Tensor::default(); 6];
-        below[0] = tensor(ranges.map(|of| of.middle()));
-        let found = Self::less(below, ranges.map(|of| 0.5 * of.width()), region);
-        let is_defined = forms.iter().all(Form::is_finite);
-        found.filter(|_| is_defined).unwrap_or_else(|| {
+        below[0] = a.tensor(|of| of.range().middle());
+        let down = a.distance(|of| 0.5 * of.range().width(), &below[0]);
+        let found = Self::less(below, &down, region).filter(|_| a.is_finite());
+        found.unwrap_or_else(|| {
             let [x, y] = region.centre();
             below[0] =
                 tensor(material.conductivity.each_ref().map(|entry| entry.value.eval(x, y, 0.0)));
-            let above = [0.0; 2];
+            let above = Tensor::default();
             Self { region, below, above, share: f64::INFINITY, varies: 0.0 }
         })
     }
 
-    /// Lowers `below` by D ≥ |A − below|, entries of which are within `off`; N = 2D.
-    fn less(mut below: [Tensor<f64>; 6], off: [f64; 3], region: Region) -> Option<Self> {
-        let Tensor { xx, yy, .. } = below[0];
-        let rounding = 16.0 * f64::EPSILON;
-        let [of_xx, of_xy, of_yy] = off;
-        let ratio = (xx / yy).sqrt();
-        // ±2ab ≤ sa² + b²/s. What is exact is not lowered.
-        let down = match off == [0.0; 3] {
-            true => [0.0; 2],
-            false => [of_xx + of_xy * ratio + rounding * xx, of_yy + of_xy / ratio + rounding * yy],
-        };
-        below[0] = sum(&below[0], &diagonal(down.map(|x| -x)));
+    /// Lowers `below` by D; N = 2D.
+    fn less(mut below: [Tensor<f64>; 6], down: &Tensor<f64>, region: Region) -> Option<Self> {
+        below[0] = sum(&below[0], &scaled(down, -1.0));
         let is_below = below[0].is_positive_definite();
-        let above = down.map(|x| 2.0 * x);
-        let piece = Self { region, below, above, share: 0.0, varies: 0.0 };
-        let share = piece.size_of(&diagonal(above));
+        let piece = Self { region, below, above: scaled(down, 2.0), share: 0.0, varies: 0.0 };
+        let share = piece.size_of(&piece.above);
         (is_below && share.is_finite()).then_some(Self { share, ..piece })
+    }
+
+    /// The coefficients of p but the first, each as large as its monomial makes it.
+    fn terms(&self) -> impl Iterator<Item = Tensor<f64>> + '_ {
+        let most = match self.region.shape() {
+            Shape::Triangle => IN_TRIANGLE,
+            _ => [1.0; 5],
+        };
+        self.below[1..].iter().zip(most).map(|(of, most)| scaled(of, most))
     }
 
     /// The largest modulus of an eigenvalue of p̄^{−½} T p̄^{−½}.
@@ -137,8 +192,8 @@ impl Piece {
     }
 
     /// That of N against the A of this piece at its largest, p̄ + N.
-    pub(super) fn relative(&self, above: [f64; 2]) -> f64 {
-        size_in(&sum(&self.below[0], &diagonal(self.above)), &diagonal(above))
+    pub(super) fn relative(&self, above: &Tensor<f64>) -> f64 {
+        size_in(&sum(&self.below[0], &self.above), above)
     }
 
     /// η to the power of what a rule of so many points in a direction leaves in this cell; nothing where it is not exact for constants.
@@ -156,7 +211,9 @@ impl Piece {
     /// Points in a direction that it takes in this cell, and what they leave.
     pub(super) fn rule(&self, cell: Cell) -> (usize, f64) {
         let missed = |points: usize| Some((points, self.missed_by(cell, points)?));
-        let mut all = (2..=MOST_POINTS).filter_map(missed);
+        // Where the map is no polynomial the points are those of a constant A, at least.
+        let least = if cell.is_affine() { 2 } else { DATA_POINTS };
+        let mut all = (least..=MOST_POINTS).filter_map(missed);
         all.find(|(_, missed)| *missed <= MISSED).unwrap_or((MOST_POINTS, f64::INFINITY))
     }
 
@@ -192,12 +249,21 @@ impl Piece {
     /// The largest eigenvalue of A relative to a tensor.
     pub(super) fn most(&self, to: &Tensor<f64>) -> f64 {
         let most = scaled(&self.below[0], 1.0 + self.varies);
-        size_in(to, &sum(&most, &diagonal(self.above)))
+        size_in(to, &sum(&most, &self.above))
     }
 
-    /// A tensor below A all over it.
+    /// A tensor below A all over it: p̄ less what its other terms take away, or less a part of itself.
     pub(super) fn floor(&self) -> Tensor<f64> {
-        scaled(&self.below[0], 1.0 - self.varies)
+        let less = |a: Tensor<f64>, of: Tensor<f64>| sum(&a, &scaled(&modulus(&of), -1.0));
+        let floor = self.terms().fold(self.below[0], less);
+        match floor.is_positive_definite() {
+            true => floor,
+            false => scaled(&self.below[0], 1.0 - self.varies),
+        }
+    }
+
+    pub(super) fn four_times_above(&self) -> Tensor<f64> {
+        scaled(&self.above, 4.0)
     }
 
     pub(super) fn centre(&self) -> [f64; 2] {
@@ -205,9 +271,9 @@ impl Piece {
     }
 
     pub(super) fn divided(&self, by: f64) -> Self {
-        let (below, above) =
-            (self.below.map(|of| scaled(&of, 1.0 / by)), self.above.map(|of| of / by));
-        Self { below, above, ..self.clone() }
+        let divided = |of: &Tensor<f64>| scaled(of, 1.0 / by);
+        let below = self.below.each_ref().map(divided);
+        Self { below, above: divided(&self.above), ..self.clone() }
     }
 
     /// p at reference coordinates of the piece.
@@ -227,7 +293,7 @@ pub(super) fn parts(material: &Material, region: &Region) -> Vec<Region> {
 
 /// How much A varies along the directions of a region: by its forms, where they say most of it, or by its slopes.
 fn variations(material: &Material, region: &Region) -> [f64; 3] {
-    let entries = &material.conductivity[..if material.is_scalar { 1 } else { 3 }];
+    let entries = &material.conductivity[..proportions(material).map_or(3, |_| 1)];
     let most =
         |of: &dyn Fn(&Located<Expression>) -> f64| entries.iter().map(of).fold(0.0, f64::max);
     let by_form = |of: &Located<Expression>| {
@@ -245,17 +311,6 @@ fn variations(material: &Material, region: &Region) -> [f64; 3] {
     }
 }
 
-fn forms(material: &Material, region: &Region) -> [Form; 3] {
-    let [xx, xy, yy] = &material.conductivity;
-    let form = |entry: &Located<Expression>| entry.value.enclose(region, 0.0);
-    let first = form(xx);
-    [first, form(xy), if material.is_scalar { first } else { form(yy) }]
-}
-
-fn diagonal([xx, yy]: [f64; 2]) -> Tensor<f64> {
-    Tensor { xx, xy: 0.0, yy }
-}
-
 fn tensor([xx, xy, yy]: [f64; 3]) -> Tensor<f64> {
     Tensor { xx, xy, yy }
 }
@@ -266,6 +321,19 @@ fn sum(a: &Tensor<f64>, b: &Tensor<f64>) -> Tensor<f64> {
 
 fn scaled(a: &Tensor<f64>, by: f64) -> Tensor<f64> {
     Tensor { xx: by * a.xx, xy: by * a.xy, yy: by * a.yy }
+}
+
+/// |T|, with the moduli of its eigenvalues: T² + |det T| over their sum, where they have different signs.
+fn modulus(of: &Tensor<f64>) -> Tensor<f64> {
+    let Tensor { xx, xy, yy } = *of;
+    let determinant = xx * yy - xy * xy;
+    if determinant >= 0.0 {
+        return if xx + yy < 0.0 { scaled(of, -1.0) } else { *of };
+    }
+    let apart = (xx - yy).hypot(2.0 * xy);
+    let squares = Tensor { xx: xx * xx + xy * xy, xy: xy * (xx + yy), yy: yy * yy + xy * xy };
+    let whole = Tensor { xx: squares.xx - determinant, yy: squares.yy - determinant, ..squares };
+    scaled(&whole, 1.0 / apart)
 }
 
 /// The largest modulus of an eigenvalue of L⁻¹ T L⁻ᵀ, LLᵀ = `to`.

@@ -26,6 +26,8 @@ pub struct Cut {
     pub above: [Rows; 2],
     /// Coefficients of v.
     pub gradients: usize,
+    /// Part of the root of an integral that the points of its pieces miss.
+    pub missed: f64,
 }
 
 impl Cut {
@@ -50,12 +52,13 @@ impl Cut {
             }
             extend(&mut doubtful, rows.iter().map(|row| row.map(|x| at.share.sqrt() * x)));
             for (columns, share) in above.iter_mut().zip([at.share, 1.0]) {
-                let [xx, yy] = at.above.map(|n| (weight * share * n).sqrt());
-                extend(columns, slopes.iter().map(|[x, y]| [xx * x, yy * y]));
+                let root = Root::of(&at.above, (weight * share).sqrt());
+                extend(columns, slopes.iter().map(|slope| root.gradient(*slope)));
             }
         }
         let [seen, doubtful] = [seen, doubtful].map(triangular);
-        Self { seen, doubtful, above: above.map(triangular), gradients }
+        let missed = pieces.slack(functions.cell);
+        Self { seen, doubtful, above: above.map(triangular), gradients, missed }
     }
 }
 
@@ -117,7 +120,7 @@ impl Root {
     /// The root of `a`, times that of the weight, `weight`.
     pub fn of(a: &Tensor<f64>, weight: f64) -> Self {
         let xx = a.xx.sqrt();
-        let yx = a.xy / xx;
+        let yx = if xx > 0.0 { a.xy / xx } else { 0.0 };
         Self { xx, yx, yy: (a.yy - yx * yx).max(f64::MIN_POSITIVE).sqrt(), weight }
     }
 

@@ -9,7 +9,12 @@ use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 
 /// Bumps and steps that 64 points of a cell do not see, waves, kinks, and an anisotropy that turns.
-const FIELDS: [[&str; 3]; 7] = [
+const FIELDS: [[&str; 3]; 8] = [
+    [
+        "0.3*(1 + 999*(1 + sign(x - 0.1*y)))",
+        "0.2*(1 + 999*(1 + sign(x - 0.1*y)))",
+        "0.4*(1 + 999*(1 + sign(x - 0.1*y)))",
+    ],
     ["1 + 10*(0.5 + 0.5*sign(x - 0.002))", "0", "1 + 10*(0.5 + 0.5*sign(x - 0.002))"],
     ["1 + 1000*exp(-((x - 0.12)/0.004)^2)", "0", "1"],
     ["1 + 0.9*sin(16*x + 5*y)", "0", "2 + cos(16*x)"],
@@ -42,11 +47,9 @@ fn a_is_between_p_and_what_is_above_it_at_every_point() -> Result<()> {
                     let [xx, xy, yy] = a.map(|entry| entry.value.eval(x[0], x[1], 0.0));
                     let (a, slack) = (Tensor { xx, xy, yy }, 1e-14 * (xx + yy));
                     assert!(least(&a, &below) >= -slack, "{a:?} below {below:?} at {x:?}");
-                    let most = Tensor {
-                        xx: below.xx + piece.above[0],
-                        yy: below.yy + piece.above[1],
-                        ..below
-                    };
+                    let Tensor { xx, xy, yy } = piece.above;
+                    let most = Tensor { xx: below.xx + xx, xy: below.xy + xy, yy: below.yy + yy };
+                    assert!(least(&below, &piece.floor()) >= -slack, "{piece:?}");
                     assert!(least(&most, &a) >= -slack, "{a:?} above {most:?} at {x:?}");
                 }
                 let area: f64 = cell.points(&gauss(2)).iter().map(|p| p.weight).sum();

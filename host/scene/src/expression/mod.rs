@@ -175,6 +175,11 @@ impl Expression {
         Self { program: self.program.minus(subtracted), ..self.clone() }
     }
 
+    /// What this is times `to`, where both are stated as numbers times the same expression.
+    pub fn ratio(&self, to: &Self) -> Option<f64> {
+        self.program.ratio(&to.program)
+    }
+
     /// Whether no operation of it has a kink, a jump or a pole anywhere: a polynomial, sines, exponentials.
     pub fn is_smooth(&self) -> bool {
         self.program.is_smooth()

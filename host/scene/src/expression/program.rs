@@ -103,6 +103,33 @@ impl Program {
         }
     }
 
+    /// What this is times `to`, where both are numbers times the same steps.
+    pub fn ratio(&self, to: &Self) -> Option<f64> {
+        if self.value() == Some(0.0) {
+            return Some(0.0);
+        }
+        let ((own, steps), (other, same)) = (self.factored(), to.factored());
+        (steps == same && other != 0.0).then(|| own / other)
+    }
+
+    /// The number and the steps that this is a product of.
+    fn factored(&self) -> (f64, &[Step]) {
+        let (mut factor, mut rest) = (1.0, &self.steps[..]);
+        loop {
+            rest = match rest {
+                [of @ .., Step::Constant(by), Step::Binary(Binary::Multiply)] => {
+                    factor *= by;
+                    of
+                }
+                [Step::Constant(by), of @ .., Step::Binary(Binary::Multiply)] if leave_one(of) => {
+                    factor *= by;
+                    of
+                }
+                _ => return (factor, rest),
+            };
+        }
+    }
+
     /// This program less a number, as [`Program::times`] has room for it.
     pub fn minus(&self, subtracted: f64) -> Self {
         match self.value() {
@@ -172,6 +199,20 @@ impl Program {
         }
         values
     }
+}
+
+/// Whether steps are a program of their own.
+fn leave_one(steps: &[Step]) -> bool {
+    let mut height = 0;
+    for step in steps {
+        height = match step {
+            Step::Constant(_) | Step::Variable(_) => height + 1,
+            Step::Unary(_) if height > 0 => height,
+            Step::Binary(_) if height > 1 => height - 1,
+            Step::Unary(_) | Step::Binary(_) => return false,
+        };
+    }
+    height == 1
 }
 
 /// Points at once.

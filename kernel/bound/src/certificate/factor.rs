@@ -8,9 +8,7 @@
 //! function of u_h with the means 0, ½, 0, ½ over its sides.
 
 use super::parts::CellTerms;
-use super::quad::{Means, Values};
 use signorini_kernel::Real;
-use signorini_kernel::element::nonparametric::affine;
 
 /// Coefficients on a quad: eight of v, then four fluxes.
 pub const ON_QUAD: usize = 12;
@@ -73,7 +71,7 @@ pub(super) fn energy<R: Real, const N: usize>(
 }
 
 /// The share of a cell: coefficients of s and u_h, fluxes of τ and τ − σ_h.
-fn share<R: Real, const N: usize, const V: usize>(
+pub(super) fn share<R: Real, const N: usize, const V: usize>(
     factor: &Factor<R>,
     [_, beyond]: Above<R>,
     [s, u]: [[R; V]; 2],
@@ -101,44 +99,4 @@ fn share<R: Real, const N: usize, const V: usize>(
         terms,
         open: squares(above, &s)[0],
     }
-}
-
-/// The share of a triangle, in the order of the mesh.
-#[inline(never)]
-pub(super) fn of_triangle<R: Real>(
-    factor: &Factor<R>,
-    above: Above<R>,
-    [s0, s1, s2]: [R; 3],
-    [u0, u1, u2]: [R; 3],
-    [tau, difference]: [[R; 3]; 2],
-    load: R,
-) -> CellTerms<R> {
-    // u_h at a vertex is the sum of the means beside it less the one opposite.
-    let values = [[s1 - s0, s2 - s0], [R::TWO * (u1 - u2), R::TWO * (u1 - u0)]];
-    share::<R, ON_TRIANGLE, 2>(factor, above, values, [&tau, &difference], load)
-}
-
-/// The share of a quad, in the order of the mesh.
-#[inline(never)]
-pub(super) fn of_quad<R: Real>(
-    factor: &Factor<R>,
-    above: Above<R>,
-    s: Values<R>,
-    u: Means<R>,
-    [tau, difference]: [[R; 4]; 2],
-    load: R,
-) -> CellTerms<R> {
-    let ([s0, s1, s2, s3], [d0, d1, d2, d3]) = (s.corners, s.bubbles);
-    let [u0, u1, u2, u3] = u.means;
-    // X and Y at a vertex less what they are at the first one.
-    let [zero, one] = [R::ZERO, R::ONE];
-    let [origin, corners @ ..] =
-        [[zero, zero], [one, zero], [one, one], [zero, one]].map(|at| affine(u.distortion, at));
-    let linear = |[x, y]: [R; 2]| (u1 - u3) * (x - origin[0]) + (u2 - u0) * (y - origin[1]);
-    let ([a, b, c], curved) = (corners.map(linear), (u1 - u0) + (u3 - u2));
-    let values = [
-        [s1 - s0, s2 - s0, s3 - s0, d0, d1, d2, d3, zero],
-        [a, b, c, zero, zero, zero, zero, curved],
-    ];
-    share::<R, ON_QUAD, 8>(factor, above, values, [&tau, &difference], load)
 }

@@ -8,7 +8,7 @@
 //! and P(Y), orthogonal functions with the squares 1, 1/12, 1/12, 1/144, 1/180, 1/180. Where B is
 //! constant, ∫(B∇̂ŝ − τ̂)·B^{−1}(B∇̂ŝ − τ̂) is a sum over these six. Elsewhere it is taken at points.
 
-use super::factor::{self, GRADIENTS, ON_QUAD};
+use super::factor::{self, Above, Factor, GRADIENTS, ON_QUAD};
 use super::metric::{POINTS, Varying, inverse_form, of_parallelogram};
 use super::parts::CellTerms;
 use crate::cells::Quad;
@@ -247,6 +247,31 @@ pub(super) fn share_at_points<R: Real>(
     }
     let open = open * energies;
     CellTerms { gap, algebraic, nonconforming, uncertainty, uncertainty_of_u, terms, open }
+}
+
+/// The share by a factor of all integrals ([`super::factor`]), in the order of the mesh.
+#[inline(never)]
+pub(super) fn share_by_factor<R: Real>(
+    of: &Factor<R>,
+    above: Above<R>,
+    s: Values<R>,
+    u: Means<R>,
+    [tau, difference]: [[R; 4]; 2],
+    load: R,
+) -> CellTerms<R> {
+    let ([s0, s1, s2, s3], [d0, d1, d2, d3]) = (s.corners, s.bubbles);
+    let [u0, u1, u2, u3] = u.means;
+    // X and Y at a vertex less what they are at the first one.
+    let [zero, one] = [R::ZERO, R::ONE];
+    let [origin, corners @ ..] = [[zero, zero], [one, zero], [one, one], [zero, one]]
+        .map(|at| nonparametric::affine(u.distortion, at));
+    let linear = |[x, y]: [R; 2]| (u1 - u3) * (x - origin[0]) + (u2 - u0) * (y - origin[1]);
+    let ([a, b, c], curved) = (corners.map(linear), (u1 - u0) + (u3 - u2));
+    let values = [
+        [s1 - s0, s2 - s0, s3 - s0, d0, d1, d2, d3, zero],
+        [a, b, c, zero, zero, zero, zero, curved],
+    ];
+    factor::share::<R, ON_QUAD, 8>(of, above, values, [&tau, &difference], load)
 }
 
 /// ∇̂ŝ

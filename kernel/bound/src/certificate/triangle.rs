@@ -8,7 +8,7 @@
 //! the last term for the linear part of τ. Elsewhere the integral is taken at points. s − u_h is linear, so that
 //! ‖A^½∇(s − u_h)‖² is the same form in the fluxes of A∇s less those of A∇u_h, whether A is constant or not.
 
-use super::factor::{self, GRADIENTS, ON_TRIANGLE};
+use super::factor::{self, Above, Factor, GRADIENTS, ON_TRIANGLE};
 use super::metric::{POINTS, Varying, inverse_form};
 use super::parts::CellTerms;
 use crate::cells::Triangle;
@@ -168,6 +168,21 @@ pub(super) fn share_at_points<R: Real>(
     let energy = mean * form(k, [t01 - t20, t12 - t01, t20 - t12]);
     let open = open * energy;
     CellTerms { gap, algebraic, nonconforming, uncertainty, uncertainty_of_u, terms, open }
+}
+
+/// The share by a factor of all integrals ([`super::factor`]), in the order of the mesh.
+#[inline(never)]
+pub(super) fn share_by_factor<R: Real>(
+    of: &Factor<R>,
+    above: Above<R>,
+    [s0, s1, s2]: [R; 3],
+    [u0, u1, u2]: [R; 3],
+    [tau, difference]: [[R; 3]; 2],
+    load: R,
+) -> CellTerms<R> {
+    // u_h at a vertex is the sum of the means beside it less the one opposite.
+    let values = [[s1 - s0, s2 - s0], [R::TWO * (u1 - u2), R::TWO * (u1 - u0)]];
+    factor::share::<R, ON_TRIANGLE, 2>(of, above, values, [&tau, &difference], load)
 }
 
 /// τ̂ = Σ_k τ_k (x̂ − opposite vertex) on the reference triangle.

@@ -3,7 +3,7 @@
 use super::metric::Varying;
 use super::parts::{CellTerms, Parts};
 use super::quad::{self, Means, Values};
-use super::{Continuous, Discretization, LoadCase, Metric, factor, triangle};
+use super::{Continuous, Discretization, LoadCase, Metric, triangle};
 use crate::cells::{Either, Quad, Triangle, pick};
 use signorini_kernel::index::{Index, read, write};
 use signorini_kernel::{Real, features};
@@ -95,7 +95,7 @@ fn of_triangle_cell<R: Real, I: Index>(
         }
         Varying::Factor(factor) => {
             let difference = triangle::difference(&k, out, u, load);
-            factor::of_triangle(factor, above, s, u, [out, difference], load)
+            triangle::share_by_factor(factor, above, s, u, [out, difference], load)
         }
     })
 }
@@ -126,6 +126,8 @@ fn of_quad_cell<R: Real, I: Index>(
         Varying::Points(points) => {
             quad::share_at_points(points, above[0], s, u, out, difference, load)
         }
-        Varying::Factor(factor) => factor::of_quad(factor, above, s, u, [out, difference], load),
+        Varying::Factor(factor) => {
+            quad::share_by_factor(factor, above, s, u, [out, difference], load)
+        }
     })
 }

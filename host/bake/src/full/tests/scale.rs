@@ -98,7 +98,7 @@ fn without_units_f32_is_lost() -> Result<()> {
     };
     WITHOUT_UNITS.check("at 2⁻⁴⁰", bound(-40)? - 1.0);
     let found = [bound(-50)?, bound(-56)?];
-    assert!(found.iter().all(|part| *part < 0.98), "{found:?}");
+    assert!(found[0] < 0.95 && found[1] < 0.9, "{found:?}");
     Ok(())
 }
 

@@ -59,7 +59,8 @@ impl Measured {
         let ([identity, rounding], gap) = (self.identity?, self.bound.duality_gap);
         // |gap² − identity²| = |gap − identity| (gap + identity)
         let off = if self.may_exceed { identity - gap } else { (gap - identity).abs() };
-        let off = off - rounding / (gap + identity);
+        // In cells that are cut the gap is that of a tensor below A, and twice what A has above it is between the two at most.
+        let off = off - rounding / (gap + identity) - 2.0 * self.bound.open();
         (gap > ROUNDINGS * self.bound.rounding).then(|| off.max(0.0) / identity)
     }
 
@@ -173,9 +174,7 @@ impl Held<'_> {
             found.uncertain = [found.combined, found.of_u].map(rounding);
             // The identity has the oscillation of f, g and q in it, with its sign, but not that of u_ext.
             found.intervals = self.asked().by_exact();
-            // In cells that are cut the gap is that of a tensor below A.
-            let is_cut = !problem.cuts().is_empty();
-            let known = !is_cut && self.missed()? <= RESOLVED * self.bound.duality_gap;
+            let known = self.missed()? <= RESOLVED * self.bound.duality_gap;
             found.identity = known.then_some([distance.identity, distance.rounding]);
             found.may_exceed =
                 self.case.effort.way == Way::Condensed && problem.loads.span_excess > 0.0;
