@@ -1,6 +1,6 @@
 //! Loads and boundary data of one time as the kernel's certificate takes them.
 
-use signorini_bound::certificate::{Curved, LoadCase, TransferForm};
+use signorini_bound::certificate::{Curved, LoadCase, Square, TransferForm};
 use signorini_bound::conforming::VertexData;
 use signorini_kernel::Error as KernelError;
 
@@ -176,12 +176,16 @@ impl<R: Scalar> Data<R> {
 }
 
 fn narrowed<R: Scalar>(form: &TransferForm<f64, u32>) -> TransferForm<R, u32> {
+    let square = |of: &Square<f64>| Square {
+        square: of.square.map(R::narrow),
+        linear: of.linear.map(R::narrow),
+        constant: R::narrow(of.constant),
+    };
     TransferForm {
         law: form.law,
         compliance: R::narrow(form.compliance),
-        square: form.square.map(R::narrow),
-        linear: form.linear.map(R::narrow),
-        constant: R::narrow(form.constant),
+        below: square(&form.below),
+        above: square(&form.above),
         mean: R::narrow(form.mean),
     }
 }

@@ -54,12 +54,15 @@ pub(super) fn add<R: Real, I: Index>(
         };
         let forms = if features::PIECES { given.forms } else { &[] };
         let form = forms.iter().find(|form| form.law.at() == at);
-        let (term, terms) = match (form, given.transfer.get(at)) {
+        let [term, terms, open] = match (form, given.transfer.get(at)) {
             (Some(form), _) => transfer.by_form(form),
-            (None, Some(points)) => (transfer.at_points(points), R::ZERO),
-            (None, None) => (transfer.constant(law.coefficient, law.ambient), R::ZERO),
+            (None, Some(points)) => [transfer.at_points(points), R::ZERO, R::ZERO],
+            (None, None) => [transfer.constant(law.coefficient, law.ambient), R::ZERO, R::ZERO],
         };
         take(parts, edge, term, terms);
+        if features::PIECES {
+            parts.open += open;
+        }
         moved += transfer.moved(law.coefficient, law.ambient);
         if law.coefficient > R::ZERO {
             let of_u = law.ambient - law.coefficient * read(u, edge);

@@ -55,7 +55,7 @@ pub use factor::{Above, ENTRIES, Factor};
 pub use metric::{Metric, POINTS, of_quad, of_triangle};
 pub use signorini_kernel::verdict::{Certificate, Verdict};
 pub use stability::stability;
-pub use transfer::TransferForm;
+pub use transfer::{Square, TransferForm};
 
 use crate::averages;
 use crate::cells::Cells;

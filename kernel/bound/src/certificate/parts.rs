@@ -103,8 +103,8 @@ impl<R: Real> Parts<R> {
         let rounding = rounding + times(4) * oscillation;
         // What rules and points do not see of A.
         let seen = gap;
-        let open = if features::VARYING { gap + root(self.open) } else { gap };
-        let gap = if features::VARYING { open + missed * open } else { gap };
+        let open = if features::VARYING || features::PIECES { gap + root(self.open) } else { gap };
+        let gap = if features::VARYING { open + missed * open } else { open };
         let both = root(gap * gap + oscillation * oscillation);
         // √(gap²) underflows before gap does.
         let exact = oscillation + both.or_larger(gap);

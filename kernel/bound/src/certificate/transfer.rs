@@ -2,21 +2,47 @@
 
 use signorini_kernel::Real;
 
-/// ∫ r²/H = τ²∫1/H + 2τ∫(s − u_ext) + ∫H(s − u_ext)² of one transfer edge, whatever h is inside it; t runs from 0 to 1 along it.
+/// A transfer edge inside which H = ∫h lies between H⁻ and H⁺, N = H⁺ − H⁻; t runs from 0 to 1 along it:
+/// ```text
+///   ‖H^{−½}r‖ ≤ (τ²∫1/H⁻ + 2τ∫(s − u_ext) + ∫H⁻(s − u_ext)²)^½ + (∫N′(s − u_ext)²)^½,     N′ = min(1, N/H⁻) N
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TransferForm<R, I> {
     /// Which law.
     pub law: I,
-    /// ∫1/H
+    /// ∫1/H⁻
     pub compliance: R,
-    /// ∫H φᵢφⱼ of φ = 1 − t, t, 4t(1 − t): 00, 01, 02, 11, 12, 22.
-    pub square: [R; 6],
-    /// ∫H u_ext φᵢ
-    pub linear: [R; 3],
-    /// ∫H u_ext²
-    pub constant: R,
+    /// ∫H⁻(s − u_ext)²
+    pub below: Square<R>,
+    /// ∫N′(s − u_ext)²
+    pub above: Square<R>,
     /// ∫u_ext
     pub mean: R,
+}
+
+/// ∫W (s − u_ext)² for a weight W, by the values of s at both ends and its bubble.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Square<R> {
+    /// ∫W φᵢφⱼ of φ = 1 − t, t, 4t(1 − t): 00, 01, 02, 11, 12, 22.
+    pub square: [R; 6],
+    /// ∫W u_ext φᵢ
+    pub linear: [R; 3],
+    /// ∫W u_ext²
+    pub constant: R,
+}
+
+impl<R: Real> Square<R> {
+    /// The integral, and the size of what it is summed from.
+    fn of(&self, [a, b, bubble]: [R; 3]) -> [R; 2] {
+        let [aa, ab, ac, bb, bc, cc] = self.square;
+        let [of_a, of_b, of_c] = self.linear;
+        let squares = aa * a * a + bb * b * b + cc * bubble * bubble;
+        let products = ab * a * b + ac * a * bubble + bc * b * bubble;
+        let linear = of_a * a + of_b * b + of_c * bubble;
+        let value = squares + R::TWO * (products - linear) + self.constant;
+        // Each product is less than the squares beside it.
+        [value, R::from_count(4) * (squares + self.constant)]
+    }
 }
 
 /// A transfer edge: r = ∫τ·n + H(s − u_ext) with H = ∫h along it.
@@ -69,22 +95,17 @@ impl<R: Real> Transfer<R> {
         })
     }
 
-    /// The term as a quadratic form, and the size of its terms.
+    /// The term of H⁻, the size of its terms, and what N′ adds to the root.
     #[inline(never)]
-    pub fn by_form<I>(&self, form: &TransferForm<R, I>) -> (R, R) {
+    pub fn by_form<I>(&self, form: &TransferForm<R, I>) -> [R; 3] {
         let ([a, b], bubble, tau) = (self.s, self.bubble, self.flux);
-        let [aa, ab, ac, bb, bc, cc] = form.square;
-        let [of_a, of_b, of_c] = form.linear;
         let mean = R::HALF * (a + b) + R::TWO * R::THIRD * bubble - form.mean;
-        let squares = aa * a * a + bb * b * b + cc * bubble * bubble;
-        let products = ab * a * b + ac * a * bubble + bc * b * bubble;
-        let linear = of_a * a + of_b * b + of_c * bubble;
+        let [energy, size] = form.below.of([a, b, bubble]);
+        let [open, of_open] = form.above.of([a, b, bubble]);
         let of_flux = form.compliance * tau * tau;
-        let term = of_flux
-            + R::TWO * tau * mean
-            + (squares + R::TWO * products - R::TWO * linear + form.constant);
-        let size = a.magnitude() + b.magnitude() + bubble.magnitude() + form.mean.magnitude();
-        let terms = of_flux + R::TWO * (tau.magnitude() * size + squares + form.constant);
-        (term, R::TWO * terms)
+        let terms = a.magnitude() + b.magnitude() + bubble.magnitude() + form.mean.magnitude();
+        let terms = of_flux + R::TWO * tau.magnitude() * terms + size;
+        let open = open.or_larger(R::ZERO) + R::from_count(8) * R::EPSILON * of_open;
+        [of_flux + R::TWO * tau * mean + energy, terms, open]
     }
 }
