@@ -25,6 +25,7 @@ mod interval;
 mod kept;
 mod part;
 mod products;
+mod squares;
 #[cfg(test)]
 mod tests;
 mod values;

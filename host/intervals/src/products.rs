@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::answer::Answered;
 use super::dual::Weights;
 use super::goal::Goal;
+use super::squares::Products;
 use signorini_certify::admissible::Admissible;
 use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::{Conductivity, apply, dot, inverse};
@@ -19,26 +20,10 @@ use signorini_certify::transfer_points::{EdgePoint, MISSED_BETWEEN, unseen};
 use signorini_kernel::Real;
 use signorini_problem::Problem;
 use signorini_problem::field::CellField;
-use signorini_problem::pieces::{Cut, PiecePoint, Rows};
+use signorini_problem::pieces::PiecePoint;
 use signorini_problem::quadrature::{DATA_POINTS, gauss};
 use signorini_problem::threads::in_portions;
-use signorini_problem::triangular::norm;
 use signorini_scene::error::Result;
-
-/// Squares and products.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Products {
-    /// ⟨r, r⟩, or less
-    pub residual: f64,
-    /// ⟨ζ − A∇z, ζ − A∇z⟩, or more
-    pub weights: f64,
-    /// ⟨r, ζ + A∇z⟩
-    pub both: f64,
-    /// By how much that may be off where A is taken for p ≤ A.
-    pub off: f64,
-    /// ⟨A∇z, A∇z⟩ and ⟨ζ, ζ⟩
-    pub sizes: [f64; 2],
-}
 
 /// The solution's side of the products.
 pub(super) struct Residual<'p> {
@@ -103,88 +88,6 @@ impl<T: Copy> Fluxes<T> {
             sizes: [of_gradient, of_zeta],
         }
     }
-}
-
-impl Products {
-    fn times(self, by: f64) -> Self {
-        let Self { residual, weights, both, off, sizes } = self;
-        let [residual, weights, both, off] = [residual, weights, both, off].map(|x| by * x);
-        Self { residual, weights, both, off, sizes: sizes.map(|x| by * x) }
-    }
-
-    /// These at a point where A is no more than p + N, with p in them, and N ≤ νp. r differs by (A − p)∇s then, and
-    /// ```text
-    ///   |A^{−½}(A − p)v| ≤ |N′^½v|,   p⁻¹/(1 + ν) ≤ A⁻¹ ≤ p⁻¹
-    /// ```
-    /// `open` are |N′^½∇s| and |N′^½∇z|, `beyond` is |N^½∇z|.
-    fn beside(self, share: f64, [by_s, by_z]: [f64; 2], beyond: f64) -> Self {
-        if share == 0.0 {
-            return self;
-        }
-        let [of_z, of_zeta] = self.sizes.map(f64::sqrt);
-        let (residual, sum) = (self.residual.sqrt(), of_zeta + of_z);
-        Self {
-            residual: (residual / (1.0 + share).sqrt() - by_s).max(0.0).powi(2),
-            weights: (self.weights.sqrt() + by_z).powi(2),
-            off: share * residual * sum + by_s * sum + residual * by_z + by_s * by_z,
-            sizes: [(of_z + beyond).powi(2), self.sizes[1]],
-            ..self
-        }
-    }
-
-    /// These where rules miss a part of the roots of squares.
-    fn widened(self, missed: f64) -> Self {
-        if missed == 0.0 {
-            return self;
-        }
-        let (less, more) = ((1.0 - missed).max(0.0).powi(2), (1.0 + missed).powi(2));
-        let [of_z, of_zeta] = self.sizes.map(f64::sqrt);
-        let both = self.residual.sqrt() * (of_z + of_zeta);
-        Self {
-            residual: less * self.residual,
-            weights: more * self.weights,
-            off: more * self.off + (more - less) * both,
-            sizes: self.sizes.map(|size| more * size),
-            ..self
-        }
-    }
-
-    /// The products on the pieces of a cell, from the coefficients of s and τ, z and ζ; see [`Products::beside`].
-    fn on_pieces(cut: &Cut, [s, tau]: [Vec<f64>; 2], [z, zeta]: [Vec<f64>; 2]) -> Self {
-        let minus = |v: &[f64]| v.iter().map(|x| -x).collect::<Vec<_>>();
-        let none = |of: &[f64]| vec![0.0; of.len()];
-        let residual = [s.clone(), tau].concat();
-        let sum = [minus(&z), zeta.clone()].concat();
-        let size = |rows: &Rows, c: &[f64]| norm(&product(rows, c));
-        let seen = product(&cut.seen, &residual);
-        let [by_s, by_z] = [&s, &z].map(|v| size(&cut.above[0], v));
-        let lost = size(&cut.doubtful, &residual);
-        let (r, y) = (norm(&seen), size(&cut.seen, &sum));
-        let of_z = size(&cut.seen, &[z.clone(), none(&zeta)].concat());
-        let of_zeta = size(&cut.seen, &[none(&z), zeta.clone()].concat());
-        Self {
-            residual: ((r * r - lost * lost).max(0.0).sqrt() - by_s).max(0.0).powi(2),
-            weights: (size(&cut.seen, &[z.clone(), zeta].concat()) + by_z).powi(2),
-            both: seen.iter().zip(product(&cut.seen, &sum)).map(|(a, b)| a * b).sum(),
-            off: lost * size(&cut.doubtful, &sum) + by_s * y + r * by_z + by_s * by_z,
-            sizes: [(of_z + size(&cut.above[1], &z)).powi(2), of_zeta * of_zeta],
-        }
-    }
-
-    fn and(self, other: Self) -> Self {
-        Self {
-            residual: self.residual + other.residual,
-            weights: self.weights + other.weights,
-            both: self.both + other.both,
-            off: self.off + other.off,
-            sizes: [0, 1].map(|at| self.sizes[at] + other.sizes[at]),
-        }
-    }
-}
-
-/// Rc
-fn product(rows: &Rows, c: &[f64]) -> Vec<f64> {
-    rows.iter().map(|row| row.iter().zip(c).map(|(a, b)| a * b).sum()).collect()
 }
 
 /// Points a direction where s has no lift.

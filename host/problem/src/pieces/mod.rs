@@ -14,8 +14,10 @@
 //! for polynomials as long as (τ − pv)·q(τ − pv) integrates that exactly. (On quads that are no parallelograms the map has a share in it,
 //! which is that of a constant A.)
 
+mod enclosed;
 mod piece;
 mod rows;
+mod tensors;
 #[cfg(test)]
 mod tests;
 
@@ -25,11 +27,13 @@ use signorini_scene::scene::Material;
 
 use crate::cell::Cell;
 use crate::quadrature::refined::{Part, refined};
-use crate::quadrature::{DATA_POINTS, Point, enclosed, gauss};
+use crate::quadrature::{DATA_POINTS, Point, enclosed as by_cells, gauss};
 
-use piece::{MISSED, ROUNDING, parts};
+use enclosed::parts;
+use piece::{MISSED, ROUNDING};
 pub use piece::{Piece, PiecePoint};
 pub use rows::{Cut, Root, Rows};
+pub(crate) use tensors::average;
 
 /// Points in a direction where functions are smooth and no more.
 const MANY_POINTS: usize = 12;
@@ -47,7 +51,7 @@ pub struct Pieces {
 impl Pieces {
     /// A of `material` on a cell, cut no more than so often until so much is `left`.
     pub fn new(material: &Material, cell: Cell, (most, left): (usize, f64)) -> Self {
-        let whole = enclosed::region(cell);
+        let whole = by_cells::region(cell);
         let [flat, best] = Piece::both(material, whole);
         let variation = flat.share.clamp(ROUNDING, 1.0);
         let missed = |piece: &Piece| match piece.share.is_finite() {
@@ -139,17 +143,4 @@ impl Pieces {
         let rule = gauss(MANY_POINTS);
         self.all.iter().flat_map(move |piece| piece.points(cell, &rule))
     }
-}
-
-/// The weighted mean of tensors.
-pub(crate) fn average(weighted: impl IntoIterator<Item = (f64, Tensor<f64>)>) -> Tensor<f64> {
-    let mut sum = Tensor::<f64>::default();
-    let mut area = 0.0;
-    for (weight, tensor) in weighted {
-        sum.xx += weight * tensor.xx;
-        sum.xy += weight * tensor.xy;
-        sum.yy += weight * tensor.yy;
-        area += weight;
-    }
-    Tensor { xx: sum.xx / area, xy: sum.xy / area, yy: sum.yy / area }
 }

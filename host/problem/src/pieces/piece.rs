@@ -1,17 +1,16 @@
 //! A on one piece of a cell, enclosed.
 
 use signorini_kernel::Tensor;
-use signorini_scene::expression::Expression;
-use signorini_scene::expression::enclosure::{Form, Region, Shape};
-use signorini_scene::scene::{Located, Material};
+use signorini_scene::expression::enclosure::{Region, Shape};
+use signorini_scene::scene::Material;
 
+use super::enclosed::Enclosed;
+use super::tensors::{modulus, scaled, size_in, sum, tensor};
 use crate::cell::Cell;
 use crate::quadrature::{DATA_POINTS, Point, on_quad, on_triangle};
 
 /// The most of ξ, η, ξ², ξη and η² on a triangle.
 const IN_TRIANGLE: [f64; 5] = [2.0 / 3.0, 2.0 / 3.0, 4.0 / 9.0, 2.0 / 9.0, 4.0 / 9.0];
-/// Part of a range that a form has to see in its coefficients.
-const SEEN: f64 = 0.25;
 /// A variation of A that rounding makes.
 pub(super) const ROUNDING: f64 = 1e-10;
 /// Of the root of an integral over a piece twice this may be missed.
@@ -64,66 +63,6 @@ impl PiecePoint {
     pub fn middle(&self) -> Tensor<f64> {
         sum(&self.below, &scaled(&self.above, 0.5))
     }
-}
-
-/// A in a region, enclosed: its entries, or one function times a tensor.
-enum Enclosed {
-    Entries([Form; 3]),
-    Product(Form, Tensor<f64>),
-}
-
-impl Enclosed {
-    fn new(material: &Material, region: &Region) -> Self {
-        let form = |entry: &Located<Expression>| entry.value.enclose(region, 0.0);
-        let [xx, xy, yy] = &material.conductivity;
-        match proportions(material) {
-            Some(tensor) => Self::Product(form(xx), tensor),
-            None => Self::Entries([form(xx), form(xy), form(yy)]),
-        }
-    }
-
-    fn tensor(&self, of: impl Fn(&Form) -> f64) -> Tensor<f64> {
-        match self {
-            Self::Entries(forms) => tensor(forms.each_ref().map(of)),
-            Self::Product(form, tensor) => scaled(tensor, of(form)),
-        }
-    }
-
-    fn is_finite(&self) -> bool {
-        match self {
-            Self::Entries(forms) => forms.iter().all(Form::is_finite),
-            Self::Product(form, _) => form.is_finite(),
-        }
-    }
-
-    /// D ≥ |A − B| where the entries of A are `off` from those of B at most. What is exact is not lowered.
-    fn distance(&self, off: impl Fn(&Form) -> f64, b: &Tensor<f64>) -> Tensor<f64> {
-        let rounding = 16.0 * f64::EPSILON;
-        match self {
-            Self::Product(form, tensor) => match off(form) {
-                0.0 => Tensor::default(),
-                off => scaled(tensor, off + rounding * b.xx / tensor.xx),
-            },
-            Self::Entries(forms) => {
-                let off @ [xx, xy, yy] = forms.each_ref().map(off);
-                if off == [0.0; 3] {
-                    return Tensor::default();
-                }
-                // ±2ab ≤ ra² + b²/r
-                let ratio = (b.xx / b.yy).sqrt();
-                let [xx, yy] =
-                    [xx + xy * ratio + rounding * b.xx, yy + xy / ratio + rounding * b.yy];
-                Tensor { xx, xy: 0.0, yy }
-            }
-        }
-    }
-}
-
-/// C of A = kC, k being the first entry, where the scene states all entries as numbers times one expression.
-fn proportions(material: &Material) -> Option<Tensor<f64>> {
-    let [first, xy, yy] = material.conductivity.each_ref().map(|entry| &entry.value);
-    let tensor = Tensor { xx: 1.0, xy: xy.ratio(first)?, yy: yy.ratio(first)? };
-    Some(tensor).filter(Tensor::is_positive_definite)
 }
 
 impl Piece {
@@ -282,69 +221,4 @@ impl Piece {
         let terms = self.below.iter().zip(monomials);
         terms.fold(Tensor::default(), |all, (of, factor)| sum(&all, &scaled(of, factor)))
     }
-}
-
-/// Parts of a region along a jump or a kink of A, or across the direction in which it varies most.
-pub(super) fn parts(material: &Material, region: &Region) -> Vec<Region> {
-    let switch = material.conductivity.iter().find_map(|of| of.value.switch(region, 0.0));
-    let along = switch.and_then(|zero| region.cut(&zero));
-    along.unwrap_or_else(|| region.parts_across(variations(material, region)))
-}
-
-/// How much A varies along the directions of a region: by its forms, where they say most of it, or by its slopes.
-fn variations(material: &Material, region: &Region) -> [f64; 3] {
-    let entries = &material.conductivity[..proportions(material).map_or(3, |_| 1)];
-    let most =
-        |of: &dyn Fn(&Located<Expression>) -> f64| entries.iter().map(of).fold(0.0, f64::max);
-    let by_form = |of: &Located<Expression>| {
-        let form = of.value.enclose(region, 0.0);
-        let [_, x, y, xx, xy, yy] = form.coefficients.map(f64::abs);
-        let beside = (form.coefficients[1] - form.coefficients[2]).abs();
-        ([x + xx, y + yy, beside + xx + xy + yy], form.range().width())
-    };
-    let told = entries.iter().map(by_form).reduce(|a, b| if a.1 >= b.1 { a } else { b });
-    match told {
-        Some((along, width)) if along.iter().sum::<f64>() > SEEN * width => along,
-        _ => region
-            .directions()
-            .map(|way| most(&|of| of.value.enclose_slope(region, 0.0, way)[1].range().size())),
-    }
-}
-
-fn tensor([xx, xy, yy]: [f64; 3]) -> Tensor<f64> {
-    Tensor { xx, xy, yy }
-}
-
-fn sum(a: &Tensor<f64>, b: &Tensor<f64>) -> Tensor<f64> {
-    Tensor { xx: a.xx + b.xx, xy: a.xy + b.xy, yy: a.yy + b.yy }
-}
-
-fn scaled(a: &Tensor<f64>, by: f64) -> Tensor<f64> {
-    Tensor { xx: by * a.xx, xy: by * a.xy, yy: by * a.yy }
-}
-
-/// |T|, with the moduli of its eigenvalues: T² + |det T| over their sum, where they have different signs.
-fn modulus(of: &Tensor<f64>) -> Tensor<f64> {
-    let Tensor { xx, xy, yy } = *of;
-    let determinant = xx * yy - xy * xy;
-    if determinant >= 0.0 {
-        return if xx + yy < 0.0 { scaled(of, -1.0) } else { *of };
-    }
-    let apart = (xx - yy).hypot(2.0 * xy);
-    let squares = Tensor { xx: xx * xx + xy * xy, xy: xy * (xx + yy), yy: yy * yy + xy * xy };
-    let whole = Tensor { xx: squares.xx - determinant, yy: squares.yy - determinant, ..squares };
-    scaled(&whole, 1.0 / apart)
-}
-
-/// The largest modulus of an eigenvalue of L⁻¹ T L⁻ᵀ, LLᵀ = `to`.
-fn size_in(to: &Tensor<f64>, of: &Tensor<f64>) -> f64 {
-    let first = to.xx.sqrt();
-    let slope = to.xy / to.xx;
-    let last = (to.yy - slope * to.xy).sqrt();
-    let xx = of.xx / first / first;
-    let xy = (of.xy - slope * of.xx) / first / last;
-    let yy = (of.yy - 2.0 * slope * of.xy + slope * slope * of.xx) / last / last;
-    let (half, apart) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
-    let size = half.abs() + apart;
-    if size.is_nan() { f64::INFINITY } else { size }
 }
