@@ -55,7 +55,7 @@ table! {
         "quadrature of the norms where contact ends within a cell";
     ENDS: "values at the ends of an edge", 1e-15,
         "one evaluation of the same expression";
-    OUTPUT_WEIGHTS: "weights of outputs of a bar against resistances on paper, relative", 5e-14,
+    OUTPUT_WEIGHTS: "weights of outputs of a bar against resistances on paper, relative", 5e-15,
         "linear functions on few cells";
     OSCILLATION: "oscillation of a cell against integrals on paper", 1e-14,
         "exact rules for polynomials";
