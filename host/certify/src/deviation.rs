@@ -2,6 +2,7 @@
 
 use signorini_kernel::Real;
 
+use super::between::{missed, sum};
 use super::cell::{Jet, Local};
 use super::ends::Ends;
 use super::energy::{CellEnergy, Sample};
@@ -10,6 +11,7 @@ use signorini_problem::quadrature::{DATA_POINTS, on_panels};
 use signorini_problem::rounding::extent;
 use signorini_problem::{Problem, Sum};
 use signorini_scene::error::Result;
+use signorini_scene::expression::enclosure::Region;
 use signorini_scene::scene::Field;
 
 /// Least energy, as a part of that of the largest data, of data that a cell follows. Data of an edge below it are
@@ -27,7 +29,7 @@ const NEXT: f64 = 1.0 / (1_u64 << 48) as f64;
 /// Noise is not the same everywhere: what may be missing of a rise, over the noise in the median.
 const NOISES: f64 = 64.0;
 
-/// Rules along an edge in search of a deviation: a bump narrower than a fortieth of the edge may lie between all points.
+/// Panels along an edge in search of a deviation.
 const LOOKS: u32 = 8;
 
 /// w on one edge.
@@ -68,7 +70,11 @@ impl<'s> Deviations<'s> {
             let Some(data) = data.filter(|data| data.constant().is_none()) else { continue };
             let deviation = Deviation { edge, data, segment, ends, level: problem.units.level() };
             let root = match deviation.samples(plain)? {
-                Some(samples) => energy.of_extension(side, &samples),
+                Some(samples) => {
+                    let ends = |k: u32| [k, k + 1].map(|end| f64::from(end) / f64::from(LOOKS));
+                    let between = (0..LOOKS).map(|k| deviation.missed(ends(k)));
+                    energy.of_extension(side, &samples) + energy.of_missed(side, sum(between))
+                }
                 None => f64::INFINITY,
             };
             let of_level = if level > 0.0 { level * energy.of_vertices() } else { 0.0 };
@@ -154,6 +160,18 @@ impl Deviation<'_> {
         self.data.rounding_at(self.place(t), PLACES * extent(self.segment))
     }
 
+    /// What 8 points of a panel miss at most: ∫(w − w̃)² and ∫(w′ − w̃′)² over it (`between`).
+    pub fn missed(&self, [from, to]: [f64; 2]) -> [f64; 2] {
+        let [a, b] = self.segment;
+        let panel = Region::segment([self.place(from), self.place(to)]);
+        missed(&self.data, &panel, [0, 1].map(|k| b[k] - a[k]), to - from)
+    }
+
+    /// Whether a panel is so short that coordinates hardly tell its ends apart.
+    pub fn is_tiny(&self, panel: [f64; 2]) -> bool {
+        Region::segment(panel.map(|t| self.place(t))).is_tiny()
+    }
+
     /// Second differences of w, which rounding that follows the data in steps shows as well, and first ones of w′ at once beside
     /// a point: in the median of some points, since a kink or a jump may lie between.
     fn noise(&self) -> f64 {
@@ -168,8 +186,7 @@ impl Deviation<'_> {
         found.get(found.len() / 2).copied().filter(|noise| noise.is_finite()).unwrap_or(0.0)
     }
 
-    /// w and w′ at the points where [`super::curved`] looks first, `LOOKS` times the rule along the edge: what all of them
-    /// miss is not seen at all. `None` where w is far above rounding, or singular.
+    /// w and w′ at the points of some panels. `None` where w is far above rounding, or singular.
     fn samples(&self, plain: f64) -> Result<Option<Vec<Sample>>> {
         let mut samples = Vec::new();
         for [t, weight] in on_panels(LOOKS, f64::GAUSS[DATA_POINTS - 1]) {

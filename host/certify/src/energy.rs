@@ -51,6 +51,16 @@ impl<'s> CellEnergy<'s> {
         sum.sqrt()
     }
 
+    /// ‖A^½∇v‖ at most, from ∫w² and ∫w′² at most along side `side`.
+    pub fn of_missed(&self, side: usize, [square, of_slope]: [f64; 2]) -> f64 {
+        let unit = |w: f64, slope: f64| [0.0, 1.0].map(|t| Sample { t, weight: 1.0, w, slope });
+        let of = |samples: &[Sample], square: f64| match square {
+            0.0 => 0.0,
+            square => self.of_extension(side, samples) * square.sqrt(),
+        };
+        of(&unit(1.0, 0.0), square) + of(&unit(0.0, 1.0), of_slope)
+    }
+
     /// ‖A^½∇v‖ of v = (1 − η) w(t) from samples of w along side `side`. The largest sample is the unit: squares of w
     /// may overflow or vanish.
     pub fn of_extension(&self, side: usize, samples: &[Sample]) -> f64 {

@@ -5,7 +5,7 @@
 //! ```text
 //!   metric       A in reference coordinates where it varies  ─┬─► ways (forest, packed cells) ─┐
 //!   ends         ψ and u_D at the ends of edges      ─┐                                        │
-//!   deviation ─► curved   what lies above their chords ├─► data ─────────────────────────► certifier
+//!   between ─► deviation ─► curved   what lies above their chords ├─► data ─────────────────────────► certifier
 //!   energy       what is left out of either, by A    ─┤                                        │
 //!   profile ─► local_flux, edge_flux ─► oscillation  what the means of f, g, q leave out  ─┤                                       │
 //!   robin        h and u_ext at points of edges       ─┘                                     bound
@@ -13,6 +13,7 @@
 //! ```
 
 pub mod admissible;
+mod between;
 mod bound;
 mod certifier;
 pub mod conductivity;

@@ -116,6 +116,22 @@ impl<'s> Sum<'s> {
         added.fold(of(&self.base.value), |sum, term| sum + term)
     }
 
+    /// The same less some function that is linear along the region.
+    pub fn bend(&self, region: &Region, rho: f64) -> f64 {
+        let of = |expression: &Expression| expression.bend(region, rho, self.time);
+        let added = self.inputs.iter().map(|(weight, pattern)| weight.abs() * of(&pattern.value));
+        added.fold(of(&self.base.value), |sum, term| sum + term)
+    }
+
+    /// All values in a region, and all derivatives along `direction`.
+    pub fn enclose_slope(&self, region: &Region, direction: [f64; 2]) -> [Form; 2] {
+        let of = |expression: &Expression| expression.enclose_slope(region, self.time, direction);
+        self.inputs.iter().fold(of(&self.base.value), |sum, (weight, pattern)| {
+            let added = of(&pattern.value);
+            [0, 1].map(|k| sum[k].combined(1.0, &added[k], *weight))
+        })
+    }
+
     /// Parts of a region along the first kink or jump in it.
     pub fn cut(&self, region: &Region) -> Option<Vec<Region>> {
         if self.is_smooth() {

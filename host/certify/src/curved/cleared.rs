@@ -13,7 +13,6 @@ use signorini_bound::certificate::is_clear;
 use super::panels::Panels;
 use crate::admissible::{Admissible, Following};
 use crate::deviation::{Deviation, Deviations};
-use crate::energy::Sample;
 use signorini_problem::{EdgeKind, Problem};
 use signorini_scene::error::Result;
 
@@ -69,9 +68,7 @@ pub(super) fn peak_on(deviation: &Deviation, panels: &Panels) -> Result<f64> {
     }
     let slope = |[t, weight]: [f64; 2]| Ok((deviation.at(t)?[1], weight));
     let found: Vec<_> = panels.rule().into_iter().map(slope).collect::<Result<_>>()?;
-    let missed = panels.missed(deviation)?;
-    let missed = missed.iter().map(|&Sample { slope, weight, .. }| (slope, weight));
-    let slopes = norm(found.into_iter()) + norm(missed) + panels.beyond.sqrt();
+    let slopes = norm(found.into_iter()) + panels.missed[1].sqrt();
     Ok(0.5 * slopes * (1.0 + ROOM))
 }
 

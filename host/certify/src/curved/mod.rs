@@ -12,6 +12,7 @@ mod cleared;
 mod cross;
 mod inside;
 mod panels;
+mod rise;
 mod singular;
 #[cfg(test)]
 mod tests;
@@ -197,17 +198,13 @@ impl<'d, 's> Extension<'d, 's> {
     /// ‖A^½∇·‖ of what the panels' points leave out, and of what mending changes beyond rounding.
     fn missed(&self, problem: &Problem) -> Result<f64> {
         let energy = CellEnergy::of(problem, self.at);
-        let found = energy.of_extension(self.side, &self.panels.missed(self.deviation)?);
-        // Near a singular place w′ is nearly all of ∇v.
-        let unit = |t| Sample { t, weight: 1.0, w: 0.0, slope: 1.0 };
-        let slope = energy.of_extension(self.side, &[unit(0.0), unit(1.0)]);
-        let beyond = found + slope * self.panels.beyond.sqrt();
+        let missed = energy.of_missed(self.side, self.panels.missed);
         if !self.mended.is_counted {
-            return Ok(beyond);
+            return Ok(missed);
         }
         let [w, slope] = self.mended.change;
         let change = gauss(POINTS).into_iter().map(|[t, weight]| Sample { t, weight, w, slope });
-        Ok(beyond + energy.of_extension(self.side, &change.collect::<Vec<_>>()))
+        Ok(missed + energy.of_extension(self.side, &change.collect::<Vec<_>>()))
     }
 
     /// The rule in η: on triangles ∇v does not depend on it, so that with constant A one point for

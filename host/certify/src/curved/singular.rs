@@ -1,6 +1,7 @@
 //! Places where w is singular: the energy nearer to them than all panels, or that it is infinite.
 
 use super::POINTS;
+use super::rise::Rise;
 use crate::deviation::Deviation;
 use signorini_problem::quadrature::gauss;
 use signorini_scene::error::Result;
@@ -23,12 +24,9 @@ const DECAY: f64 = 0.96;
 
 /// ∫w′² nearer to a singular place than all panels, or why it is infinite.
 ///
-/// The places are those of `open`, panels in which w is still not found.
-pub(super) fn beyond(
-    deviation: &Deviation,
-    open: &[[f64; 2]],
-) -> Result<std::result::Result<f64, Rough>> {
-    let mut sum = 0.0;
+/// The places are those of `open`, panels on which w′ is not bounded.
+pub(super) fn beyond(rise: &Rise, open: &[[f64; 2]]) -> Result<std::result::Result<f64, Rough>> {
+    let (mut sum, deviation) = (0.0, rise.deviation);
     for [low, high] in clusters(open) {
         let place = match (low == 0.0, high == 1.0) {
             (true, _) => 0.0,
@@ -41,6 +39,9 @@ pub(super) fn beyond(
         let energies = energies.collect::<Result<Vec<_>>>()?;
         let (first, last) = (energies[0], energies[SHELLS as usize]);
         if last == 0.0 {
+            if rise.jumps([low, high])? {
+                return Ok(Err(Rough::Jump(place)));
+            }
             continue;
         }
         let late = energies[SHELLS as usize / 2];
@@ -48,6 +49,9 @@ pub(super) fn beyond(
         let kept = kept.max((last / late).powf(2.0 / f64::from(SHELLS)));
         if kept > DECAY || kept.is_nan() {
             return Ok(Err(Rough::Steep(place)));
+        }
+        if rise.jumps([low, high])? {
+            return Ok(Err(Rough::Jump(place)));
         }
         sum += last * kept / (1.0 - kept);
     }

@@ -243,6 +243,29 @@ fn a_jump_inside_an_edge_has_no_bound() -> Result<()> {
     Ok(())
 }
 
+/// Data that all points of the first panels miss: a bump over 1/400 of an edge, a step of 1/300 and a hat beside a vertex.
+#[test]
+fn what_no_point_sees_is_found() -> Result<()> {
+    // The slope of exp(−z²), z = (t − t₀)/δ: ∫w′² = √(π/2)/δ.
+    let bump = |width: f64| (0.5 * std::f64::consts::PI).sqrt() / width;
+    for (gap, square) in [
+        ("exp(-((x - 0.3)/0.00125)^2)", bump(0.0025)),
+        ("exp(-((x - 0.3)/1.25e-6)^2)", bump(2.5e-6)),
+        ("max(0, 1 - abs(x - 0.3)/0.0005)", 2.0 / 0.001),
+        ("1e-3*max(0, 1 - abs(x - 0.4999)/0.00002)", 2e-6 / 0.00004),
+    ] {
+        let record = with_gap(gap)?;
+        // ∇v = (w′ ∂x, …): at least ½ ∫w′², at most all of it and a little for w.
+        let most = record.energy.sqrt() + record.missed;
+        assert!(most.powi(2) >= 0.5 * square, "{gap}: {record:?} {square}");
+        assert!(record.energy <= 1.1 * square && record.missed < 2e-3 * most, "{gap}: {record:?}");
+    }
+    for gap in ["sign(x - 0.3) - sign(x - 0.3001)", "1e-8*sign(x - 0.3) - x^2"] {
+        assert!(matches!(with_gap(gap)?.rough, Some(Rough::Jump(_))), "{gap}");
+    }
+    Ok(())
+}
+
 /// Terms of order 1 cancel to 1e−7: their rounding is more than 1e−9 of what is left.
 #[test]
 fn noise_is_no_singularity() -> Result<()> {
@@ -271,7 +294,7 @@ fn smooth_data_have_regular_panels() -> Result<()> {
     for cells in [Cells::Triangles, Cells::Quads] {
         let (_, problem) = fixtures::on_grid(CURVED, fixtures::distorted(grid(2, cells)))?;
         for deviation in &Deviations::at_time(&problem, 0.0)?.found {
-            assert_eq!(Panels::along(deviation)?, Panels::regular());
+            assert!(Panels::along(deviation)?.is_regular());
         }
     }
     // Far from the origin the places of the points are rounded, on edges of 10⁻⁶ to a few digits.
@@ -280,7 +303,7 @@ fn smooth_data_have_regular_panels() -> Result<()> {
     mesh.vertices.iter_mut().for_each(|x| *x = [1e3 + 1e-6 * x[0], 1e3 + 1e-6 * x[1]]);
     let (_, problem) = fixtures::on_grid(&far, mesh)?;
     for deviation in &Deviations::at_time(&problem, 0.0)?.found {
-        assert_eq!(Panels::along(deviation)?, Panels::regular());
+        assert!(Panels::along(deviation)?.is_regular());
     }
     assert_eq!(Panels::regular().rule(), on_panels(PANELS, &gauss(POINTS)));
     Ok(())
@@ -501,7 +524,9 @@ fn a_kink_right_beside_a_vertex_is_found() -> Result<()> {
                 [[0.0, kink], [kink, 1.0]].into_iter().flat_map(part).map(sample).collect();
             let expected = CellEnergy::of(&problem, cell).of_extension(side, &samples);
             let (found, missed) = (record.energy.sqrt(), record.missed);
-            assert!((found - expected).abs() <= 1.01 * missed, "{at}: {found} {expected} {missed}");
+            // The place of the kink is rounded as coordinates are.
+            let most = 1.01 * missed + 1e-5 * expected;
+            assert!((found - expected).abs() <= most, "{at}: {found} {expected} {missed}");
             assert!(missed < 0.5 * expected, "{at}: {missed} {expected}");
             // A jump is one however small it is.
             let text = text.replace("min(-x, 0)", "min(-x, 0) + 1e-9*sign(x + 0.7)");

@@ -21,7 +21,7 @@ pub(super) struct Disc {
     /// Factors of ξ, η and ξη.
     along: [f64; 3],
     /// The radius beside these.
-    rest: f64,
+    pub rest: f64,
 }
 
 impl Disc {

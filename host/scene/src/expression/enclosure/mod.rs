@@ -42,7 +42,7 @@ use region::reach;
 use super::Expression;
 use super::program::Numbers;
 use branches::{Branch, Branches};
-use continuation::Discs;
+use continuation::{Disc, Discs};
 use cut::Switches;
 use degree::{Degree, Degrees};
 use growth::Grows;
@@ -68,16 +68,25 @@ impl Expression {
     /// The largest modulus of its analytic continuation, where one reference coordinate of the region's rule is complex and within
     /// ½(ρ + 1/ρ) of the middle: see [`Region::missed`]. Infinite where there may be none.
     pub fn modulus(&self, region: &Region, rho: f64, t: f64) -> f64 {
+        self.disc(region, rho, t).modulus()
+    }
+
+    /// The same less some function that is linear in the reference coordinates.
+    pub fn bend(&self, region: &Region, rho: f64, t: f64) -> f64 {
+        self.disc(region, rho, t).rest
+    }
+
+    fn disc(&self, region: &Region, rho: f64, t: f64) -> Disc {
         let [x, y] = region.neighbourhood(rho);
         if self.is_smooth() {
             let discs = Discs(reach(rho));
-            return self.program.run(&discs, [x, y, discs.constant(t)]).modulus();
+            return self.program.run(&discs, [x, y, discs.constant(t)]);
         }
         let branches = Branches(Forms(region.shape()), Discs(reach(rho)));
         let [of_x, of_y] = region.coordinates();
         let at =
             [Branch { form: of_x, disc: x }, Branch { form: of_y, disc: y }, branches.constant(t)];
-        self.program.run(&branches, at).disc.modulus()
+        self.program.run(&branches, at).disc
     }
 
     /// The first argument of a kink or a jump whose sign is not known in a region, see [`Region::cut`].
