@@ -10,7 +10,7 @@
 
 use signorini_problem::Sum;
 use signorini_problem::quadrature::DATA_POINTS;
-use signorini_scene::expression::enclosure::Region;
+use signorini_scene::expression::enclosure::{Form, Region};
 
 /// Ellipses around a panel, by ρ, that are tried.
 const ELLIPSES: [f64; 4] = [16.0, 64.0, 5.5, 2.5];
@@ -22,21 +22,46 @@ pub fn missed(data: &Sum, panel: &Region, direction: [f64; 2], width: f64) -> [f
     if data.degree() < DATA_POINTS as f64 {
         return [0.0; 2];
     }
+    let [w, slope] = by_ellipses(|rho| data.bend(panel, rho));
+    let [of_w, of_slope] = data.enclose_slope(panel, direction).each_ref().map(by_form);
+    [w.min(of_w), (slope * 2.0 / width).min(of_slope)].map(|most| square(most, width))
+}
+
+/// ∫(w − w̃)² at most.
+pub fn value_missed(data: &Sum, panel: &Region, width: f64) -> f64 {
+    if data.degree() < DATA_POINTS as f64 {
+        return 0.0;
+    }
+    let [most, _] = by_ellipses(|rho| data.bend(panel, rho));
+    square(most.min(by_form(&data.enclose(panel))), width)
+}
+
+/// The same of a form.
+pub fn form_missed(form: &Form, width: f64) -> f64 {
+    square(by_form(form), width)
+}
+
+fn square(most: f64, width: f64) -> f64 {
+    4.0 * width * most * most
+}
+
+/// max |w − p| and max |dw/dξ − p|, ξ from −1 to 1, from the modulus of w less a linear function.
+fn by_ellipses(bend: impl Fn(f64) -> f64) -> [f64; 2] {
     let mut most = [f64::INFINITY; 2];
     for rho in ELLIPSES {
-        let size = 2.0 * data.bend(panel, rho);
-        let found = [size * tail(rho, 0), size * tail(rho, 2) * 2.0 / width];
+        let size = 2.0 * bend(rho);
+        let found = [size * tail(rho, 0), size * tail(rho, 2)];
         most = [0, 1].map(|k| if found[k] < most[k] { found[k] } else { most[k] });
-        if most[1] * width <= ROUNDING * size {
+        if most[1] <= ROUNDING * size {
             break;
         }
     }
-    let forms = data.enclose_slope(panel, direction);
-    let of_forms = forms.map(|form| match form.is_finite() {
-        true => 0.5 * form.remainder.width(),
-        false => f64::INFINITY,
-    });
-    [0, 1].map(|k| 4.0 * width * most[k].min(of_forms[k]).powi(2))
+    most
+}
+
+/// max |w − p| with the parabola of a form.
+fn by_form(form: &Form) -> f64 {
+    if form.is_finite() { 0.5 * form.remainder.width() } else { f64::INFINITY }
 }
 
 /// Σ ρ⁻ᵏ from k = 8 on, or Σ k²ρ⁻ᵏ from k = 9 on.

@@ -170,6 +170,7 @@ impl NoBound {
         let name = match field {
             Field::Flux => "the flux",
             Field::Limit => "the limit",
+            Field::Ambient => "the ambient value",
             _ => "f",
         };
         let place = place(at);

@@ -24,7 +24,6 @@ use std::f64::consts::PI;
 use super::cell::Cell;
 use super::robin::missed;
 use super::stretch::is_even;
-use super::transfer_points::unseen;
 pub use alpha::alpha;
 use edges::{of_flux, pole_on_edge};
 use parts::square;
@@ -65,8 +64,7 @@ pub fn oscillation(problem: &Problem) -> Result<Oscillation> {
         let (at, _) = problem.topology.first_side(edge);
         let [known, missed] = match problem.kinds[edge] {
             EdgeKind::Neumann | EdgeKind::Contact => of_flux(problem, edge)?,
-            EdgeKind::Robin if unseen(problem, edge)?.is_some() => [0.0; 2],
-            EdgeKind::Robin => [missed(problem, edge, problem.time)?, 0.0],
+            EdgeKind::Robin => missed(problem, edge)?,
             EdgeKind::Interior | EdgeKind::Dirichlet => [0.0; 2],
         };
         all.of_cells[at] += known + missed;

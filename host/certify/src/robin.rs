@@ -9,9 +9,13 @@
 
 use signorini_kernel::Real;
 
+use super::between::{form_missed, value_missed};
+use super::transfer_points::{EdgePoint, unseen};
 use signorini_problem::quadrature::DATA_POINTS;
+use signorini_problem::quadrature::refined::{Part, refined};
 use signorini_problem::{Problem, Sum};
 use signorini_scene::error::Result;
+use signorini_scene::expression::enclosure::{Region, root};
 use signorini_scene::scene::Field;
 
 /// \[h |E|, u_ext\] at the 8 Gauss points of an edge, in its direction.
@@ -41,82 +45,130 @@ fn points(problem: &Problem, edge: usize, h: &Sum, ambient: &Sum) -> Result<Robi
     Ok(values)
 }
 
-/// Panels on an edge to begin with, in search of what 8 points miss.
-const PANELS: u32 = 8;
-/// Most bisections of a panel, and most panels: a layer of 10⁻⁷ of the edge is a few panels wide then.
-const LEVELS: u32 = 24;
-const MOST: usize = 256;
-/// Part of a panel's integral up to which its halves may differ from it.
-const SETTLED: f64 = 1e-2;
-/// Differences below this part of √h u_ext are those of rounding: nothing is gained by bisecting for them.
-const ROUNDING: f64 = 1e-13;
-/// Roundings of a constant that was taken from u_ext, which are in it.
-const OF_LEVEL: f64 = 4.0;
+/// Parts of an edge, at most.
+const MOST: usize = 400;
+/// Part of ‖√h (u_ext − û)‖, or of ‖√h (u_ext − mean)‖, up to which it need not be known.
+const LEFT: [f64; 2] = [1e-3, 1e-5];
 
-/// √2 ‖√h (u_ext − û)‖ on an edge of R, in the unit of ‖A^½∇u‖.
+/// √2 ‖√h (u_ext − û)‖ on an edge of R, in the unit of ‖A^½∇u‖: as points in between find it, and what is not resolved.
 ///
 /// # Errors
 /// Data that are not finite at a point.
-pub fn missed(problem: &Problem, edge: usize, time: f64) -> Result<f64> {
-    let Some(h) = Sum::transfer(problem, edge, time) else { return Ok(0.0) };
-    let Some(ambient) = Sum::on_edge(problem, edge, Field::Ambient, time) else {
-        return Ok(0.0);
-    };
-    if h.constant().is_some() && ambient.constant().is_some() {
-        return Ok(0.0);
+pub fn missed(problem: &Problem, edge: usize) -> Result<[f64; 2]> {
+    let data = (
+        Sum::transfer(problem, edge, problem.time),
+        Sum::on_edge(problem, edge, Field::Ambient, problem.time),
+    );
+    let (Some(h), Some(ambient)) = &data else { return Ok([0.0; 2]) };
+    let (unseen, is_even) = (unseen(problem, edge)?, h.constant().is_some());
+    if ambient.constant().is_some() && (is_even || unseen.is_some()) {
+        return Ok([0.0; 2]);
     }
-    // √h and √h u_ext
-    let root = |t: f64| -> Result<f64> {
-        let [x, y] = problem.along(edge, t);
-        Ok(h.finite(h.at(x, y), [x, y])?.max(0.0).sqrt())
+    let length = problem.lengths[edge];
+    let weighed =
+        Weighed { problem, edge, ambient, h: Some(h).filter(|_| unseen.is_none() && !is_even) };
+    let middle = problem.along(edge, 0.5);
+    let ranges = match &unseen {
+        Some(points) => points.chunks(DATA_POINTS).map(|of| (ends_of(of), highest(of))).collect(),
+        None if is_even => vec![([0.0, 1.0], length * h.at(middle[0], middle[1]))],
+        None => vec![([0.0, 1.0], length)],
     };
-    let weighted = |t: f64| -> Result<f64> {
-        let [x, y] = problem.along(edge, t);
-        Ok(root(t)? * ambient.finite(ambient.at(x, y), [x, y])?)
+    let pieces = ranges.into_iter().map(|(range, factor)| weighed.piece(range, factor));
+    let pieces = pieces.collect::<Result<Vec<_>>>()?;
+    let spread: f64 = pieces.iter().map(Piece::spread).sum();
+    let whole = pieces.iter().enumerate().map(|(of, piece)| {
+        let [a, b] = piece.range.map(|t| problem.along(edge, t));
+        let region = Region::segment([a, b]);
+        let [value, missed] = weighed.square(piece, &region);
+        Part { of, region, value, missed }
+    });
+    let is_enough = |size: f64, missed: f64| {
+        missed <= LEFT[0].powi(2) * size || missed <= LEFT[1].powi(2) * spread
     };
-    let known = f64::GAUSS[DATA_POINTS - 1].iter().map(|&[t, _]| Ok([t, weighted(t)?]));
-    let known = known.collect::<Result<Vec<_>>>()?;
-    let size = known.iter().fold(0.0, |most: f64, [_, value]| most.max(value.abs()));
-    let square = |t: f64| Ok((weighted(t)? - interpolated(&known, t)).powi(2));
-    let level = OF_LEVEL * f64::EPSILON * problem.units.level();
-    let roots = f64::GAUSS[DATA_POINTS - 1].iter().map(|&[t, _]| root(t));
-    let noise = roots.collect::<Result<Vec<_>>>()?.into_iter().fold(0.0, f64::max) * level;
-    let square = integral(square, noise.max(ROUNDING * size).powi(2))?;
-    Ok((2.0 * problem.lengths[edge] * square).sqrt())
+    let parts = refined(
+        |region| ambient.cut(region),
+        whole.collect(),
+        MOST + pieces.len(),
+        is_enough,
+        |of, region| weighed.square(&pieces[of], region),
+    );
+    let sum = |of: fn(&Part) -> f64| (2.0 * parts.iter().map(of).sum::<f64>()).sqrt();
+    Ok([sum(|part| part.value), sum(|part| part.missed)])
 }
 
-/// The integral of a square over \[0, 1\] on panels as fine as it needs; where it does not settle, an end may count for all
-/// of its panel. Values below `rounding` need no finer ones.
-fn integral(square: impl Fn(f64) -> Result<f64>, rounding: f64) -> Result<f64> {
-    let on = |[a, b]: [f64; 2]| {
-        let points = f64::GAUSS[DATA_POINTS - 1].iter();
-        points
-            .map(|[t, weight]| Ok((b - a) * weight * square(a + (b - a) * t)?))
-            .sum::<Result<f64>>()
-    };
-    let width = 1.0 / f64::from(PANELS);
-    let panel = |at| [width * f64::from(at), width * f64::from(at + 1)];
-    let mut open: Vec<[f64; 2]> = (0..PANELS).map(panel).collect();
-    let (mut sum, mut count) = (0.0, open.len());
-    for level in 0..=LEVELS {
-        let mut finer = Vec::new();
-        for [a, b] in open {
-            let middle = 0.5 * (a + b);
-            let halves = on([a, middle])? + on([middle, b])?;
-            let ends = (b - a) * square(a)?.max(square(b)?);
-            let is_settled = (halves - on([a, b])?).abs() <= SETTLED * halves
-                && ends <= halves / SETTLED
-                || ends.max(halves) <= (b - a) * rounding;
-            if is_settled || level == LEVELS || count >= MOST {
-                sum += if is_settled { halves } else { halves.max(ends) };
-            } else {
-                finer.extend([[a, middle], [middle, b]]);
-                count += 1;
-            }
-        }
-        open = finer;
+/// The part of an edge that 8 points are those of.
+fn ends_of(points: &[EdgePoint]) -> [f64; 2] {
+    let (rule, [first, last]) = (
+        f64::GAUSS[DATA_POINTS - 1],
+        [points.first(), points.last()].map(|of| of.map_or(0.0, |of| of.t)),
+    );
+    let width = (last - first) / (rule[DATA_POINTS - 1][0] - rule[0][0]);
+    let from = first - rule[0][0] * width;
+    [from, from + width]
+}
+
+/// The most that H is at these points.
+fn highest(points: &[EdgePoint]) -> f64 {
+    points.iter().fold(0.0, |most: f64, at| most.max(at.between[1]))
+}
+
+/// A part of an edge, between whose 8 points û is a polynomial; a factor of the square, and the values at the points.
+struct Piece {
+    range: [f64; 2],
+    factor: f64,
+    known: Vec<[f64; 2]>,
+}
+
+impl Piece {
+    /// factor ∫(f − mean)² by the points.
+    fn spread(&self) -> f64 {
+        let width = self.factor * (self.range[1] - self.range[0]);
+        let values = || self.known.iter().map(|of| of[1]).zip(f64::GAUSS[DATA_POINTS - 1]);
+        let mean: f64 = values().map(|(value, [_, weight])| weight * value).sum();
+        width * values().map(|(value, [_, weight])| weight * (value - mean).powi(2)).sum::<f64>()
     }
-    Ok(sum)
+}
+
+/// f: u_ext, or √h u_ext where points see an h that varies.
+struct Weighed<'p> {
+    problem: &'p Problem,
+    edge: usize,
+    ambient: &'p Sum<'p>,
+    h: Option<&'p Sum<'p>>,
+}
+
+impl Weighed<'_> {
+    fn at(&self, [x, y]: [f64; 2]) -> f64 {
+        self.ambient.at(x, y) * self.h.map_or(1.0, |h| h.at(x, y).max(0.0).sqrt())
+    }
+
+    fn piece(&self, range @ [from, to]: [f64; 2], factor: f64) -> Result<Piece> {
+        let known = f64::GAUSS[DATA_POINTS - 1].iter().map(|[own, _]| {
+            let t = from + own * (to - from);
+            let place = self.problem.along(self.edge, t);
+            Ok([t, self.ambient.finite(self.at(place), place)?])
+        });
+        Ok(Piece { range, factor, known: known.collect::<Result<_>>()? })
+    }
+
+    /// factor ∫(f − û)² over a part of a piece, by 8 points of its own, and what these miss.
+    fn square(&self, piece: &Piece, region: &Region) -> [f64; 2] {
+        let ([a, b], length) = (self.problem.segment(self.edge), self.problem.lengths[self.edge]);
+        let way = [0, 1].map(|k| (b[k] - a[k]) / length / length);
+        let points = region.along(f64::GAUSS[DATA_POINTS - 1]).into_iter();
+        let square = points.map(|(at, weight)| {
+            let t = (at[0] - a[0]) * way[0] + (at[1] - a[1]) * way[1];
+            weight / length * (self.at(at) - interpolated(&piece.known, t)).powi(2)
+        });
+        let (square, width): (f64, _) = (square.sum(), region.measure() / length);
+        let missed = match self.h {
+            None => value_missed(self.ambient, region, width),
+            Some(h) => {
+                form_missed(&root(&h.enclose(region)).times(&self.ambient.enclose(region)), width)
+            }
+        };
+        [square, missed].map(|of| piece.factor * of)
+    }
 }
 
 /// The polynomial through `known` points (t, value) at t, by Lagrange's formula.
@@ -159,7 +211,7 @@ mod tests {
             let old = "ambient = \"y + y^2 - 1 + (3*y - 6.5)/(2+y)\"";
             let text = text.replace(old, &format!("ambient = \"{ambient}\""));
             let (_, problem) = fixtures::on_grid(&text, grid(1, Cells::Quads))?;
-            missed(&problem, problem.loads.robin[0].edge as usize, 0.0)
+            missed(&problem, problem.loads.robin[0].edge as usize).map(|both| both.iter().sum())
         };
         POINTS.check("a polynomial", missed_of("4", "y^7 - 3*y^2")?);
         assert_eq!(missed_of("4", "3")?, 0.0);
@@ -167,6 +219,12 @@ mod tests {
         let expected = (2.0 * 4.0 * 2.0 * 0.05 / 3.0_f64).sqrt();
         let found = missed_of("4", "max(0, 1 - abs(y-0.5)/0.05)")?;
         NARROW_BUMP.check_relative("a bump", found, expected);
+        for width in [1e-3, 1e-6] {
+            let found = missed_of("4", &format!("exp(-((y-0.3)/{width:e})^2)"))?;
+            // ∫exp(−2z²) = √(π/2)
+            let expected = (8.0 * width * (0.5 * std::f64::consts::PI).sqrt()).sqrt();
+            NARROW_BUMP.check_relative("a Gaussian", found, expected);
+        }
         // A layer that no point of the first panels sees: √2 (4 ∫ exp(−2y/ℓ) dy)^½ = 2√ℓ.
         let found = missed_of("4", "exp(-y/1e-5)")?;
         NARROW_BUMP.check_relative("a layer", found, 2.0 * 1e-5_f64.sqrt());

@@ -97,7 +97,7 @@ fn opposite(cell: &Cell, side: usize) -> [f64; 2] {
 
 /// Where a flux or a limit has no square integral on an edge.
 pub fn pole_on_edge(problem: &Problem, edge: usize) -> Option<(Field, [f64; 2], bool)> {
-    [Field::Flux, Field::Limit].into_iter().find_map(|field| {
+    [Field::Flux, Field::Limit, Field::Ambient].into_iter().find_map(|field| {
         let data = Sum::on_edge(problem, edge, field, problem.time)?;
         let (at, is_proved) = pole(&data, &Region::segment(problem.segment(edge)), 2.0)?;
         Some((field, at, is_proved))

@@ -31,7 +31,7 @@ fn linear_data_on_triangles_in_closed_form() -> Result<()> {
         for &edge in &problem.topology.of_triangles[at] {
             let (edge, length) = (edge as usize, problem.lengths[edge as usize]);
             // 1e−10 of it: u_ext is rational. Its own test is in `robin`.
-            expected += missed(&problem, edge, 0.0)?;
+            expected += missed(&problem, edge)?.iter().sum::<f64>();
             let [[x0, y0], [x1, y1]] = problem.segment(edge);
             // ‖g − ḡ‖² of a linear g is |E|/12 times its rise squared; of q = −3.5x² − 1 with the
             // middle m, ∫ = |E| 3.5² (m² l²/3 + l⁴/180).

@@ -41,11 +41,17 @@ pub enum Feature {
     Conductivity,
     /// A step or a bump of a transfer coefficient.
     Transfer,
+    /// A step or a bump of what the transfer is to.
+    Ambient,
+    /// A bump of the gap, or a hat.
+    Gap,
+    /// A bump of u_D, or a hat.
+    Value,
 }
 
 impl Feature {
     /// All of them.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 14] = [
         Self::Source,
         Self::Flux,
         Self::ContactFlux,
@@ -57,6 +63,9 @@ impl Feature {
         Self::Kink,
         Self::Conductivity,
         Self::Transfer,
+        Self::Ambient,
+        Self::Gap,
+        Self::Value,
     ];
 }
 
@@ -74,9 +83,11 @@ pub(super) fn draw(random: &mut Random, plan: &MeshPlan, feature: Feature) -> (P
     let mut data = Data::draw(random);
     let width = (2.0 / mesh.cells() as f64).sqrt() * random.log(1e-4, 3.0);
     let spot = match feature {
-        Feature::Transfer => data.narrow(random, feature, 1, width),
+        Feature::Transfer | Feature::Ambient => data.narrow(random, feature, 1, width),
         Feature::Flux => data.narrow(random, feature, 2, width),
         Feature::ContactFlux => data.narrow(random, feature, 0, width),
+        Feature::Gap => data.raised(random, feature, 0, width),
+        Feature::Value => data.raised(random, feature, 3, width),
         Feature::FadingLimit | Feature::Kink => data.bent(random, feature, &mesh, width),
         Feature::Offset | Feature::Anisotropy => data.large(random, feature),
         _ => data.inside(random, feature, width),
@@ -190,9 +201,34 @@ impl Data {
         let (most, size) = (random.log(1.0, 1e3) / width, random.signed_log(0.1, 3.0) / width);
         match feature {
             Feature::Transfer => self.transfer[0] += &format!("*(1+{most:e}*{shape})"),
+            Feature::Ambient => self.transfer[1] += &format!("+{size:e}*{shape}"),
             Feature::Flux => self.flux = format!("{size:e}*{shape}"),
             _ => self.fluxes[0] = format!("{size:e}*{shape}"),
         }
+        spot
+    }
+
+    /// A bump or a hat of the gap or of u_D, down or up: gap ≤ 0 ≤ value.
+    fn raised(&mut self, random: &mut Random, feature: Feature, role: usize, width: f64) -> Spot {
+        let side @ (_, axis, [low, high], other) = self.side(role);
+        let (at, size) = (random.between(low, high), random.log(0.1, 10.0));
+        let spot = Spot::on(side, at, other, width);
+        let shape = match random.chance(0.5) {
+            true => format!("exp(-{})", spot.square(&[axis])),
+            false => format!("max(0, 1-abs({}-{at:e})/{width:e})", NAMES[axis]),
+        };
+        let is_up = random.chance(0.5);
+        let (text, lower) = match feature {
+            Feature::Gap => (&mut self.gap, is_up),
+            _ => (&mut self.value, !is_up),
+        };
+        let level = match (lower, is_up) {
+            (true, true) => -size,
+            (true, false) => size,
+            (false, _) => 0.0,
+        };
+        let signed = if is_up { size } else { -size };
+        *text += &format!("+{level:e}+{signed:e}*{shape}");
         spot
     }
 

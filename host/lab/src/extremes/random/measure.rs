@@ -192,8 +192,8 @@ impl Held<'_> {
     fn missed(&self) -> Result<f64> {
         let problem = self.problem;
         let laws = problem.loads.robin.iter();
-        let squares = laws.map(|law| missed(problem, law.edge as usize, problem.time));
-        let squares = squares.map(|of| of.map(|of| of * of));
+        let squares = laws.map(|law| missed(problem, law.edge as usize));
+        let squares = squares.map(|of| of.map(|[known, left]| (known + left).powi(2)));
         Ok(squares.sum::<Result<f64>>()?.sqrt())
     }
 

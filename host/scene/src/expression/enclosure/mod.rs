@@ -40,6 +40,7 @@ pub use region::Region;
 use region::reach;
 
 use super::Expression;
+use super::operation::Unary;
 use super::program::Numbers;
 use branches::{Branch, Branches};
 use continuation::{Disc, Discs};
@@ -48,6 +49,11 @@ use degree::{Degree, Degrees};
 use growth::Grows;
 use numbers::Forms;
 use slope::{Slope, Slopes};
+
+/// The root of a form.
+pub fn root(form: &Form) -> Form {
+    Forms(form.shape()).unary(Unary::Sqrt, *form)
+}
 
 impl Expression {
     /// All values in `region` at the time t, in f64 arithmetic whatever that of the expression.
