@@ -21,10 +21,10 @@ use super::interval::{FAR, UNBOUNDED, UNSOLVED};
 use super::kept::{keep, left};
 use super::part::Part;
 use super::products::Residual;
-use signorini_certify::CertifiedFields;
 use signorini_certify::conductivity::Conductivity;
 use signorini_certify::deviation::Deviations;
 use signorini_certify::term;
+use signorini_certify::{CertifiedFields, Evaluated};
 use signorini_problem::functional::wanted;
 use signorini_problem::{EdgeKind, Parts, Problem, Sum};
 use signorini_scene::error::Result;
@@ -90,7 +90,8 @@ fn weighed(problem: &Problem, answers: &Answers, outputs: &[Output]) -> Result<V
     let Some(factor) = SharedFactor::of(problem)? else {
         return none("its linear problem has no factor");
     };
-    let of = Weighing { problem, factor, corners: corners(problem)?, answers };
+    let unseen = unseen(problem)?;
+    let of = Weighing { problem, factor, corners: corners(problem)?, answers, unseen };
     outputs.iter().map(|output| of.output(output)).collect()
 }
 
@@ -99,14 +100,35 @@ fn corners(problem: &Problem) -> Result<Vec<Problem>> {
     term::corners(&problem.scene).map(|scene| problem.with_loads_of(scene)).collect()
 }
 
+/// How much may be missed of the integrals of loads in a tick, over its total, at most: in the base and for every input what is missed has an
+/// oscillation, and the total is at least twice the sum of all.
+fn unseen(problem: &Problem) -> Result<f64> {
+    let mut most = 0.0_f64;
+    for term in 0..=problem.scene.inputs.len() {
+        let alone = problem.left_with(&[term])?;
+        if alone.loads.missed > 0.0 {
+            let oscillation = Evaluated::of_term(&alone)?.oscillation;
+            most = most.max(0.5 * alone.loads.missed / oscillation);
+        }
+    }
+    Ok(most)
+}
+
 struct Weighing<'p> {
     problem: &'p Problem,
     factor: SharedFactor,
     corners: Vec<Problem>,
     answers: &'p Answers<'p>,
+    unseen: f64,
 }
 
 impl Weighing<'_> {
+    /// What is missed of loads in an output, over the total: as much of each as z is there, and of the end that a force is measured from.
+    fn of_loads(&self, weights: &dual::Weights) -> f64 {
+        let most = weights.vertices.iter().fold(1.0_f64, |most, z| most.max(z.abs()));
+        if self.unseen == 0.0 { 0.0 } else { 2.0 * most * self.unseen }
+    }
+
     fn output(&self, output: &Output) -> Result<Weighed> {
         let (nothing, none) = (self.nothing(), |why: &str| Ok(Err(why.to_owned())));
         let answer = Answered { certified: &nothing, bound: None, scalar: ScalarKind::F64 };
@@ -163,7 +185,7 @@ impl Weighing<'_> {
                 weights.tau.fill(0.0);
                 let differ = keep(problem, goal, &contact, part, takes_least, &mut weights);
                 let rest = left(problem, goal, &contact, &weights);
-                let [total, _] = self.sizes(goal, &weights)?;
+                let total = self.sizes(goal, &weights)?[0] + self.of_loads(&weights);
                 for at in [0, 1] {
                     let found =
                         Weights { total, square: 0.5 * rest.part[at], ..Weights::default() };
@@ -211,17 +233,17 @@ impl Weighing<'_> {
         let Some(solved) = solved else {
             return Ok(Err(UNSOLVED.to_owned()));
         };
-        let [_, size] = self.sizes(goal, &solved)?;
+        let ([_, size], loads) = (self.sizes(goal, &solved)?, self.of_loads(&solved));
         let transfers = !problem.loads.robin.is_empty();
-        let (total, of_u) = (Weights { total: size, ..Weights::default() }, size);
-        Ok(if !size.is_finite() {
+        let (total, of_u) = (Weights { total: size + loads, ..Weights::default() }, size);
+        Ok(if !(size + loads).is_finite() {
             Err(UNBOUNDED.to_owned())
         } else if problem.mesh.triangles.is_empty() && !on_contact && !self.answers.are_balanced {
             Ok(total)
         } else if self.has_plain_triangles() && (self.answers.are_balanced || !transfers) {
             Ok(Weights { algebraic: size, ..total })
         } else if !transfers || problem.mesh.triangles.is_empty() {
-            Ok(Weights { of_u, ..Weights::default() })
+            Ok(Weights { total: loads, of_u, ..Weights::default() })
         } else {
             Err("a law of transfer that the answer does not meet exactly is part of it".to_owned())
         })

@@ -1,6 +1,8 @@
 //! Weights of a controller beside those on paper.
 
 use super::super::weights::{Answers, weights};
+use signorini_certify::Evaluated;
+use signorini_problem::Problem;
 use signorini_problem::fixtures::on_grid;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
@@ -42,6 +44,32 @@ fn weights_of_a_bar_are_those_of_its_resistances() -> Result<()> {
             let of_u = of_a(true)[1].clone().expect("weights").of_u;
             OUTPUT_WEIGHTS.check_relative("mean of u_h", of_u, mean);
         }
+    }
+    Ok(())
+}
+
+/// What is missed of the integrals of a source that jumps along a curve is part of what a controller says, in base and input alike.
+#[test]
+fn weights_have_what_is_missed_of_loads() -> Result<()> {
+    let jump = "sign(x^2 + y^2 - 0.3)";
+    let input =
+        format!("input.heat = {{ of = \"source\", field = \"f\", pattern = \"{jump}\" }}\n");
+    let base = BAR.replace("source.f = \"0\"", &format!("source.f = \"{jump}\""));
+    let total = |text: &str| -> Result<(Problem, f64)> {
+        let (_, problem) = on_grid(text, grid(4, Cells::Triangles))?;
+        let answers = Answers { open: &[], total: 0.0, are_balanced: true };
+        let total = weights(&problem, &answers)[0].clone().expect("weights").total;
+        Ok((problem, total))
+    };
+    let (_, plain) = total(BAR)?;
+    for text in [base, format!("{BAR}{input}")] {
+        let (problem, total) = total(&text)?;
+        let term = problem.scene.inputs.len();
+        let alone = problem.left_with(&[term])?;
+        let (missed, oscillation) = (alone.loads.missed, Evaluated::of_term(&alone)?.oscillation);
+        // z is at most 1, and so is the bound's share 2 osc.
+        assert!(missed > 0.0 && (total - plain) * 2.0 * oscillation >= missed, "{missed} {total}");
+        assert!(total < 1.1 * plain, "{total} {plain}");
     }
     Ok(())
 }

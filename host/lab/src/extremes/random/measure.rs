@@ -13,6 +13,8 @@ use super::nested::{Apart, MeshSolution, Nesting, apart};
 use super::outputs::{Asked, Intervals};
 use crate::extremes::measure::solve_directly;
 use signorini_certify::ErrorBound;
+use signorini_certify::cell::Cell;
+use signorini_certify::conductivity::Conductivity;
 use signorini_certify::exact::{Distance, distance_on};
 use signorini_certify::robin::missed;
 use signorini_intervals::Answered;
@@ -40,6 +42,8 @@ pub struct Measured {
     pub identity: Option<[f64; 2]>,
     /// Whether the gap may be above it: a condensed model has one excess of hi − lo for all edges, in the unit of its unknowns.
     pub may_exceed: bool,
+    /// The part by which rows of a condensed model are longer where A varies: what their points may miss.
+    pub widened: f64,
     /// The bound of the truth: 0 where it is exact.
     pub total: f64,
     /// How far `combined` and `of_u` may be off, where they seem above their bounds.
@@ -60,7 +64,8 @@ impl Measured {
         // |gap² − identity²| = |gap − identity| (gap + identity)
         let off = if self.may_exceed { identity - gap } else { (gap - identity).abs() };
         // In cells that are cut the gap is that of a tensor below A, and twice what A has above it is between the two at most.
-        let off = off - rounding / (gap + identity) - 2.0 * self.bound.open();
+        let open = 2.0 * self.bound.open() + self.widened * gap;
+        let off = off - rounding / (gap + identity) - open;
         (gap > ROUNDINGS * self.bound.rounding).then(|| off.max(0.0) / identity)
     }
 
@@ -176,8 +181,11 @@ impl Held<'_> {
             found.intervals = self.asked().by_exact();
             let known = self.missed()? <= RESOLVED * self.bound.duality_gap;
             found.identity = known.then_some([distance.identity, distance.rounding]);
-            found.may_exceed =
-                self.case.effort.way == Way::Condensed && problem.loads.span_excess > 0.0;
+            if self.case.effort.way == Way::Condensed {
+                found.may_exceed = problem.loads.span_excess > 0.0;
+                let missed = |at| Conductivity::of(problem, at).missed(Cell::of(problem, at))[0];
+                found.widened = (0..problem.cells()).map(missed).fold(0.0, f64::max);
+            }
         }
         Ok(found)
     }

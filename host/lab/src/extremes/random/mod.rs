@@ -21,6 +21,7 @@ mod posed;
 pub mod record;
 mod residual;
 pub mod row;
+mod spot;
 #[cfg(test)]
 mod tests;
 mod verdict;
