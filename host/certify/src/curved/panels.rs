@@ -33,6 +33,8 @@ const MOST: usize = 256;
 pub(super) const MISSING: f64 = 1e-9;
 /// Part of (∫w′²)^½ that may be missed between the points of a panel.
 const BETWEEN: f64 = 1e-4;
+/// Part of it that is nothing.
+const LITTLE: f64 = 1e-9;
 
 /// A subdivision of \[0, 1\] along an edge.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,8 +61,9 @@ impl Panels {
     pub(super) fn along(deviation: &Deviation) -> Result<Self> {
         let (mut panels, rise) = (Self::regular(), Rise::of(deviation));
         let singular = panels.bisect(&rise)?;
+        let little = LITTLE * LITTLE * rise.energy(&panels.rule())?;
         for panel in panels.all().into_iter().filter(|panel| !singular.contains(panel)) {
-            let missed = rise.between(panel, &singular, 0.0)?;
+            let missed = rise.closely(panel, &singular, little)?;
             panels.missed = sum([panels.missed, missed].into_iter());
         }
         match beyond(&rise, &singular)? {

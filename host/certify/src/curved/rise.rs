@@ -8,6 +8,9 @@ use signorini_scene::error::Result;
 /// Widths of a panel within which a singular place is beside it.
 const NEAR: f64 = 2.0;
 
+/// Parts of a panel that tell more closely what its points miss.
+const PARTS: u32 = 8;
+
 /// w along an edge, and the rule of a panel.
 pub(super) struct Rise<'a, 's> {
     pub(super) deviation: &'a Deviation<'s>,
@@ -56,23 +59,47 @@ impl<'a, 's> Rise<'a, 's> {
         let near = NEAR * (b - a);
         let is_beside = |&[low, high]: &[f64; 2]| low - near < b && a < high + near;
         match proved[0] + proved[1] > enough && singular.iter().any(is_beside) {
-            true => self.by_points(panel),
+            true => self.on_parts(panel, 2, |_| [0.0; 2]),
             false => Ok(proved),
         }
     }
 
-    /// The same from points in between.
-    fn by_points(&self, [a, b]: [f64; 2]) -> Result<[f64; 2]> {
-        let width = b - a;
+    /// The same more closely, where it is more than enough: on parts by their own points and by what is proved of these.
+    pub(super) fn closely(
+        &self,
+        panel: [f64; 2],
+        singular: &[[f64; 2]],
+        enough: f64,
+    ) -> Result<[f64; 2]> {
+        let whole = self.between(panel, singular, 0.0)?;
+        if whole[0] + whole[1] <= enough {
+            return Ok(whole);
+        }
+        let parts = self.on_parts(panel, PARTS, |part| self.deviation.missed(part))?;
+        Ok([0, 1].map(|k| whole[k].min(parts[k])))
+    }
+
+    /// ∫(w − w̃)² and ∫(w′ − w̃′)² on parts of a panel, by their points and by what these miss.
+    fn on_parts(
+        &self,
+        [a, b]: [f64; 2],
+        parts: u32,
+        missed: impl Fn([f64; 2]) -> [f64; 2],
+    ) -> Result<[f64; 2]> {
+        let (width, share) = (b - a, 1.0 / f64::from(parts));
         let known = self.rule.iter().map(|[t, _]| self.deviation.at(a + width * t));
         let known = known.collect::<Result<Vec<_>>>()?;
         let mut sum = [0.0; 2];
-        for (half, &[t, weight]) in
-            [0.0, 0.5].into_iter().flat_map(|half| self.rule.iter().map(move |of| (half, of)))
-        {
-            let t = half + 0.5 * t;
-            let (of, at) = (through(&self.rule, &known, t), self.deviation.at(a + width * t)?);
-            sum = [0, 1].map(|k| sum[k] + 0.5 * width * weight * (at[k] - of[k]).powi(2));
+        for part in 0..parts {
+            let from = share * f64::from(part);
+            let mut seen = [0.0; 2];
+            for &[t, weight] in &self.rule {
+                let t = from + share * t;
+                let (of, at) = (through(&self.rule, &known, t), self.deviation.at(a + width * t)?);
+                seen = [0, 1].map(|k| seen[k] + share * width * weight * (at[k] - of[k]).powi(2));
+            }
+            let missed = missed([from, from + share].map(|t| a + width * t));
+            sum = [0, 1].map(|k| sum[k] + (seen[k].sqrt() + missed[k].sqrt()).powi(2));
         }
         Ok(sum)
     }

@@ -71,8 +71,8 @@ fn the_bound_holds_for_any_openings() -> Result<()> {
             let certified = Certified::new(&text, mesh)?;
             let form = certified.model.certificate.as_ref().expect("a form");
             assert!(is_smooth == (form.span_excess > 0.0), "{}", form.span_excess);
-            // In the unit of energy.
-            let oscillates = form.oscillation[0] > 1e-9;
+            // In the unit of energy; what is proved of u_D between points is beside it.
+            let oscillates = form.oscillation[0] > 1e-4;
             assert_eq!(oscillates, is_smooth, "{:?}", form.oscillation);
             for (is_solution, x) in certified.trials() {
                 let [bound, combined, identity] = certified.at(&x)?;

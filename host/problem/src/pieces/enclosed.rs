@@ -5,32 +5,39 @@ use signorini_scene::expression::Expression;
 use signorini_scene::expression::enclosure::{Form, Region};
 use signorini_scene::scene::{Located, Material};
 
-use super::tensors::{scaled, tensor};
+use super::tensors::{modulus_in, scaled, sum, tensor};
 
 /// Part of a range that a form has to see in its coefficients.
 const SEEN: f64 = 0.25;
-/// A in a region, enclosed: its entries, or one function times a tensor.
+/// A in a region, enclosed: its entries, or B + eC for one function e.
 pub(super) enum Enclosed {
     Entries([Form; 3]),
-    Product(Form, Tensor<f64>),
+    Line(Form, [Tensor<f64>; 2]),
 }
 
 impl Enclosed {
     /// A of a material in a region.
     pub fn new(material: &Material, region: &Region) -> Self {
         let form = |entry: &Located<Expression>| entry.value.enclose(region, 0.0);
-        let [xx, xy, yy] = &material.conductivity;
-        match proportions(material) {
-            Some(tensor) => Self::Product(form(xx), tensor),
-            None => Self::Entries([form(xx), form(xy), form(yy)]),
+        match line(material) {
+            Some((entry, line)) => Self::Line(form(entry), line),
+            None => Self::Entries(material.conductivity.each_ref().map(form)),
         }
     }
 
-    /// The tensor of what `of` says of each form.
-    pub fn tensor(&self, of: impl Fn(&Form) -> f64) -> Tensor<f64> {
+    /// The tensor whose entries `of` says, a value of each form.
+    pub fn values(&self, of: impl Fn(&Form) -> f64) -> Tensor<f64> {
+        match self {
+            Self::Entries(_) => self.changes(of),
+            Self::Line(_, [constant, _]) => sum(constant, &self.changes(of)),
+        }
+    }
+
+    /// The tensor whose entries `of` says, a difference of values.
+    pub fn changes(&self, of: impl Fn(&Form) -> f64) -> Tensor<f64> {
         match self {
             Self::Entries(forms) => tensor(forms.each_ref().map(of)),
-            Self::Product(form, tensor) => scaled(tensor, of(form)),
+            Self::Line(form, [_, slope]) => scaled(slope, of(form)),
         }
     }
 
@@ -38,7 +45,7 @@ impl Enclosed {
     pub fn is_finite(&self) -> bool {
         match self {
             Self::Entries(forms) => forms.iter().all(Form::is_finite),
-            Self::Product(form, _) => form.is_finite(),
+            Self::Line(form, _) => form.is_finite(),
         }
     }
 
@@ -46,9 +53,12 @@ impl Enclosed {
     pub fn distance(&self, off: impl Fn(&Form) -> f64, b: &Tensor<f64>) -> Tensor<f64> {
         let rounding = 16.0 * f64::EPSILON;
         match self {
-            Self::Product(form, tensor) => match off(form) {
+            Self::Line(form, [constant, slope]) => match off(form) {
                 0.0 => Tensor::default(),
-                off => scaled(tensor, off + rounding * b.xx / tensor.xx),
+                off => {
+                    let terms = sum(b, &modulus_in(b, constant));
+                    sum(&scaled(&modulus_in(b, slope), off), &scaled(&terms, rounding))
+                }
             },
             Self::Entries(forms) => {
                 let off @ [xx, xy, yy] = forms.each_ref().map(off);
@@ -65,11 +75,14 @@ impl Enclosed {
     }
 }
 
-/// C of A = kC, k being the first entry, where the scene states all entries as numbers times one expression.
-fn proportions(material: &Material) -> Option<Tensor<f64>> {
-    let [first, xy, yy] = material.conductivity.each_ref().map(|entry| &entry.value);
-    let tensor = Tensor { xx: 1.0, xy: xy.ratio(first)?, yy: yy.ratio(first)? };
-    Some(tensor).filter(Tensor::is_positive_definite)
+/// B and C of A = B + eC, e being the first entry that varies, where the scene states all entries as numbers and numbers times one
+/// product.
+fn line(material: &Material) -> Option<(&Located<Expression>, [Tensor<f64>; 2])> {
+    let entries = &material.conductivity;
+    let first = entries.iter().find(|entry| entry.value.is_constant().is_none())?;
+    let [xx, xy, yy] = entries.each_ref().map(|entry| entry.value.linear_in(&first.value));
+    let both = [xx?, xy?, yy?];
+    Some((first, [0, 1].map(|k| tensor(both.map(|of| of[k])))))
 }
 
 /// Parts of a region along a jump or a kink of A, or across the direction in which it varies most.
@@ -81,16 +94,20 @@ pub(super) fn parts(material: &Material, region: &Region) -> Vec<Region> {
 
 /// How much A varies along the directions of a region: by its forms, where they say most of it, or by its slopes.
 fn variations(material: &Material, region: &Region) -> [f64; 3] {
-    let entries = &material.conductivity[..proportions(material).map_or(3, |_| 1)];
-    let most =
-        |of: &dyn Fn(&Located<Expression>) -> f64| entries.iter().map(of).fold(0.0, f64::max);
+    let entries: Vec<_> = match line(material) {
+        Some((entry, _)) => vec![entry],
+        None => material.conductivity.iter().collect(),
+    };
+    let most = |of: &dyn Fn(&Located<Expression>) -> f64| {
+        entries.iter().map(|at| of(at)).fold(0.0, f64::max)
+    };
     let by_form = |of: &Located<Expression>| {
         let form = of.value.enclose(region, 0.0);
         let [_, x, y, xx, xy, yy] = form.coefficients.map(f64::abs);
         let beside = (form.coefficients[1] - form.coefficients[2]).abs();
         ([x + xx, y + yy, beside + xx + xy + yy], form.range().width())
     };
-    let told = entries.iter().map(by_form).reduce(|a, b| if a.1 >= b.1 { a } else { b });
+    let told = entries.iter().map(|at| by_form(at)).reduce(|a, b| if a.1 >= b.1 { a } else { b });
     match told {
         Some((along, width)) if along.iter().sum::<f64>() > SEEN * width => along,
         _ => region

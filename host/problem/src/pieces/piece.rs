@@ -83,8 +83,8 @@ impl Piece {
 
     /// With p of degree 2, where that varies little.
     fn curved(a: &Enclosed, region: Region) -> Option<Self> {
-        let mut below = [0, 1, 2, 3, 4, 5].map(|k| a.tensor(|of| of.coefficients[k]));
-        below[0] = sum(&below[0], &a.tensor(|of| of.remainder.middle()));
+        let mut below = [0, 1, 2, 3, 4, 5].map(|k| a.changes(|of| of.coefficients[k]));
+        below[0] = a.values(|of| of.coefficients[0] + of.remainder.middle());
         let down = a.distance(|of| 0.5 * of.remainder.width(), &below[0]);
         let piece = Self::less(below, &down, region)?;
         let varies = piece.terms().map(|of| piece.size_of(&of)).sum::<f64>();
@@ -95,7 +95,7 @@ impl Piece {
     /// With a constant p; with A of the centre and an infinite ν where nothing is proved.
     fn flat(material: &Material, a: &Enclosed, region: Region) -> Self {
         let mut below = [Tensor::default(); 6];
-        below[0] = a.tensor(|of| of.range().middle());
+        below[0] = a.values(|of| of.range().middle());
         let down = a.distance(|of| 0.5 * of.range().width(), &below[0]);
         let found = Self::less(below, &down, region).filter(|_| a.is_finite());
         found.unwrap_or_else(|| {

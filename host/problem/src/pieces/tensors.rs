@@ -32,15 +32,37 @@ pub fn modulus(of: &Tensor<f64>) -> Tensor<f64> {
 
 /// The largest modulus of an eigenvalue of L⁻¹ T L⁻ᵀ, LLᵀ = `to`.
 pub fn size_in(to: &Tensor<f64>, of: &Tensor<f64>) -> f64 {
-    let first = to.xx.sqrt();
-    let slope = to.xy / to.xx;
-    let last = (to.yy - slope * to.xy).sqrt();
-    let xx = of.xx / first / first;
-    let xy = (of.xy - slope * of.xx) / first / last;
-    let yy = (of.yy - 2.0 * slope * of.xy + slope * slope * of.xx) / last / last;
+    let Tensor { xx, xy, yy } = inside(&root(to), of);
     let (half, apart) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
     let size = half.abs() + apart;
     if size.is_nan() { f64::INFINITY } else { size }
+}
+
+/// L |L⁻¹ T L⁻ᵀ| Lᵀ, which is above T and −T.
+pub fn modulus_in(to: &Tensor<f64>, of: &Tensor<f64>) -> Tensor<f64> {
+    let l @ [first, slope, last] = root(to);
+    let Tensor { xx, xy, yy } = modulus(&inside(&l, of));
+    let (below, beside) = (slope * first, last * xy);
+    Tensor {
+        xx: first * first * xx,
+        xy: first * (below * xx + beside),
+        yy: below * (below * xx + 2.0 * beside) + last * last * yy,
+    }
+}
+
+/// L of LLᵀ: its first entry, the one below over it, and the last.
+fn root(of: &Tensor<f64>) -> [f64; 3] {
+    let slope = of.xy / of.xx;
+    [of.xx.sqrt(), slope, (of.yy - slope * of.xy).sqrt()]
+}
+
+/// L⁻¹ T L⁻ᵀ
+fn inside([first, slope, last]: &[f64; 3], of: &Tensor<f64>) -> Tensor<f64> {
+    Tensor {
+        xx: of.xx / first / first,
+        xy: (of.xy - slope * of.xx) / first / last,
+        yy: (of.yy - 2.0 * slope * of.xy + slope * slope * of.xx) / last / last,
+    }
 }
 
 /// The weighted mean of tensors.

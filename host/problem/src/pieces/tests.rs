@@ -9,12 +9,19 @@ use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 
 /// Bumps and steps that 64 points of a cell do not see, waves, kinks, and an anisotropy that turns.
-const FIELDS: [[&str; 3]; 8] = [
+const FIELDS: [[&str; 3]; 10] = [
     [
         "0.3*(1 + 999*(1 + sign(x - 0.1*y)))",
         "0.2*(1 + 999*(1 + sign(x - 0.1*y)))",
         "0.4*(1 + 999*(1 + sign(x - 0.1*y)))",
     ],
+    // From diag(100, 1) to the same turned by 45°, and a quotient.
+    [
+        "100 - 49.5*(0.5 + 0.5*sign(x - 0.1*y))",
+        "49.5*(0.5 + 0.5*sign(x - 0.1*y))",
+        "1 + 49.5*(0.5 + 0.5*sign(x - 0.1*y))",
+    ],
+    ["3/(1 + 99*exp(-((x - 0.12)/0.004)^2))", "0.2", "1/(1 + 99*exp(-((x - 0.12)/0.004)^2))*2"],
     ["1 + 10*(0.5 + 0.5*sign(x - 0.002))", "0", "1 + 10*(0.5 + 0.5*sign(x - 0.002))"],
     ["1 + 1000*exp(-((x - 0.12)/0.004)^2)", "0", "1"],
     ["1 + 0.9*sin(16*x + 5*y)", "0", "2 + cos(16*x)"],

@@ -19,6 +19,7 @@ mod arithmetic;
 mod elementary;
 pub mod enclosure;
 mod lexer;
+mod linear;
 mod operation;
 mod parser;
 mod program;
@@ -175,9 +176,9 @@ impl Expression {
         Self { program: self.program.minus(subtracted), ..self.clone() }
     }
 
-    /// What this is times `to`, where both are stated as numbers times the same expression.
-    pub fn ratio(&self, to: &Self) -> Option<f64> {
-        self.program.ratio(&to.program)
+    /// c and k, where this is c + k times `to`, and both are stated as numbers and numbers times the same product.
+    pub fn linear_in(&self, to: &Self) -> Option<[f64; 2]> {
+        self.program.linear_in(&to.program)
     }
 
     /// Whether no operation of it has a kink, a jump or a pole anywhere: a polynomial, sines, exponentials.

@@ -36,7 +36,7 @@ pub(super) enum Variable {
 /// operation finds its operands on it, and one value is left at the end.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Program {
-    steps: Vec<Step>,
+    pub(super) steps: Vec<Step>,
     /// How far a constant may be off that was computed from others, at most.
     folded: f64,
 }
@@ -100,33 +100,6 @@ impl Program {
                 steps.extend([Step::Constant(factor), Step::Binary(Binary::Multiply)]);
                 Self { steps, ..*self }
             }
-        }
-    }
-
-    /// What this is times `to`, where both are numbers times the same steps.
-    pub fn ratio(&self, to: &Self) -> Option<f64> {
-        if self.value() == Some(0.0) {
-            return Some(0.0);
-        }
-        let ((own, steps), (other, same)) = (self.factored(), to.factored());
-        (steps == same && other != 0.0).then(|| own / other)
-    }
-
-    /// The number and the steps that this is a product of.
-    fn factored(&self) -> (f64, &[Step]) {
-        let (mut factor, mut rest) = (1.0, &self.steps[..]);
-        loop {
-            rest = match rest {
-                [of @ .., Step::Constant(by), Step::Binary(Binary::Multiply)] => {
-                    factor *= by;
-                    of
-                }
-                [Step::Constant(by), of @ .., Step::Binary(Binary::Multiply)] if leave_one(of) => {
-                    factor *= by;
-                    of
-                }
-                _ => return (factor, rest),
-            };
         }
     }
 
@@ -199,20 +172,6 @@ impl Program {
         }
         values
     }
-}
-
-/// Whether steps are a program of their own.
-fn leave_one(steps: &[Step]) -> bool {
-    let mut height = 0;
-    for step in steps {
-        height = match step {
-            Step::Constant(_) | Step::Variable(_) => height + 1,
-            Step::Unary(_) if height > 0 => height,
-            Step::Binary(_) if height > 1 => height - 1,
-            Step::Unary(_) | Step::Binary(_) => return false,
-        };
-    }
-    height == 1
 }
 
 /// Points at once.

@@ -177,6 +177,10 @@ impl Data {
         let (square, size) = (spot.square(&[0, 1]), random.signed_log(0.1, 3.0));
         if feature == Feature::Conductivity {
             let (shape, most) = (shape(random, &square), random.log(1.0, 1e3) / width);
+            if random.chance(0.3) {
+                self.turn_tensor(random, &shape);
+                return spot;
+            }
             let sign = random.pick(&["*", "/"]);
             self.tensor.iter_mut().for_each(|of| *of += &format!("{sign}(1+{most:e}*{shape})"));
             return spot;
@@ -190,6 +194,16 @@ impl Data {
             (_, false) => format!("{:e}*exp(-{square})", size / width.powi(2)),
         };
         spot
+    }
+
+    /// A goes from diag(p, q) to that of any other axes.
+    fn turn_tensor(&mut self, random: &mut Random, shape: &str) {
+        let [p, q, r, s] = [0; 4].map(|_| random.log(0.1, 100.0));
+        let (sin, cos) = random.between(0.0, PI).sin_cos();
+        let other =
+            [r * cos * cos + s * sin * sin, (r - s) * sin * cos, r * sin * sin + s * cos * cos];
+        let from = [p, 0.0, q];
+        self.tensor = [0, 1, 2].map(|k| format!("{:e}+{:e}*{shape}", from[k], other[k] - from[k]));
     }
 
     /// A large constant of u, or a large anisotropy and a wave across it.
