@@ -78,7 +78,99 @@ fn tail(rho: f64, power: i32) -> f64 {
     }
 }
 
-/// Sums of what panels miss.
-pub fn sum(panels: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
-    panels.fold([0.0; 2], |[w, slope], of| [w + of[0], slope + of[1]])
+/// A part of an edge, and what its own 8 points miss: ∫(w − w̃)² and ∫(w′ − w̃′)² over it, infinite where w is singular.
+#[derive(Debug, Clone, Copy)]
+pub struct Part {
+    /// From where to where.
+    pub range: [f64; 2],
+    /// What is missed.
+    pub missed: [f64; 2],
+    /// ∫w′² by the points.
+    pub energy: f64,
+}
+
+impl Part {
+    /// Whether w is singular in it, as far as anything is proved.
+    pub fn is_singular(&self) -> bool {
+        !self.missed.iter().all(|missed| missed.is_finite())
+    }
+
+    fn size(&self) -> f64 {
+        self.missed[0] + self.missed[1]
+    }
+
+    /// Whether it is right beside another one.
+    fn is_beside(&self, other: &Self) -> bool {
+        let near = NEAR * self.width();
+        other.range[0] - near < self.range[1] && self.range[0] < other.range[1] + near
+    }
+
+    fn width(&self) -> f64 {
+        self.range[1] - self.range[0]
+    }
+}
+
+/// Parts that smooth data have, all of one length.
+pub const PANELS: u32 = 4;
+/// Parts of an edge, at most; and halvings of singular ones, and of all.
+const MOST: usize = 240;
+const SINGULAR: i32 = 26;
+const HALVINGS: i32 = 50;
+/// Widths of a part within which a singular one is beside it.
+const NEAR: f64 = 2.0;
+/// Part of (∫w′²)^½ that is little.
+const LITTLE: f64 = 1e-6;
+
+/// Parts of an edge, ascending, cut where most is missed until that is little; `of` tells a part from its range, and whether it is as
+/// short as coordinates tell apart. Right beside singular parts nothing is proved: what `by_points` sees stands for it.
+pub fn parts(
+    of: impl Fn([f64; 2]) -> (Part, bool),
+    by_points: impl Fn([f64; 2]) -> [f64; 2],
+) -> Vec<Part> {
+    let share = 1.0 / f64::from(PANELS);
+    let first = (0..PANELS).map(|k| of([k, k + 1].map(|end| share * f64::from(end))));
+    let (mut open, mut done): (Vec<_>, Vec<Part>) = (first.collect(), Vec::new());
+    while open.len() + done.len() < MOST {
+        let sum = |of: fn(&Part) -> f64| -> f64 {
+            open.iter().map(|(part, _)| of(part)).sum::<f64>() + done.iter().map(of).sum::<f64>()
+        };
+        if sum(Part::size) <= LITTLE * LITTLE * sum(|part| part.energy) {
+            break;
+        }
+        let worst = (0..open.len()).max_by(|&i, &j| open[i].0.size().total_cmp(&open[j].0.size()));
+        let Some((part, is_tiny)) = worst.map(|at| open.swap_remove(at)) else { break };
+        let least = 0.5_f64.powi(if part.is_singular() { SINGULAR } else { HALVINGS });
+        if is_tiny || part.width() <= least {
+            done.push(part);
+            continue;
+        }
+        let [from, to] = part.range;
+        let middle = 0.5 * (from + to);
+        open.extend([[from, middle], [middle, to]].map(&of));
+    }
+    done.extend(open.into_iter().map(|(part, _)| part));
+    done.sort_by(|a, b| a.range[0].total_cmp(&b.range[0]));
+    let singular: Vec<Part> = done.iter().filter(|part| part.is_singular()).copied().collect();
+    let is_beside = |part: &&mut Part| singular.iter().any(|other| part.is_beside(other));
+    for part in done.iter_mut().filter(|part| !part.is_singular()).filter(is_beside) {
+        let seen = by_points(part.range);
+        part.missed = [0, 1].map(|k| part.missed[k].min(seen[k]));
+    }
+    done
+}
+
+/// The points of a rule on a part.
+pub fn on_part([from, to]: [f64; 2], rule: &[[f64; 2]]) -> impl Iterator<Item = [f64; 2]> {
+    rule.iter().map(move |[t, weight]| [from + (to - from) * t, (to - from) * weight])
+}
+
+/// The polynomials through w and w′ at the points of `rule`, at t (Lagrange).
+pub fn through(rule: &[[f64; 2]], known: &[[f64; 2]], t: f64) -> [f64; 2] {
+    let mut sum = [0.0; 2];
+    for (at, ([own, _], values)) in rule.iter().zip(known).enumerate() {
+        let others = rule.iter().enumerate().filter(|(other, _)| *other != at);
+        let factor: f64 = others.map(|(_, [other, _])| (t - other) / (own - other)).product();
+        sum = [0, 1].map(|k| sum[k] + factor * values[k]);
+    }
+    sum
 }

@@ -1,8 +1,10 @@
 //! Where ψ or u_D leaves its chord: w(t) = data − chord of the end values, t along the edge.
 
+use std::sync::OnceLock;
+
 use signorini_kernel::Real;
 
-use super::between::{missed, sum};
+use super::between::{PANELS, Part, missed, on_part, parts, through};
 use super::cell::{Jet, Local};
 use super::ends::Ends;
 use super::energy::{CellEnergy, Sample};
@@ -41,6 +43,7 @@ pub struct Deviation<'s> {
     ends: [f64; 2],
     /// Size of the constant that was taken from all data.
     level: f64,
+    parts: OnceLock<Vec<Part>>,
 }
 
 /// The edges whose data are not affine.
@@ -68,12 +71,15 @@ impl<'s> Deviations<'s> {
             let data = Sum::on_edge(problem, edge, field, time);
             let segment = problem.segment(edge);
             let Some(data) = data.filter(|data| data.constant().is_none()) else { continue };
-            let deviation = Deviation { edge, data, segment, ends, level: problem.units.level() };
+            let (level, parts) = (problem.units.level(), OnceLock::new());
+            let deviation = Deviation { edge, data, segment, ends, level, parts };
             let root = match deviation.samples(plain)? {
                 Some(samples) => {
-                    let ends = |k: u32| [k, k + 1].map(|end| f64::from(end) / f64::from(LOOKS));
-                    let between = (0..LOOKS).map(|k| deviation.missed(ends(k)));
-                    energy.of_extension(side, &samples) + energy.of_missed(side, sum(between))
+                    let missed = deviation
+                        .parts()
+                        .iter()
+                        .fold([0.0; 2], |sum, part| [0, 1].map(|k| sum[k] + part.missed[k]));
+                    energy.of_extension(side, &samples) + energy.of_missed(side, missed)
                 }
                 None => f64::INFINITY,
             };
@@ -160,16 +166,40 @@ impl Deviation<'_> {
         self.data.rounding_at(self.place(t), PLACES * extent(self.segment))
     }
 
-    /// What 8 points of a panel miss at most: ∫(w − w̃)² and ∫(w′ − w̃′)² over it (`between`).
-    pub fn missed(&self, [from, to]: [f64; 2]) -> [f64; 2] {
-        let [a, b] = self.segment;
-        let panel = Region::segment([self.place(from), self.place(to)]);
-        missed(&self.data, &panel, [0, 1].map(|k| b[k] - a[k]), to - from)
+    /// Parts of the edge in which little is missed, or w is singular.
+    pub fn parts(&self) -> &[Part] {
+        self.parts.get_or_init(|| {
+            let [a, b] = self.segment;
+            let direction = [0, 1].map(|k| b[k] - a[k]);
+            let of = |range @ [from, to]: [f64; 2]| {
+                let region = Region::segment(range.map(|t| self.place(t)));
+                let missed = missed(&self.data, &region, direction, to - from);
+                (Part { range, missed, energy: self.energy(range) }, region.is_tiny())
+            };
+            parts(of, |range| self.seen(range))
+        })
     }
 
-    /// Whether a panel is so short that coordinates hardly tell its ends apart.
-    pub fn is_tiny(&self, panel: [f64; 2]) -> bool {
-        Region::segment(panel.map(|t| self.place(t))).is_tiny()
+    /// ∫(w − w̃)² and ∫(w′ − w̃′)² over a part, by the points of its halves; those that are singular see nothing.
+    fn seen(&self, range @ [from, to]: [f64; 2]) -> [f64; 2] {
+        let (rule, middle) = (f64::GAUSS[DATA_POINTS - 1], 0.5 * (from + to));
+        let at = |[t, _]: [f64; 2]| self.at(t).unwrap_or_default();
+        let known: Vec<_> = on_part(range, rule).map(at).collect();
+        let halves =
+            [[from, middle], [middle, to]].into_iter().flat_map(|half| on_part(half, rule));
+        halves.fold([0.0; 2], |sum, [t, weight]| {
+            let (own, of) = (at([t, weight]), through(rule, &known, (t - from) / (to - from)));
+            [0, 1].map(|k| sum[k] + weight * (own[k] - of[k]).powi(2))
+        })
+    }
+
+    /// ∫w′² over a part by its points; singular ones have none.
+    fn energy(&self, [from, to]: [f64; 2]) -> f64 {
+        let square = |&[t, weight]: &[f64; 2]| {
+            let slope = self.at(from + (to - from) * t).map_or(0.0, |[_, slope]| slope);
+            (to - from) * weight * slope * slope
+        };
+        f64::GAUSS[DATA_POINTS - 1].iter().map(square).sum()
     }
 
     /// Second differences of w, which rounding that follows the data in steps shows as well, and first ones of w′ at once beside
@@ -186,10 +216,15 @@ impl Deviation<'_> {
         found.get(found.len() / 2).copied().filter(|noise| noise.is_finite()).unwrap_or(0.0)
     }
 
-    /// w and w′ at the points of some panels. `None` where w is far above rounding, or singular.
+    /// w and w′ at the points of some panels, or of the parts where these are more. `None` where w is far above rounding, or singular.
     fn samples(&self, plain: f64) -> Result<Option<Vec<Sample>>> {
         let mut samples = Vec::new();
-        for [t, weight] in on_panels(LOOKS, f64::GAUSS[DATA_POINTS - 1]) {
+        let rule = f64::GAUSS[DATA_POINTS - 1];
+        let points = match self.parts() {
+            parts if parts.len() == PANELS as usize => on_panels(LOOKS, rule),
+            parts => parts.iter().flat_map(|part| on_part(part.range, rule)).collect(),
+        };
+        for [t, weight] in points {
             let [w, slope] = self.at(t)?;
             if w.abs() > plain {
                 return Ok(None);

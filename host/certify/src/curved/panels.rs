@@ -16,25 +16,21 @@
 use super::POINTS;
 use super::rise::Rise;
 use super::singular::{Rough, beyond};
-use crate::between::sum;
+pub use crate::between::PANELS;
 use crate::deviation::Deviation;
 use signorini_problem::quadrature::gauss;
 use signorini_scene::error::Result;
 
-/// Panels to begin with: smooth data need no more.
-pub const PANELS: u32 = 4;
 /// Most bisections of a panel: those of singular places, those in which a rise is not found, and all.
 const SINGULAR: u32 = 24;
 const RISING: u32 = 24;
 const LEVELS: u32 = 48;
 /// Most panels: data that are rough everywhere are integrated by as many, and no finer.
-const MOST: usize = 256;
+const MOST: usize = 128;
 /// Largest part of a rise that may be missing.
 pub(super) const MISSING: f64 = 1e-9;
 /// Part of (∫w′²)^½ that may be missed between the points of a panel.
 const BETWEEN: f64 = 1e-4;
-/// Part of it that is nothing.
-const LITTLE: f64 = 1e-9;
 
 /// A subdivision of \[0, 1\] along an edge.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,49 +56,41 @@ impl Panels {
     /// Data that are not finite.
     pub(super) fn along(deviation: &Deviation) -> Result<Self> {
         let (mut panels, rise) = (Self::regular(), Rise::of(deviation));
-        let singular = panels.bisect(&rise)?;
-        let little = LITTLE * LITTLE * rise.energy(&panels.rule())?;
-        for panel in panels.all().into_iter().filter(|panel| !singular.contains(panel)) {
-            let missed = rise.closely(panel, &singular, little)?;
-            panels.missed = sum([panels.missed, missed].into_iter());
+        panels.bisect(&rise)?;
+        let all = panels.all().into_iter().map(|panel| rise.between(panel));
+        let all = all.collect::<Result<Vec<_>>>()?;
+        for missed in all.into_iter().filter(|missed| missed[1].is_finite()) {
+            panels.missed = [0, 1].map(|k| panels.missed[k] + missed[k]);
         }
-        match beyond(&rise, &singular)? {
+        match beyond(&rise)? {
             Ok(energy) => panels.missed[1] += energy,
             Err(rough) => panels.rough = Some(rough),
         }
         Ok(panels)
     }
 
-    /// Bisects the panels that are too coarse; what is left are those in which w is singular.
-    fn bisect(&mut self, rise: &Rise) -> Result<Vec<[f64; 2]>> {
-        let rounding = rise.deviation.rounding();
-        let is_singular = |panel: &[f64; 2]| !is_finite(&rise.deviation.missed(*panel));
-        let (mut open, mut left) = (self.all(), Vec::new());
-        for level in 0..=LEVELS {
+    /// Bisects the panels that are too coarse.
+    fn bisect(&mut self, rise: &Rise) -> Result<()> {
+        let (mut open, rounding) = (self.all(), rise.deviation.rounding());
+        for level in 0..LEVELS {
             let size = rise.energy(&self.rule())?.sqrt();
             let [tolerance, enough] = [MISSING, BETWEEN].map(|part| (part * size).max(rounding));
-            let enough = enough * enough;
-            let (singular, others): (Vec<_>, Vec<_>) = open.into_iter().partition(is_singular);
-            let is_tiny = |panel: &[f64; 2]| rise.deviation.is_tiny(*panel);
-            let (tiny, mut coarse): (Vec<_>, Vec<_>) =
-                singular.iter().partition(|panel| level >= SINGULAR || is_tiny(panel));
-            left.extend(tiny);
-            let all = [&left[..], &singular].concat();
-            for panel in others {
-                let [w, slope] = rise.between(panel, &all, enough)?;
-                let is_fine = w + slope <= enough || level >= LEVELS || is_tiny(&panel);
+            let mut coarse = Vec::new();
+            for panel in open {
+                let missed = rise.between(panel)?;
+                let is_fine = missed[0] + missed[1] <= enough * enough
+                    || !missed[1].is_finite() && level >= SINGULAR;
                 if !is_fine || level < RISING && !rise.is_found(panel, tolerance)? {
                     coarse.push(panel);
                 }
             }
             if coarse.is_empty() || self.ends.len() + coarse.len() > MOST {
-                left.extend(coarse.into_iter().filter(is_singular));
                 break;
             }
             open = coarse.iter().flat_map(halves).collect();
             *self = self.clone().with(&coarse.iter().map(middle).collect::<Vec<_>>());
         }
-        Ok(left)
+        Ok(())
     }
 
     fn all(&self) -> Vec<[f64; 2]> {
@@ -131,7 +119,7 @@ impl Panels {
 
     /// With their middles added, unless they are many: data that are rough everywhere gain nothing.
     pub(super) fn halved(self) -> Self {
-        if self.ends.len() > MOST / 4 {
+        if self.ends.len() > MOST / 2 {
             return self;
         }
         let middles: Vec<f64> =
@@ -146,10 +134,6 @@ impl Panels {
         self.ends.dedup();
         self
     }
-}
-
-fn is_finite(missed: &[f64; 2]) -> bool {
-    missed.iter().all(|missed| missed.is_finite())
 }
 
 fn middle([a, b]: &[f64; 2]) -> f64 {

@@ -25,9 +25,10 @@ const DECAY: f64 = 0.96;
 /// ∫w′² nearer to a singular place than all panels, or why it is infinite.
 ///
 /// The places are those of `open`, panels on which w′ is not bounded.
-pub(super) fn beyond(rise: &Rise, open: &[[f64; 2]]) -> Result<std::result::Result<f64, Rough>> {
+pub(super) fn beyond(rise: &Rise) -> Result<std::result::Result<f64, Rough>> {
     let (mut sum, deviation) = (0.0, rise.deviation);
-    for [low, high] in clusters(open) {
+    let singular = deviation.parts().iter().filter(|part| part.is_singular());
+    for [low, high] in clusters(singular.map(|part| part.range)) {
         let place = match (low == 0.0, high == 1.0) {
             (true, _) => 0.0,
             (_, true) => 1.0,
@@ -59,9 +60,7 @@ pub(super) fn beyond(rise: &Rise, open: &[[f64; 2]]) -> Result<std::result::Resu
 }
 
 /// Neighbouring panels taken together.
-fn clusters(open: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let mut open = open.to_vec();
-    open.sort_by(|a, b| a[0].total_cmp(&b[0]));
+fn clusters(open: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
     let mut found: Vec<[f64; 2]> = Vec::new();
     for [low, high] in open {
         match found.last_mut() {
