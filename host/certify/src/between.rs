@@ -14,16 +14,19 @@ use signorini_scene::expression::enclosure::{Form, Region};
 
 /// Ellipses around a panel, by ρ, that are tried.
 const ELLIPSES: [f64; 4] = [16.0, 64.0, 5.5, 2.5];
-/// Part of the modulus beyond which no ellipse is tried: rounding.
-const ROUNDING: f64 = 1e-13;
+/// Part of the modulus below which no more is tried.
+const NOTHING: f64 = 1e-9;
 
 /// ∫(w − w̃)² and ∫(w′ − w̃′)² at most, over a panel of such a width in t, of data that run along `direction` while t grows by 1.
 pub fn missed(data: &Sum, panel: &Region, direction: [f64; 2], width: f64) -> [f64; 2] {
     if data.degree() < DATA_POINTS as f64 {
         return [0.0; 2];
     }
-    let [w, slope] = by_ellipses(|rho| data.bend(panel, rho));
-    let [of_w, of_slope] = data.enclose_slope(panel, direction).each_ref().map(by_form);
+    let (size, [w, slope]) = by_ellipses(|rho| data.bend(panel, rho));
+    let [of_w, of_slope] = match slope.is_finite() && slope <= NOTHING * size {
+        true => [f64::INFINITY; 2],
+        false => data.enclose_slope(panel, direction).each_ref().map(by_form),
+    };
     [w.min(of_w), (slope * 2.0 / width).min(of_slope)].map(|most| square(most, width))
 }
 
@@ -32,7 +35,7 @@ pub fn value_missed(data: &Sum, panel: &Region, width: f64) -> f64 {
     if data.degree() < DATA_POINTS as f64 {
         return 0.0;
     }
-    let [most, _] = by_ellipses(|rho| data.bend(panel, rho));
+    let (_, [most, _]) = by_ellipses(|rho| data.bend(panel, rho));
     square(most.min(by_form(&data.enclose(panel))), width)
 }
 
@@ -45,18 +48,19 @@ fn square(most: f64, width: f64) -> f64 {
     4.0 * width * most * most
 }
 
-/// max |w − p| and max |dw/dξ − p|, ξ from −1 to 1, from the modulus of w less a linear function.
-fn by_ellipses(bend: impl Fn(f64) -> f64) -> [f64; 2] {
-    let mut most = [f64::INFINITY; 2];
+/// The modulus of w less a linear function in some ellipse, max |w − p| and max |dw/dξ − p|, ξ from −1 to 1.
+fn by_ellipses(bend: impl Fn(f64) -> f64) -> (f64, [f64; 2]) {
+    let (mut least, mut most) = (f64::INFINITY, [f64::INFINITY; 2]);
     for rho in ELLIPSES {
         let size = 2.0 * bend(rho);
         let found = [size * tail(rho, 0), size * tail(rho, 2)];
         most = [0, 1].map(|k| if found[k] < most[k] { found[k] } else { most[k] });
-        if most[1] <= ROUNDING * size {
+        least = least.min(size);
+        if most[1] <= NOTHING * least {
             break;
         }
     }
-    most
+    (least, most)
 }
 
 /// max |w − p| with the parabola of a form.
@@ -113,13 +117,13 @@ impl Part {
 /// Parts that smooth data have, all of one length.
 pub const PANELS: u32 = 4;
 /// Parts of an edge, at most; and halvings of singular ones, and of all.
-const MOST: usize = 240;
+const MOST: usize = 128;
 const SINGULAR: i32 = 26;
 const HALVINGS: i32 = 50;
 /// Widths of a part within which a singular one is beside it.
 const NEAR: f64 = 2.0;
 /// Part of (∫w′²)^½ that is little.
-const LITTLE: f64 = 1e-6;
+const LITTLE: f64 = 1e-5;
 
 /// Parts of an edge, ascending, cut where most is missed until that is little; `of` tells a part from its range, and whether it is as
 /// short as coordinates tell apart. Right beside singular parts nothing is proved: what `by_points` sees stands for it.
