@@ -65,6 +65,14 @@ impl Evaluated {
         Self::with(problem, Ends::moved_on_dirichlet, true)
     }
 
+    /// The same where rows of integrals see any transfer coefficient.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn of_rows(problem: &Problem) -> Result<Self> {
+        Self::with(problem, Ends::moved_on_dirichlet, false)
+    }
+
     fn with(problem: &Problem, moved: fn(&Ends, &Problem) -> f64, is_baked: bool) -> Result<Self> {
         let time = problem.time;
         let ends = Ends::at_time(problem, time)?;

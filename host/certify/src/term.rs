@@ -82,9 +82,13 @@ pub fn full_terms(problem: &Problem) -> Result<Vec<TermData>> {
 /// # Errors
 /// Data that are not finite.
 pub fn condensed_terms(problem: &Problem) -> Result<Vec<TermData>> {
+    let of_term = match problem.scene.inputs.iter().any(changes_transfer) {
+        true => Evaluated::of_term,
+        false => Evaluated::of_rows,
+    };
     let term = |term: Term| {
         let alone = problem.left_with(&[term])?;
-        let data = Evaluated::of_term(&alone)?;
+        let data = of_term(&alone)?;
         TermData::new(problem, term, alone, data)
     };
     (0..=problem.scene.inputs.len()).map(term).collect()

@@ -50,6 +50,12 @@ impl EdgePoint {
     pub fn seen(t: f64, weight: f64, h: f64, ambient: f64) -> Self {
         Self { t, weight, h, between: [h; 2], ambient }
     }
+
+    /// N′ = min(1, N/H⁻) N, N being what H may have above H⁻.
+    pub fn above(&self) -> f64 {
+        let [low, high] = self.between;
+        ((high - low) / low).min(1.0) * (high - low)
+    }
 }
 
 /// The points of the parts of an edge; nothing where its own 8 points see its coefficient.
@@ -108,11 +114,11 @@ pub fn forms(problem: &Problem) -> Result<Vec<TransferForm<f64, u32>>> {
 fn form(law: u32, points: &[EdgePoint]) -> TransferForm<f64, u32> {
     let mut form = TransferForm { law, ..TransferForm::default() };
     for at in points {
-        let [low, more] = [at.between[0], at.between[1] - at.between[0]];
+        let low = at.between[0];
         let compliance = if low > 0.0 { at.weight / low } else { f64::INFINITY };
         form.compliance += (1.0 + MISSED_OF_COMPLIANCE) * compliance;
         add(&mut form.below, at, low);
-        add(&mut form.above, at, (more / low).min(1.0) * more);
+        add(&mut form.above, at, at.above());
         form.mean += at.weight * at.ambient;
     }
     form

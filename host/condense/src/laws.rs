@@ -12,11 +12,14 @@ use signorini_kernel::mesh::boundary::Robin;
 use super::block::{Block, Functions};
 use signorini_certify::TermData;
 use signorini_certify::robin::{RobinPoints, robin};
+use signorini_certify::transfer_points::{EdgePoint, MISSED_BETWEEN, unseen};
 use signorini_problem::Problem;
 use signorini_problem::quadrature::DATA_POINTS;
 use signorini_problem::triangular::triangular;
 use signorini_scene::error::Result;
 
+/// m of a transfer coefficient that 8 points do not see.
+const OPEN: f64 = 0.01;
 /// Points along an edge with their weights.
 const RULE: &[[f64; 2]] = f64::GAUSS[DATA_POINTS - 1];
 
@@ -84,23 +87,51 @@ pub(super) fn of_law(
     of_edge(problem, edge, functions, (mean_of_u, ambient.len()), points)
 }
 
-/// The rows of a Robin edge: `ambient` holds \[h |E|, u_ext\] at its points for each pattern. Where h is
-/// 0 the flux is, and there is nothing to add.
+/// The points of a transfer edge for each pattern: those of its parts where 8 points do not see h.
+///
+/// # Errors
+/// Data that are not finite.
+pub(super) fn points_of(
+    patterns: &[TermData],
+    edge: usize,
+    ambient: &[RobinPoints],
+) -> Result<Vec<Vec<EdgePoint>>> {
+    let own = |points: &RobinPoints| {
+        let seen =
+            |(&[t, weight], &[h, u]): (&[f64; 2], &[f64; 2])| EdgePoint::seen(t, weight, h, u);
+        RULE.iter().zip(points).map(seen).collect::<Vec<_>>()
+    };
+    let of = |(pattern, points): (&TermData, &RobinPoints)| {
+        Ok(unseen(&pattern.problem, edge)?.unwrap_or_else(|| own(points)))
+    };
+    patterns.iter().zip(ambient).map(of).collect()
+}
+
+/// The rows of a Robin edge: `ambient` holds its points for each pattern. Where h is
+/// 0 the flux is, and there is nothing to add. Between two parabolas, with m the part that is left open,
+/// ```text
+///   ∫(τ·n + h(s − u_ext))²/h ≤ (1 + m) ∫(τ·n + h⁻(s − u_ext))²/h⁻ + (1 + 1/m) ∫N′(s − u_ext)²      (TransferForm)
+/// ```
 pub(super) fn of_robin(
     problem: &Problem,
     edge: usize,
     functions: &Functions,
-    ambient: &[RobinPoints],
+    ambient: &[Vec<EdgePoint>],
 ) -> Block {
-    let transfer = |at: usize| ambient.first().map_or(0.0, |points| points[at][0]);
-    let at_point = |at: usize, weight: f64| {
-        let root = (weight * transfer(at)).sqrt();
-        let given = ambient.iter().map(|points| -root * points[at][1]);
-        (root, root / transfer(at), given.collect())
+    let points = ambient.first().map_or(&[][..], |points| points);
+    let is_open = points.iter().any(|at| at.above() > 0.0);
+    let more = if is_open { (1.0 + OPEN) * (1.0 + MISSED_BETWEEN).powi(2) } else { 1.0 };
+    let row = |at: usize, square: f64, of_taken: f64| {
+        let root = (points[at].weight * square).sqrt();
+        let given = ambient.iter().map(|all| -root * all[at].ambient);
+        (points[at].t, (root, root * of_taken, given.collect()))
     };
-    let points = RULE.iter().enumerate().filter(|(at, _)| transfer(*at) > 0.0);
-    let points = points.map(|(at, &[t, weight])| (t, at_point(at, weight)));
-    of_edge(problem, edge, functions, (edge as u32, ambient.len()), points)
+    let rows = (0..points.len()).filter(|&at| points[at].between[0] > 0.0).flat_map(|at| {
+        let [low, above] = [points[at].between[0], points[at].above()];
+        let open = (1.0 + 1.0 / OPEN) * above;
+        [Some(row(at, more * low, 1.0 / low)), is_open.then(|| row(at, open, 0.0))]
+    });
+    of_edge(problem, edge, functions, (edge as u32, ambient.len()), rows.flatten())
 }
 
 /// Rows that weigh s along an edge against one number of it, `taken`. Of each point t there are the factor of s, that of the

@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 
 use super::block::{Block, Functions};
 use super::chain::is_left_out;
-use super::laws::{Laws, of_law, of_robin, transfer};
+use super::laws::{Laws, of_law, of_robin, points_of, transfer};
 use signorini_certify::TermData;
 use signorini_certify::cell::{Cell, Local};
 use signorini_certify::conductivity::Conductivity;
@@ -44,7 +44,7 @@ pub(super) fn blocks(
         let edge = record.edge as usize;
         blocks.push(match laws.is_some_and(|laws| laws.shares[at] > 0.0) {
             true => of_law(problem, edge, functions, &ambient, record.coefficient),
-            false => of_robin(problem, edge, functions, &ambient),
+            false => of_robin(problem, edge, functions, &points_of(patterns, edge, &ambient)?),
         });
     }
     Ok(blocks)

@@ -7,6 +7,7 @@ mod limits_bound;
 mod limits_same;
 mod modes;
 mod rejected;
+mod transfer;
 
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;

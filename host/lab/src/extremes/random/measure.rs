@@ -42,8 +42,8 @@ pub struct Measured {
     pub identity: Option<[f64; 2]>,
     /// Whether the gap may be above it: a condensed model has one excess of hi − lo for all edges, in the unit of its unknowns.
     pub may_exceed: bool,
-    /// The part by which rows of a condensed model are longer where A varies: what their points may miss.
-    pub widened: f64,
+    /// The part of the gap that points may miss where A varies: the total has it, and rows of condensed models.
+    pub unseen: f64,
     /// The bound of the truth: 0 where it is exact.
     pub total: f64,
     /// How far `combined` and `of_u` may be off, where they seem above their bounds.
@@ -64,7 +64,7 @@ impl Measured {
         // |gap² − identity²| = |gap − identity| (gap + identity)
         let off = if self.may_exceed { identity - gap } else { (gap - identity).abs() };
         // In cells that are cut the gap is that of a tensor below A, and twice what A has above it is between the two at most.
-        let open = 2.0 * self.bound.open() + self.widened * gap;
+        let open = 2.0 * self.bound.open() + self.unseen * gap;
         let off = off - rounding / (gap + identity) - open;
         (gap > ROUNDINGS * self.bound.rounding).then(|| off.max(0.0) / identity)
     }
@@ -181,11 +181,10 @@ impl Held<'_> {
             found.intervals = self.asked().by_exact();
             let known = self.missed()? <= RESOLVED * self.bound.duality_gap;
             found.identity = known.then_some([distance.identity, distance.rounding]);
-            if self.case.effort.way == Way::Condensed {
-                found.may_exceed = problem.loads.span_excess > 0.0;
-                let missed = |at| Conductivity::of(problem, at).missed(Cell::of(problem, at))[0];
-                found.widened = (0..problem.cells()).map(missed).fold(0.0, f64::max);
-            }
+            found.may_exceed =
+                self.case.effort.way == Way::Condensed && problem.loads.span_excess > 0.0;
+            let missed = |at| Conductivity::of(problem, at).missed(Cell::of(problem, at))[0];
+            found.unseen = (0..problem.cells()).map(missed).fold(0.0, f64::max);
         }
         Ok(found)
     }
@@ -237,8 +236,8 @@ impl Held<'_> {
         let most = [self.bound.total + its.total, self.bound.of_u + its.total];
         let is_above = |of: &Apart| of.combined > most[0] || of.of_u > most[1];
         let (mut found, mut uncertain) = (Apart::default(), [0.0; 2]);
-        // A mesh that is cut resolves its data.
-        let rules = if nesting.cut.is_some() { &RULES[..2] } else { &RULES };
+        // A mesh that is cut resolves its data, but not what narrow ones of an edge make of s inside.
+        let rules = if nesting.cut.is_some() { &RULES[..3] } else { &RULES };
         for &(panels, points) in rules {
             let rule = on_panels(panels, &gauss(points));
             let next = apart(&own, &fine, &nesting, &rule)?;
