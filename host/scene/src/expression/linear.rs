@@ -19,7 +19,8 @@ impl Program {
         }
         let [own, to] = [self, to].map(|program| Linear::new(&program.steps));
         let slope = own.factor / to.factor;
-        (own.of == to.of && slope.is_finite()).then(|| [own.constant - slope * to.constant, slope])
+        (own.of == to.of && slope.is_finite())
+            .then_some([own.constant - slope * to.constant, slope])
     }
 }
 
