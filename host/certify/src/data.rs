@@ -10,7 +10,7 @@ use super::imbalance::carried;
 use super::no_bound::NoBound;
 use super::oscillation::{Oscillation, oscillation};
 use super::robin::{RobinPoints, robin};
-use super::transfer_points::forms;
+use super::transfer_points::{Along, forms};
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Assembled, Problem};
 use signorini_scene::error::Result;
@@ -53,7 +53,7 @@ impl Evaluated {
     /// # Errors
     /// Data that are not finite.
     pub fn new(problem: &Problem) -> Result<Self> {
-        Self::with(problem, Ends::moved, false)
+        Self::with(problem, Ends::moved, Along::Parts)
     }
 
     /// Data of one term of a sum. A term may break what the sum has to meet: where u_D is on a side of ψ that does not exist, the caller that
@@ -62,7 +62,7 @@ impl Evaluated {
     /// # Errors
     /// Data that are not finite.
     pub fn of_term(problem: &Problem) -> Result<Self> {
-        Self::with(problem, Ends::moved_on_dirichlet, true)
+        Self::with(problem, Ends::moved_on_dirichlet, Along::Points)
     }
 
     /// The same where rows of integrals see any transfer coefficient.
@@ -70,17 +70,17 @@ impl Evaluated {
     /// # Errors
     /// Data that are not finite.
     pub fn of_rows(problem: &Problem) -> Result<Self> {
-        Self::with(problem, Ends::moved_on_dirichlet, false)
+        Self::with(problem, Ends::moved_on_dirichlet, Along::Parts)
     }
 
-    fn with(problem: &Problem, moved: fn(&Ends, &Problem) -> f64, is_baked: bool) -> Result<Self> {
+    fn with(problem: &Problem, moved: fn(&Ends, &Problem) -> f64, along: Along) -> Result<Self> {
         let time = problem.time;
         let ends = Ends::at_time(problem, time)?;
         let curved_edges = curved_edges(problem, time)?;
         // s is off by that much, and once more where u_h is compared with it.
         let left_out = 2.0 * (curved_edges.left_out + moved(&ends, problem));
         let curved = curved_edges.records;
-        let Oscillation { of_cells, unresolved, pole } = oscillation(problem)?;
+        let Oscillation { of_cells, unresolved, pole } = oscillation(problem, along)?;
         let norm =
             |all: &mut dyn Iterator<Item = f64>| all.map(|osc| osc * osc).sum::<f64>().sqrt();
         let whole = norm(&mut of_cells.iter().copied());
@@ -88,8 +88,8 @@ impl Evaluated {
             norm(&mut of_cells.iter().zip(&unresolved).map(|(all, missed)| all - missed));
         let transfer = robin(problem, time)?;
         let rough = pole.map(|(field, at, is_proved)| NoBound::not_square(field, at, is_proved));
-        let forms = forms(problem)?;
-        let unseen = || NoBound::transfer_unseen(problem, &forms, is_baked);
+        let forms = forms(problem, along)?;
+        let unseen = || NoBound::transfer_unseen(problem, &forms, along);
         let no_bound = rough.or_else(|| NoBound::of_data(problem, &ends, &curved)).or_else(unseen);
         let (carried, no_way) = match carried(problem) {
             Ok(carried) => (carried, None),

@@ -7,6 +7,7 @@ use signorini_bound::certificate::{TransferForm, Verdict};
 use super::cell::Cell;
 use super::curved::{Curved, Rough};
 use super::ends::Ends;
+use super::transfer_points::Along;
 use signorini_problem::pieces::Pieces;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Problem, excess_within_ranges};
@@ -88,9 +89,10 @@ impl NoBound {
     pub(super) fn transfer_unseen(
         problem: &Problem,
         forms: &[TransferForm<f64, u32>],
-        is_baked: bool,
+        along: Along,
     ) -> Option<Self> {
-        let vanishes = |form: &&TransferForm<f64, u32>| is_baked || !form.compliance.is_finite();
+        let vanishes =
+            |form: &&TransferForm<f64, u32>| along == Along::Points || !form.compliance.is_finite();
         let form = forms.iter().find(vanishes)?;
         let edge = problem.loads.robin.get(form.law as usize)?.edge as usize;
         let (name, place) = (boundary(problem, edge), middle(problem, edge));

@@ -82,13 +82,9 @@ pub fn full_terms(problem: &Problem) -> Result<Vec<TermData>> {
 /// # Errors
 /// Data that are not finite.
 pub fn condensed_terms(problem: &Problem) -> Result<Vec<TermData>> {
-    let of_term = match problem.scene.inputs.iter().any(changes_transfer) {
-        true => Evaluated::of_term,
-        false => Evaluated::of_rows,
-    };
     let term = |term: Term| {
         let alone = problem.left_with(&[term])?;
-        let data = of_term(&alone)?;
+        let data = Evaluated::of_rows(&alone)?;
         TermData::new(problem, term, alone, data)
     };
     (0..=problem.scene.inputs.len()).map(term).collect()
@@ -112,7 +108,7 @@ impl TermData {
     /// Data that are not finite.
     pub fn silent(problem: &Problem) -> Result<Self> {
         let alone = problem.left_with(&[])?;
-        let data = Evaluated::of_term(&alone)?;
+        let data = Evaluated::of_rows(&alone)?;
         Ok(Self::of(alone, data, Vec::new()))
     }
 

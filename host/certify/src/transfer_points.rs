@@ -1,5 +1,5 @@
 //! Transfer coefficients that the 8 points of an edge do not see: on parts of it h lies between two parabolas;
-//! what the kernel makes of it is said at [`TransferForm`]. A part is halved until both are a thousandth apart, or it is 2⁻²⁴ of the edge
+//! what the kernel makes of it is said at [`TransferForm`]. A part is halved until both are 1e−4 apart, or it is 2⁻²⁴ of the edge
 //! long, or there are 4096 points.
 
 use signorini_bound::certificate::{Square, TransferForm};
@@ -10,8 +10,24 @@ use signorini_scene::error::Result;
 use signorini_scene::expression::enclosure::{Interval, Region};
 use signorini_scene::scene::Field;
 
-/// Part of an integral that points may miss: a hundredth of the norm.
-const MISSED: f64 = 1e-4;
+/// Who integrates along transfer edges.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Along {
+    /// The desk: along parts where points of the edge miss 1e−8 of an integral, a ten-thousandth of the norm.
+    Parts,
+    /// Firmware: by 8 points of the edge, which may miss 1e−4.
+    Points,
+}
+
+impl Along {
+    fn missed(self) -> f64 {
+        match self {
+            Self::Parts => 1e-8,
+            Self::Points => 1e-4,
+        }
+    }
+}
+
 /// By how much h may vary along an edge that points see: ∫(τ·n)²/h is beyond them where it nearly vanishes.
 const VARYING: f64 = 10.0;
 /// Halvings of an edge.
@@ -23,7 +39,7 @@ const ROUNDED: f64 = 1e-14;
 /// Part of its terms that a sum may leave which is nothing.
 const ROUNDING: f64 = 1e-12;
 /// By how much h may vary in a part, and leave its parabola.
-const SMOOTH: [f64; 2] = [0.1, 1e-3];
+const SMOOTH: [f64; 2] = [0.1, 1e-4];
 /// Part of the root of an integral over a part that its 8 points miss: η⁴ of a parabola that varies by η = 0.05 (`pieces`), and η⁸ of ∫1/H.
 pub const MISSED_BETWEEN: f64 = 1e-5;
 const MISSED_OF_COMPLIANCE: f64 = 1e-10;
@@ -62,7 +78,7 @@ impl EdgePoint {
 ///
 /// # Errors
 /// Data that are not finite.
-pub fn unseen(problem: &Problem, edge: usize) -> Result<Option<Vec<EdgePoint>>> {
+pub fn unseen(problem: &Problem, edge: usize, along: Along) -> Result<Option<Vec<EdgePoint>>> {
     let Some(h) = Sum::transfer(problem, edge, problem.time) else { return Ok(None) };
     let Some(ambient) = Sum::on_edge(problem, edge, Field::Ambient, problem.time) else {
         return Ok(None);
@@ -70,23 +86,23 @@ pub fn unseen(problem: &Problem, edge: usize) -> Result<Option<Vec<EdgePoint>>> 
     if h.constant().is_some() {
         return Ok(None);
     }
-    let along = Along { problem, edge, h: &h, ambient: &ambient };
+    let data = Data { problem, edge, h: &h, ambient: &ambient };
     let mut own = Vec::new();
-    along.add_points([0.0, 1.0], false, &mut own)?;
-    if along.is_nothing() {
+    data.add_points([0.0, 1.0], false, &mut own)?;
+    if data.is_nothing() {
         return Ok(None);
     }
-    let parts = along.parts()?;
-    Ok((!is_seen(&own, &parts)).then_some(parts))
+    let parts = data.parts()?;
+    Ok((!is_seen(&own, &parts, along.missed())).then_some(parts))
 }
 
 /// Whether points see ∫H tᵏ and ∫1/H, and H varies little at them.
-fn is_seen(own: &[EdgePoint], parts: &[EdgePoint]) -> bool {
+fn is_seen(own: &[EdgePoint], parts: &[EdgePoint], missed: f64) -> bool {
     let of = |points: &[EdgePoint], value: &dyn Fn(&EdgePoint) -> f64| -> f64 {
         points.iter().map(|at| at.weight * value(at)).sum()
     };
     let agrees = |value: &dyn Fn(&EdgePoint) -> f64, size: f64| {
-        (of(own, value) - of(parts, value)).abs() <= MISSED * size
+        (of(own, value) - of(parts, value)).abs() <= missed * size
     };
     let [low, high] = own
         .iter()
@@ -101,10 +117,10 @@ fn is_seen(own: &[EdgePoint], parts: &[EdgePoint]) -> bool {
 ///
 /// # Errors
 /// Data that are not finite.
-pub fn forms(problem: &Problem) -> Result<Vec<TransferForm<f64, u32>>> {
+pub fn forms(problem: &Problem, along: Along) -> Result<Vec<TransferForm<f64, u32>>> {
     let mut forms = Vec::new();
     for (law, record) in problem.loads.robin.iter().enumerate() {
-        if let Some(points) = unseen(problem, record.edge as usize)? {
+        if let Some(points) = unseen(problem, record.edge as usize, along)? {
             forms.push(form(law as u32, &points));
         }
     }
@@ -138,14 +154,14 @@ fn add(to: &mut Square<f64>, &EdgePoint { t, weight, ambient, .. }: &EdgePoint, 
 }
 
 /// Data along an edge.
-struct Along<'p> {
+struct Data<'p> {
     problem: &'p Problem,
     edge: usize,
     h: &'p Sum<'p>,
     ambient: &'p Sum<'p>,
 }
 
-impl Along<'_> {
+impl Data<'_> {
     /// The points of parts that h varies little in, of all at once a half at a time.
     fn parts(&self) -> Result<Vec<EdgePoint>> {
         let (mut open, mut points) = (vec![[0.0, 1.0]], Vec::new());
@@ -230,7 +246,7 @@ mod tests {
         ] {
             let text = SCENE.replace("coefficient = \"2+y\"", &format!("coefficient = \"{h}\""));
             let (_, problem) = on_grid(&text, grid(4, Cells::Triangles))?;
-            assert_eq!(forms(&problem)?.is_empty(), are_seen, "{h}");
+            assert_eq!(forms(&problem, Along::Points)?.is_empty(), are_seen, "{h}");
         }
         Ok(())
     }
@@ -241,7 +257,7 @@ mod tests {
         let h = "1 + 99*(0.5 + 0.5*sign(0.0005 - abs(y - 0.07)))";
         let text = SCENE.replace("coefficient = \"2+y\"", &format!("coefficient = \"{h}\""));
         let (_, problem) = on_grid(&text, grid(4, Cells::Triangles))?;
-        let all = forms(&problem)?;
+        let all = forms(&problem, Along::Points)?;
         let [form] = &all[..] else { panic!("one edge") };
         let [aa, ab, _, bb, ..] = form.below.square;
         let exact = [4.0 * (0.996 + 0.004 / 100.0), 0.25 * (0.996 + 0.4)];

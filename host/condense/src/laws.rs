@@ -12,7 +12,7 @@ use signorini_kernel::mesh::boundary::Robin;
 use super::block::{Block, Functions};
 use signorini_certify::TermData;
 use signorini_certify::robin::{RobinPoints, robin};
-use signorini_certify::transfer_points::{EdgePoint, MISSED_BETWEEN, unseen};
+use signorini_certify::transfer_points::{Along, EdgePoint, MISSED_BETWEEN, unseen};
 use signorini_problem::Problem;
 use signorini_problem::quadrature::DATA_POINTS;
 use signorini_problem::triangular::triangular;
@@ -102,7 +102,7 @@ pub(super) fn points_of(
         RULE.iter().zip(points).map(seen).collect::<Vec<_>>()
     };
     let of = |(pattern, points): (&TermData, &RobinPoints)| {
-        Ok(unseen(&pattern.problem, edge)?.unwrap_or_else(|| own(points)))
+        Ok(unseen(&pattern.problem, edge, Along::Parts)?.unwrap_or_else(|| own(points)))
     };
     patterns.iter().zip(ambient).map(of).collect()
 }
