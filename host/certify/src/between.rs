@@ -44,7 +44,11 @@ pub fn form_missed(form: &Form, width: f64) -> f64 {
     square(by_form(form), width)
 }
 
+/// 4 |panel| max², rounded up to 10 bits: in other units, which are powers of two, it has the same digits.
 fn square(most: f64, width: f64) -> f64 {
+    const BITS: u64 = 1 << 42;
+    let up = f64::from_bits((most.to_bits() & !(BITS - 1)) + BITS);
+    let most = if most == 0.0 || most.is_infinite() { most } else { up };
     4.0 * width * most * most
 }
 
@@ -63,9 +67,15 @@ fn by_ellipses(bend: impl Fn(f64) -> f64) -> (f64, [f64; 2]) {
     (least, most)
 }
 
-/// max |w − p| with the parabola of a form.
+/// max |w − p| with the parabola of a form; 0 where that is rounding of the values.
 fn by_form(form: &Form) -> f64 {
-    if form.is_finite() { 0.5 * form.remainder.width() } else { f64::INFINITY }
+    const ROUNDING: f64 = 1e-14;
+    let most = 0.5 * form.remainder.width();
+    match form.is_finite() {
+        true if most <= ROUNDING * form.range().size() => 0.0,
+        true => most,
+        false => f64::INFINITY,
+    }
 }
 
 /// Σ ρ⁻ᵏ from k = 8 on, or Σ k²ρ⁻ᵏ from k = 9 on.
