@@ -166,11 +166,6 @@ impl Deviation<'_> {
         self.data.rounding_at(self.place(t), PLACES * extent(self.segment))
     }
 
-    /// Whether the data have no kink, jump or pole anywhere.
-    pub fn is_smooth(&self) -> bool {
-        self.data.is_smooth()
-    }
-
     /// Parts of the edge in which little is missed, or w is singular.
     pub fn parts(&self) -> &[Part] {
         self.parts.get_or_init(|| {

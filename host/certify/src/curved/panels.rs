@@ -29,9 +29,8 @@ const LEVELS: u32 = 48;
 const MOST: usize = 128;
 /// Largest part of a rise that may be missing.
 pub(super) const MISSING: f64 = 1e-9;
-/// Part of (∫w′²)^½ that may be missed between the points of a panel: beside kinks, and of smooth data, whose products with others have twice
-/// their waves.
-const BETWEEN: [f64; 2] = [1e-4, 1e-7];
+/// Part of (∫w′²)^½ that may be missed between the points of a panel.
+const BETWEEN: f64 = 1e-4;
 
 /// A subdivision of \[0, 1\] along an edge.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,8 +74,7 @@ impl Panels {
         let (mut open, rounding) = (self.all(), rise.deviation.rounding());
         for level in 0..LEVELS {
             let size = rise.energy(&self.rule())?.sqrt();
-            let between = BETWEEN[usize::from(rise.deviation.is_smooth())];
-            let [tolerance, enough] = [MISSING, between].map(|part| (part * size).max(rounding));
+            let [tolerance, enough] = [MISSING, BETWEEN].map(|part| (part * size).max(rounding));
             let mut coarse = Vec::new();
             for panel in open {
                 let missed = rise.between(panel)?;

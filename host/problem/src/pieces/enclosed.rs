@@ -53,13 +53,12 @@ impl Enclosed {
     pub fn distance(&self, off: impl Fn(&Form) -> f64, b: &Tensor<f64>) -> Tensor<f64> {
         let rounding = 16.0 * f64::EPSILON;
         match self {
-            Self::Line(form, [constant, slope]) => match off(form) {
-                0.0 => Tensor::default(),
-                off => {
-                    let terms = sum(b, &modulus_in(b, constant));
-                    sum(&scaled(&modulus_in(b, slope), off), &scaled(&terms, rounding))
-                }
-            },
+            Self::Line(form, [constant, slope]) => {
+                let off = off(form);
+                let of_form = if off == 0.0 { Tensor::default() } else { *b };
+                let terms = sum(&of_form, &modulus_in(b, constant));
+                sum(&scaled(&modulus_in(b, slope), off), &scaled(&terms, rounding))
+            }
             Self::Entries(forms) => {
                 let off @ [xx, xy, yy] = forms.each_ref().map(off);
                 if off == [0.0; 3] {

@@ -3,6 +3,9 @@
 use super::operation::{Binary, Unary};
 use super::program::{Program, Step};
 
+/// Part of two constants up to which they are the same.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
 /// c + k·e, e being a product of steps and of reciprocals of steps; 1 where there are none.
 #[derive(Debug, Clone, PartialEq)]
 struct Linear<'a> {
@@ -19,8 +22,10 @@ impl Program {
         }
         let [own, to] = [self, to].map(|program| Linear::new(&program.steps));
         let slope = own.factor / to.factor;
-        (own.of == to.of && slope.is_finite())
-            .then_some([own.constant - slope * to.constant, slope])
+        let (beside, of_to) = (own.constant, slope * to.constant);
+        let is_rounding = (beside - of_to).abs() <= ROUNDING * (beside.abs() + of_to.abs());
+        let constant = if is_rounding { 0.0 } else { beside - of_to };
+        (own.of == to.of && slope.is_finite()).then_some([constant, slope])
     }
 }
 
