@@ -19,6 +19,8 @@ use signorini_scene::scene::Field;
 /// Least energy, as a part of that of the largest data, of data that a cell follows. Data of an edge below it are
 /// left out; by how much in all is said ([`Deviations::dropped`]).
 const ROUNDING: f64 = 1e-14;
+/// The same part of what its points miss.
+const MISSED: f64 = 1e-9;
 /// Roundings of a constant that was taken from all data, which a value less its chord may have.
 const OF_LEVEL: f64 = 4.0;
 
@@ -73,23 +75,25 @@ impl<'s> Deviations<'s> {
             let Some(data) = data.filter(|data| data.constant().is_none()) else { continue };
             let (level, parts) = (problem.units.level(), OnceLock::new());
             let deviation = Deviation { edge, data, segment, ends, level, parts };
-            let root = match deviation.samples(plain)? {
+            let both = match deviation.samples(plain)? {
                 Some(samples) => {
                     let missed = deviation
                         .parts()
                         .iter()
                         .fold([0.0; 2], |sum, part| [0, 1].map(|k| sum[k] + part.missed[k]));
-                    energy.of_extension(side, &samples) + energy.of_missed(side, missed)
+                    [energy.of_extension(side, &samples), energy.of_missed(side, missed)]
                 }
-                None => f64::INFINITY,
+                None => [f64::INFINITY; 2],
             };
             let of_level = if level > 0.0 { level * energy.of_vertices() } else { 0.0 };
-            weighed.push((deviation, root, of_level));
+            weighed.push((deviation, both, of_level));
         }
         let mut dropped = 0.0;
-        weighed.retain(|(_, root, of_level)| {
-            let small = *root <= of_level.max(ROUNDING * largest) && largest.is_finite();
-            dropped += if small { *root } else { 0.0 };
+        weighed.retain(|(_, [root, missed], of_level)| {
+            let is_below = |of: f64, part: f64| of <= of_level.max(part * largest);
+            let small = is_below(*root, ROUNDING) && is_below(*missed, MISSED);
+            let small = small && largest.is_finite();
+            dropped += if small { *root + *missed } else { 0.0 };
             !small
         });
         Ok(Self { found: weighed.into_iter().map(|(deviation, ..)| deviation).collect(), dropped })
