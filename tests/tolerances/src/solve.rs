@@ -29,7 +29,7 @@ table! {
         "the number of parts is limited";
     GUARANTEE: "how far the distance is above the bound, relative", 1e-14,
         "none is seen above it: rounding alone";
-    POINTS: "Robin data at the points of an edge", 1e-13,
+    POINTS: "Robin data at the points of an edge", 1e-14,
         "sums of 8 points";
     NARROW_BUMP: "what 8 points miss of a bump or layer, relative", 2e-3,
         "an estimate by panels, asked for two digits";
@@ -103,8 +103,8 @@ table! {
         "data are rounded to 1e-7, times the same";
     THREE_SIDES: "pivoting with three sides against the reference, relative to the largest x or 1", 5e-14,
         "rounding times the condition of matrices that are dominated by 1e-3 of their diagonal";
-    GUARANTEE_LIMITED: "how far an error is above the bound of condensed contact with limits, relative", 2e-5,
-        "quadrature of the norms";
+    GUARANTEE_LIMITED: "how far an error is above the bound of condensed contact with limits, relative", 1e-14,
+        "none is: rounding alone";
     IDENTITY_LIMITED: "bound of condensed contact with limits against the identity, relative, singular", 1e-3,
         "quadrature of the norms where contact ends within a cell";
     SAME_LIMITED: "condensed contact with limits against another statement of it", 1e-14,
