@@ -28,7 +28,7 @@ use signorini_certify::{CertifiedFields, Evaluated};
 use signorini_problem::functional::wanted;
 use signorini_problem::{EdgeKind, Parts, Problem, Sum};
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Output, Quantity};
+use signorini_scene::scene::{Field, Input, Output, Quantity};
 use signorini_solve::energy_norm::nonconformity;
 use signorini_solve::{ScalarKind, SharedFactor};
 
@@ -104,7 +104,10 @@ fn corners(problem: &Problem) -> Result<Vec<Problem>> {
 /// oscillation, and the total is at least twice the sum of all.
 fn unseen(problem: &Problem) -> Result<f64> {
     let mut most = 0.0_f64;
-    for term in 0..=problem.scene.inputs.len() {
+    let is_load =
+        |input: &Input| matches!(input.field.value, Field::Source | Field::Flux | Field::Limit);
+    let inputs = problem.scene.inputs.iter().enumerate().filter(|(_, input)| is_load(input));
+    for term in std::iter::once(0).chain(inputs.map(|(at, _)| at + 1)) {
         let alone = problem.left_with(&[term])?;
         if alone.loads.missed > 0.0 {
             let oscillation = Evaluated::of_term(&alone)?.oscillation;

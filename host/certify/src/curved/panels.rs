@@ -4,8 +4,8 @@
 //! ```text
 //!   |∫ₐᵇ w′ dt − (w(b) − w(a))| ≤ 10⁻⁹ (∫₀¹ w′² dt)^½,
 //! ```
-//! and where what they miss of w and w′ between them is proved to be less than 10⁻⁴ of the same (`between`). Other panels are bisected, level by level,
-//! as far as coordinates tell places apart. Where w is singular that is never proved: `singular` judges these places.
+//! and where what they miss of w and w′ between them is proved to be less than 10⁻⁴ of the same (`between`). Other panels are bisected,
+//! level by level. Where w is singular nothing is proved: `singular` judges these places.
 //!
 //! Their points miss the energy of v − ṽ all the same, ṽ made from the polynomials through those points: the rule of 8 points is
 //! exact for squares of polynomials of degree 7, so the records are those of ṽ, and
@@ -21,10 +21,9 @@ use crate::deviation::Deviation;
 use signorini_problem::quadrature::gauss;
 use signorini_scene::error::Result;
 
-/// Most bisections of a panel: those of singular places, those in which a rise is not found, and all.
-const SINGULAR: u32 = 24;
-const RISING: u32 = 24;
-const LEVELS: u32 = 48;
+/// Panels in which w is singular, or its rise is not found, are no shorter than that, and no others than the second.
+const SHORT: f64 = 1.0 / (1_u64 << 26) as f64;
+const SHORTEST: f64 = 1.0 / (1_u64 << 50) as f64;
 /// Most panels: data that are rough everywhere are integrated by as many, and no finer.
 const MOST: usize = 128;
 /// Largest part of a rise that may be missing.
@@ -56,10 +55,17 @@ impl Panels {
     /// Data that are not finite.
     pub(super) fn along(deviation: &Deviation) -> Result<Self> {
         let (mut panels, rise) = (Self::regular(), Rise::of(deviation));
-        panels.bisect(&rise)?;
-        let all = panels.all().into_iter().map(|panel| rise.between(panel));
-        let all = all.collect::<Result<Vec<_>>>()?;
-        for missed in all.into_iter().filter(|missed| missed[1].is_finite()) {
+        // First what is singular: other panels leave no room for it.
+        panels.bisect(&rise, |_, panel| Ok(rise.is_singular(panel) && width(panel) > SHORT))?;
+        let rounding = deviation.rounding();
+        panels.bisect(&rise, |size, panel| {
+            let [tolerance, enough] = [MISSING, BETWEEN].map(|part| (part * size).max(rounding));
+            let [w, slope] = rise.between(panel)?;
+            let misses = w + slope > enough * enough && width(panel) > SHORTEST;
+            Ok(misses || width(panel) > SHORT && !rise.is_found(panel, tolerance)?)
+        })?;
+        for panel in panels.all() {
+            let missed = rise.between(panel)?;
             panels.missed = [0, 1].map(|k| panels.missed[k] + missed[k]);
         }
         match beyond(&rise)? {
@@ -69,22 +75,21 @@ impl Panels {
         Ok(panels)
     }
 
-    /// Bisects the panels that are too coarse.
-    fn bisect(&mut self, rise: &Rise) -> Result<()> {
-        let (mut open, rounding) = (self.all(), rise.deviation.rounding());
-        for level in 0..LEVELS {
-            let size = rise.energy(&self.rule())?.sqrt();
-            let [tolerance, enough] = [MISSING, BETWEEN].map(|part| (part * size).max(rounding));
-            let mut coarse = Vec::new();
+    /// Bisects the panels that are too coarse for this (∫w′²)^½, level by level, as long as there is room for all of a level.
+    fn bisect(
+        &mut self,
+        rise: &Rise,
+        is_coarse: impl Fn(f64, [f64; 2]) -> Result<bool>,
+    ) -> Result<()> {
+        let mut open = self.all();
+        while !open.is_empty() {
+            let (size, mut coarse) = (rise.energy(&self.rule())?.sqrt(), Vec::new());
             for panel in open {
-                let missed = rise.between(panel)?;
-                let is_fine = missed[0] + missed[1] <= enough * enough
-                    || !missed[1].is_finite() && level >= SINGULAR;
-                if !is_fine || level < RISING && !rise.is_found(panel, tolerance)? {
+                if is_coarse(size, panel)? {
                     coarse.push(panel);
                 }
             }
-            if coarse.is_empty() || self.ends.len() + coarse.len() > MOST {
+            if self.ends.len() + coarse.len() > MOST {
                 break;
             }
             open = coarse.iter().flat_map(halves).collect();
@@ -134,6 +139,10 @@ impl Panels {
         self.ends.dedup();
         self
     }
+}
+
+fn width([a, b]: [f64; 2]) -> f64 {
+    b - a
 }
 
 fn middle([a, b]: &[f64; 2]) -> f64 {

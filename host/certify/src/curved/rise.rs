@@ -1,7 +1,7 @@
 //! The rise of w along parts of an edge, and as points find it in w′.
 
 use super::POINTS;
-use crate::between::{on_part, through};
+use crate::between::{Part, on_part, through};
 use crate::deviation::Deviation;
 use signorini_problem::quadrature::gauss;
 use signorini_scene::error::Result;
@@ -43,18 +43,15 @@ impl<'a, 's> Rise<'a, 's> {
         Ok(true)
     }
 
-    /// ∫(w − w̃)² and ∫(w′ − w̃′)² over a panel at most: by the points of the edge's parts in it, and what these miss.
+    /// ∫(w − w̃)² and ∫(w′ − w̃′)² over a panel at most, without the parts of the edge in which w is singular: by the points of the others,
+    /// and by what these miss.
     pub(super) fn between(&self, [a, b]: [f64; 2]) -> Result<[f64; 2]> {
         let width = b - a;
         let known = self.rule.iter().map(|[t, _]| self.deviation.at(a + width * t));
         let known = known.collect::<Result<Vec<_>>>()?;
-        let parts = self.deviation.parts();
         let mut sum = [0.0; 2];
-        for part in parts.iter().filter(|part| part.range[0] < b && a < part.range[1]) {
+        for part in self.parts_in([a, b]).filter(|part| !part.is_singular()) {
             let [from, to] = part.range;
-            if part.is_singular() {
-                return Ok([f64::INFINITY; 2]);
-            }
             if width <= to - from {
                 return Ok(part.missed.map(|missed| missed * (width / (to - from))));
             }
@@ -67,6 +64,15 @@ impl<'a, 's> Rise<'a, 's> {
             sum = [0, 1].map(|k| sum[k] + (seen[k].sqrt() + part.missed[k].sqrt()).powi(2));
         }
         Ok(sum)
+    }
+
+    /// Whether w is singular in a part of a panel.
+    pub(super) fn is_singular(&self, panel: [f64; 2]) -> bool {
+        self.parts_in(panel).any(Part::is_singular)
+    }
+
+    fn parts_in(&self, [a, b]: [f64; 2]) -> impl Iterator<Item = &Part> {
+        self.deviation.parts().iter().filter(move |part| part.range[0] < b && a < part.range[1])
     }
 
     /// Whether w jumps between a and b: what is missing there is more than rounding, and the same in wider parts on either side. That of

@@ -24,7 +24,7 @@ const DECAY: f64 = 0.96;
 
 /// ∫w′² nearer to a singular place than all panels, or why it is infinite.
 ///
-/// The places are those of `open`, panels on which w′ is not bounded.
+/// The places are the edge's parts on which w′ is not bounded.
 pub(super) fn beyond(rise: &Rise) -> Result<std::result::Result<f64, Rough>> {
     let (mut sum, deviation) = (0.0, rise.deviation);
     let singular = deviation.parts().iter().filter(|part| part.is_singular());
