@@ -22,6 +22,7 @@ mod integrals;
 mod lacks;
 mod limits;
 mod loads;
+mod lowest;
 pub mod pieces;
 mod pinched;
 pub mod pointwise;
@@ -173,7 +174,7 @@ impl Problem {
     }
 
     /// The points of the rule for edge data, and both ends of the edge.
-    fn looks(&self, edge: usize) -> impl Iterator<Item = [f64; 2]> {
+    fn rule_points(&self, edge: usize) -> impl Iterator<Item = [f64; 2]> {
         let inside = f64::GAUSS[DATA_POINTS - 1].iter().map(|point| point[0]);
         inside.chain([0.0, 1.0]).map(move |t| self.along(edge, t))
     }

@@ -4,7 +4,7 @@
 //!   lo(x) = flux + Σ_j p_j π_j ≤ hi(x) = limit + Σ_j p_j ϖ_j
 //!   min (hi − lo)(x) = hi₀ − lo₀ + Σ_j min(a_j c_j, b_j c_j),   c_j = ϖ_j − π_j at x,   a_j ≤ p_j ≤ b_j
 //! ```
-//! at the points of the rule for edge data and at the ends of every edge. An input without a range counts at its default: what
+//! at the points of the rule for edge data, at the ends of every edge and where parts of it are proved to hold the least. An input without a range counts at its default: what
 //! else it may be is refused tick by tick.
 //!
 //! Means of them are what the kernel has: the smaller one in size as the base of the range, and the way to the other as its
@@ -17,11 +17,11 @@
 
 use signorini_kernel::flux_range::settled;
 
-use super::{Problem, Sum};
+use super::{Problem, Sum, widths};
 use crate::quadrature::enclosed::Integral;
 use signorini_scene::error::Result;
 use signorini_scene::scene::term::Term;
-use signorini_scene::scene::{Boundary, Condition, Field};
+use signorini_scene::scene::{Boundary, Condition, Field, Input};
 
 /// Fields of either end.
 pub(super) const ENDS: [Field; 2] = [Field::Flux, Field::Limit];
@@ -70,7 +70,8 @@ pub(super) fn check(problem: &Problem) -> Result<()> {
 fn check_edge(problem: &Problem, edge: usize) -> Result<()> {
     let end = |field| Sum::on_edge(problem, edge, field, problem.time);
     let (Some(least), Some(most)) = (end(Field::Flux), end(Field::Limit)) else { return Ok(()) };
-    for [x, y] in problem.looks(edge) {
+    let Some(range) = widths::now(problem, edge, problem.time) else { return Ok(()) };
+    for [x, y] in problem.looks(edge, &[range]) {
         let (low, high) = (least.at(x, y), most.at(x, y));
         let terms = || least.terms_at(x, y) + most.terms_at(x, y);
         if low > high && settled(high - low, terms()).is_none() {
@@ -118,7 +119,8 @@ impl Problem {
             if self.inputs_of(boundary, &ENDS).all(|input| input.range.is_none()) {
                 return Ok(());
             }
-            self.looks(edge).try_for_each(|point| check_at(self, boundary, point))
+            let Some(terms) = widths::terms(self, boundary, within) else { return Ok(()) };
+            self.looks(edge, &terms).try_for_each(|point| check_at(self, boundary, point))
         })
     }
 
@@ -138,6 +140,11 @@ impl Problem {
         }
         Ok(all)
     }
+}
+
+/// The values that an input may have; without a range its default alone.
+fn within(input: &Input) -> [f64; 2] {
+    input.range.as_ref().map_or([input.default; 2], |_| input.interval())
 }
 
 fn check_at(problem: &Problem, boundary: &Boundary, [x, y]: [f64; 2]) -> Result<()> {

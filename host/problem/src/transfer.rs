@@ -3,7 +3,7 @@
 //! ```text
 //!   h(x) = h_0(x) + Σ_j p_j π_j(x) ≥ h_0(x) + Σ_j min(lo_j π_j(x), hi_j π_j(x)) ≥ 0
 //! ```
-//! at the points of the rule for edge data and at the ends of every edge. And the least transfer that they leave: what holds a
+//! at the points of the rule for edge data, at the ends of every edge and where parts of it are proved to hold the least. And the least transfer that they leave: what holds a
 //! part, or takes its surplus, does so for all of them then.
 //! ```text
 //!   min ∫h = ∫h_0 + Σ_j min(lo_j ∫π_j, hi_j ∫π_j)
@@ -16,6 +16,7 @@
 
 use signorini_kernel::Real;
 
+use super::lowest::Ranged;
 use super::{EdgeKind, Problem, Sum};
 use crate::quadrature::{DATA_POINTS, mean_on_edge};
 use signorini_scene::error::Result;
@@ -34,7 +35,8 @@ pub(super) fn check_now(problem: &Problem) -> Result<()> {
     for record in &problem.loads.robin {
         let edge = record.edge as usize;
         let Some(h) = Sum::transfer(problem, edge, problem.time) else { continue };
-        for [x, y] in problem.looks(edge) {
+        let Some(alone) = Sum::transfer(problem, edge, problem.time) else { continue };
+        for [x, y] in problem.looks(edge, &[Ranged::of(alone, [1.0; 2])]) {
             let value = h.at(x, y);
             if value < 0.0 {
                 let message = format!("the coefficient is {value} at ({x}, {y}), expected ≥ 0");
@@ -63,7 +65,11 @@ fn check_edge(problem: &Problem, edge: usize) -> Result<()> {
     let scene = &problem.scene;
     let Some(boundary) = problem.boundary_of(edge) else { return Ok(()) };
     let Some(base) = boundary.condition.transfer() else { return Ok(()) };
-    for [x, y] in problem.looks(edge) {
+    let alone = |of| Sum::alone(scene, of, 0.0);
+    let inputs_of = inputs(problem, boundary);
+    let inputs_of = inputs_of.map(|input| Ranged::of(alone(&input.pattern), input.interval()));
+    let terms: Vec<_> = [Ranged::of(alone(base), [1.0; 2])].into_iter().chain(inputs_of).collect();
+    for [x, y] in problem.looks(edge, &terms) {
         let parts = inputs(problem, boundary).map(|input| (input, least(input, x, y)));
         let parts: Vec<_> = parts.collect();
         let total = parts.iter().fold(base.value.eval(x, y, 0.0), |sum, (_, part)| sum + part);
