@@ -167,7 +167,12 @@ impl Held<'_> {
             ..Measured::default()
         };
         if let Some(exact) = &problem.scene.exact {
-            let by = |panels| distance_on(panels, exact, problem, &own.admissible);
+            // A condensed model has one excess of hi − lo, in a unit of its own: its gap is that of each edge's own range, or more.
+            let is_alike =
+                self.case.effort.way == Way::Condensed && problem.loads.span_excess > 0.0;
+            let mut alike = problem.clone();
+            alike.loads.span_excess *= if is_alike { 0.0 } else { 1.0 };
+            let by = |panels| distance_on(panels, exact, &alike, &own.admissible);
             let mut distance = by(PANELS[0])?;
             for more in &PANELS[1..] {
                 if self.is_off(&distance) {
@@ -182,8 +187,7 @@ impl Held<'_> {
             found.intervals = self.asked().by_exact();
             let known = self.missed()? <= RESOLVED * self.bound.duality_gap;
             found.identity = known.then_some([distance.identity, distance.rounding]);
-            found.may_exceed =
-                self.case.effort.way == Way::Condensed && problem.loads.span_excess > 0.0;
+            found.may_exceed = is_alike;
             let missed = |at| Conductivity::of(problem, at).missed(Cell::of(problem, at))[0];
             found.unseen = (0..problem.cells()).map(missed).fold(0.0, f64::max);
         }
@@ -237,9 +241,8 @@ impl Held<'_> {
         let most = [self.bound.total + its.total, self.bound.of_u + its.total];
         let is_above = |of: &Apart| of.combined > most[0] || of.of_u > most[1];
         let (mut found, mut uncertain) = (Apart::default(), [0.0; 2]);
-        // A mesh that is cut resolves its data, but not what narrow ones of an edge make of s inside.
-        let rules = if nesting.cut.is_some() { &RULES[..3] } else { &RULES };
-        for &(panels, points) in rules {
+        // What narrow data of an edge make of s inside a coarse cell takes many points, whatever the finer mesh is.
+        for (panels, points) in RULES {
             let rule = on_panels(panels, &gauss(points));
             let next = apart(&own, &fine, &nesting, &rule)?;
             uncertain = difference(&found, &next);
