@@ -15,6 +15,7 @@ use crate::extremes::measure::solve_directly;
 use signorini_certify::ErrorBound;
 use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::Conductivity;
+use signorini_certify::curved::curved_edges;
 use signorini_certify::exact::{Distance, distance_on};
 use signorini_certify::robin::missed;
 use signorini_certify::transfer_points::Along;
@@ -43,6 +44,8 @@ pub struct Measured {
     pub identity: Option<[f64; 2]>,
     /// Whether the gap may be above it: a condensed model has one excess of hi − lo for all edges, in the unit of its unknowns.
     pub may_exceed: bool,
+    /// What records of curved data leave out: the total has it.
+    pub left_out: f64,
     /// The part of the gap that points may miss where A varies: the total has it, and rows of condensed models.
     pub unseen: f64,
     /// The bound of the truth: 0 where it is exact.
@@ -65,7 +68,7 @@ impl Measured {
         // |gap² − identity²| = |gap − identity| (gap + identity)
         let off = if self.may_exceed { identity - gap } else { (gap - identity).abs() };
         // In cells that are cut the gap is that of a tensor below A, and twice what A has above it is between the two at most.
-        let open = 2.0 * self.bound.open() + self.unseen * gap;
+        let open = 2.0 * self.bound.open() + self.unseen * gap + self.left_out;
         let off = off - rounding / (gap + identity) - open;
         (gap > ROUNDINGS * self.bound.rounding).then(|| off.max(0.0) / identity)
     }
@@ -98,6 +101,8 @@ pub const IDENTITY: f64 = 2e-3;
 const ROUNDINGS: f64 = 100.0;
 /// Part of the gap up to which what 8 points miss of u_ext leaves the identity as it is.
 const RESOLVED: f64 = 1e-4;
+/// Part of ‖A^½∇s‖ that rounding of corners may be.
+const CORNERS: f64 = 1e-9;
 
 /// Measures; `None` where there is no truth to measure by.
 ///
@@ -167,9 +172,10 @@ impl Held<'_> {
             ..Measured::default()
         };
         if let Some(exact) = &problem.scene.exact {
-            // A condensed model has one excess of hi − lo, in a unit of its own: its gap is that of each edge's own range, or more.
-            let is_alike =
-                self.case.effort.way == Way::Condensed && problem.loads.span_excess > 0.0;
+            // A condensed model has one excess of hi − lo, in a unit of its own, and adds what it mends to the norm: its gap is that of
+            // each edge's own range, or more.
+            let is_condensed = self.case.effort.way == Way::Condensed;
+            let is_alike = is_condensed && problem.loads.span_excess > 0.0;
             let mut alike = problem.clone();
             alike.loads.span_excess *= if is_alike { 0.0 } else { 1.0 };
             let by = |panels| distance_on(panels, exact, &alike, &own.admissible);
@@ -185,9 +191,13 @@ impl Held<'_> {
             found.uncertain = [found.combined, found.of_u].map(rounding);
             // The identity has the oscillation of f, g and q in it, with its sign, but not that of u_ext.
             found.intervals = self.asked().by_exact();
-            let known = self.missed()? <= RESOLVED * self.bound.duality_gap;
+            // Corners of a condensed model that rounding moves count in its oscillation.
+            let gap = self.bound.duality_gap;
+            let is_rounding = is_condensed && gap <= CORNERS * found.energy;
+            let known = !is_rounding && self.missed()? <= RESOLVED * gap;
             found.identity = known.then_some([distance.identity, distance.rounding]);
-            found.may_exceed = is_alike;
+            found.may_exceed = is_alike || is_condensed && self.case.effort.sweeps.is_some();
+            found.left_out = curved_edges(problem, problem.time)?.left_out;
             let missed = |at| Conductivity::of(problem, at).missed(Cell::of(problem, at))[0];
             found.unseen = (0..problem.cells()).map(missed).fold(0.0, f64::max);
         }
