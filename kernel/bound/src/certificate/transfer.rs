@@ -36,7 +36,9 @@ impl<R: Real, I: Index> TransferForms<'_, R, I> {
     fn entry(&self, own: &[R; OWN], at: usize) -> R {
         match own.get(at) {
             Some(&own) => own,
-            None => -self.inputs.get(at - OWN).map_or(R::ZERO, |of| read(self.values, *of as usize)),
+            None => {
+                -self.inputs.get(at - OWN).map_or(R::ZERO, |of| read(self.values, *of as usize))
+            }
         }
     }
 

@@ -3,8 +3,8 @@
 use signorini_bound::certificate::Curved;
 use signorini_bound::conforming::VertexData;
 use signorini_device::full::{
-    Along, Base, Contribution, CurvedPart, CurvedSum, DataMemory, EdgeTrace, Full, Functional, Lengths,
-    Memory, Pattern, Points, Product, Storage,
+    Along, Base, Contribution, CurvedPart, CurvedSum, DataMemory, EdgeTrace, Full, Functional,
+    Lengths, Memory, Pattern, Points, Product, Storage,
 };
 use signorini_device::tick::{CertifiedSweeps, Deadline, Limits, Progress, UncertifiedSweeps};
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
