@@ -75,8 +75,8 @@ impl<R: Scalar> Data<R> {
             curved: &self.curved,
             curved_sums,
             transfer: match along.1.laws {
-                [] => Along::Points(along.0),
-                _ => Along::Forms(along),
+                [] => Along::Seen(along.0),
+                _ => Along::Unseen(along),
             },
         }
     }

@@ -150,8 +150,8 @@ fn base<R: Scalar, I: Index>(of: &Base<R, u32>, to: &mut Statics) -> String {
     let robin = to.array::<Robin<R, I>>("ROBIN", "Transfer laws: ∫h and ∫h u_ext.", "Robin<Scalar, Index>", of.robin);
     let points = to.array::<[[R; 2]; 8]>("TRANSFER", "∫h and u_ext at 8 points of each transfer edge.", "[[Scalar; 2]; 8]", of.transfer.points());
     let transfer = match &of.transfer {
-        Along::Points(_) => format!("Along::Points({points})"),
-        Along::Forms((_, forms)) => format!("Along::Forms(&({points}, {}))", forms_written::<R, I>(forms, to)),
+        Along::Seen(_) => format!("Along::Seen({points})"),
+        Along::Unseen((_, forms)) => format!("Along::Unseen(&({points}, {}))", forms_written::<R, I>(forms, to)),
     };
     let contact_flux = to.numbers("CONTACT_FLUX", "∫q of each contact edge.", of.contact_flux);
     let spans = match of.spans.lengths() {

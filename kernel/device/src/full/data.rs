@@ -17,9 +17,9 @@ use signorini_kernel::{Index, Real, features};
 #[derive(Debug, Clone, Copy)]
 pub enum Along<'a, R, I> {
     /// ∫h and u_ext at the Gauss points of every edge, or nothing where both are constant along them.
-    Points(&'a [[[R; 2]; 8]]),
+    Seen(&'a [[[R; 2]; 8]]),
     /// The same, and the forms of edges whose points do not see h. Behind one pointer, a scene without them takes nothing for it.
-    Forms(&'a (&'a [[[R; 2]; 8]], TransferForms<'a, R, I>)),
+    Unseen(&'a (&'a [[[R; 2]; 8]], TransferForms<'a, R, I>)),
 }
 
 /// The data where all inputs are 0 (borrowed), as [`Data`] takes them.
@@ -53,7 +53,7 @@ pub struct Base<'a, R, I> {
 
 impl<R, I> Default for Along<'_, R, I> {
     fn default() -> Self {
-        Self::Points(&[])
+        Self::Seen(&[])
     }
 }
 
@@ -61,7 +61,7 @@ impl<'a, R, I> Along<'a, R, I> {
     /// ∫h and u_ext at the points.
     pub const fn points(&self) -> &'a [[[R; 2]; 8]] {
         match self {
-            Self::Points(points) | Self::Forms((points, _)) => points,
+            Self::Seen(points) | Self::Unseen((points, _)) => points,
         }
     }
 
@@ -71,7 +71,9 @@ impl<'a, R, I> Along<'a, R, I> {
         'a: 'v,
     {
         match self {
-            Self::Forms((_, forms)) if features::PIECES => Some(TransferForms { values, ..*forms }),
+            Self::Unseen((_, forms)) if features::PIECES => {
+                Some(TransferForms { values, ..*forms })
+            }
             _ => None,
         }
     }

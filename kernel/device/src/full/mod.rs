@@ -53,7 +53,7 @@ pub struct Full<'a, R, I> {
     pub oscillation: &'a [R],
     /// What each output is.
     pub outputs: &'a [Functional<'a, R, I>],
-    /// Whether the data allow for a bound: u_D is continuous, and no transfer coefficient nearly vanishes.
+    /// Whether the data allow for a bound: u_D is continuous, and no transfer coefficient vanishes along a part of an edge.
     pub has_bound: bool,
     /// Where C meets D: the places of ψ and u_D there, counted over the ends of all edges of their blocks.
     pub corners: &'a [[I; 2]],

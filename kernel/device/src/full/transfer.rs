@@ -95,7 +95,7 @@ mod tests {
 
     /// h and ∫h u_ext of both laws, and h and u_ext at a point of each.
     fn at(inputs: [f64; 2]) -> [[[f64; 2]; 2]; 2] {
-        let base = Base { robin: &LAWS, transfer: Along::Points(&POINTS), ..Base::default() };
+        let base = Base { robin: &LAWS, transfer: Along::Seen(&POINTS), ..Base::default() };
         let (mut robin, mut transfer) = (LAWS, POINTS);
         let mut data =
             DataMemory { robin: &mut robin, transfer: &mut transfer, ..DataMemory::default() };

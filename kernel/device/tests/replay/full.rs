@@ -92,7 +92,7 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
             dirichlet: &arrays.start[counts.unknowns()..],
             ends: arrays.ends(),
             curved_sums: &sums,
-            transfer: Along::Points(&transfer),
+            transfer: Along::Seen(&transfer),
             ..Base::default()
         },
         patterns: &patterns,
