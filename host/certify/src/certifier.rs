@@ -128,7 +128,8 @@ impl<R: Scalar> Certifier<R> {
         u: &[R],
         last: Certificate<R>,
     ) -> Result<Certificate<R>, KernelError> {
-        let given = data.given(assembled)?;
+        let forms = data.forms();
+        let given = data.given(assembled, forms.as_slice())?;
         let Some(better) = relaxed(assembled.problem(), &given, &self.answer().admissible(), &last)
         else {
             return Ok(last);
@@ -160,7 +161,9 @@ impl<R: Scalar> Certifier<R> {
             tau: &mut self.tau,
             indicators: &mut self.indicators,
         };
-        let (given, iterate) = (data.given(assembled)?, Iterate { u, law: assembled.law() });
+        let forms = data.forms();
+        let given = data.given(assembled, forms.as_slice())?;
+        let iterate = Iterate { u, law: assembled.law() };
         certificate::certify_with(&discretization, &given, iterate, buffers, moved)
     }
 
@@ -244,7 +247,7 @@ impl<R: Scalar> Certifier<R> {
     ) -> Result<(), KernelError> {
         self.ways.find(assembled, &self.metric, |_| true)?;
         let discretization = self.ways.discretization(assembled, &self.metric)?;
-        let (s, law, given) = (&mut self.vertices, assembled.law(), data.given(assembled)?);
+        let (s, law, given) = (&mut self.vertices, assembled.law(), data.given(assembled, &[])?);
         let distortions = discretization.metric.distortions;
         averages::fill(&discretization.cells, assembled.cells(), distortions, u, s, &mut self.tau)?;
         conforming::impose(&discretization.mesh, &discretization.edges, u, law, given.ends, s)

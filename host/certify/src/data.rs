@@ -1,6 +1,6 @@
 //! Loads and boundary data of one time as the kernel's certificate takes them.
 
-use signorini_bound::certificate::{Curved, LoadCase, Square, TransferForm};
+use signorini_bound::certificate::{Curved, LoadCase, TransferForms};
 use signorini_bound::conforming::VertexData;
 use signorini_kernel::Error as KernelError;
 
@@ -10,7 +10,7 @@ use super::imbalance::carried;
 use super::no_bound::NoBound;
 use super::oscillation::{Oscillation, oscillation};
 use super::robin::{RobinPoints, robin};
-use super::transfer_points::{Along, forms};
+use super::transfer_forms::Forms;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Assembled, Problem};
 use signorini_scene::error::Result;
@@ -22,7 +22,7 @@ pub struct Data<R> {
     given: Vec<[R; 2]>,
     curved: Vec<Curved<R, u32>>,
     transfer: Vec<[[R; 2]; 8]>,
-    forms: Vec<TransferForm<R, u32>>,
+    forms: Forms<R>,
     oscillation: R,
     unresolved: f64,
     no_bound: Option<NoBound>,
@@ -38,7 +38,7 @@ pub struct Evaluated {
     /// h and u_ext along the transfer edges.
     pub transfer: Vec<RobinPoints>,
     /// Transfer edges whose points do not see h.
-    pub forms: Vec<TransferForm<f64, u32>>,
+    pub forms: Forms<f64>,
     /// √Σ osc², and what is left out of ψ and u_D.
     pub oscillation: f64,
     /// The part of it that was enclosed and not resolved.
@@ -53,7 +53,7 @@ impl Evaluated {
     /// # Errors
     /// Data that are not finite.
     pub fn new(problem: &Problem) -> Result<Self> {
-        Self::with(problem, Ends::moved, Along::Parts)
+        Self::with(problem, Ends::moved)
     }
 
     /// Data of one term of a sum. A term may break what the sum has to meet: where u_D is on a side of ψ that does not exist, the caller that
@@ -62,25 +62,17 @@ impl Evaluated {
     /// # Errors
     /// Data that are not finite.
     pub fn of_term(problem: &Problem) -> Result<Self> {
-        Self::with(problem, Ends::moved_on_dirichlet, Along::Points)
+        Self::with(problem, Ends::moved_on_dirichlet)
     }
 
-    /// The same where rows of integrals see any transfer coefficient.
-    ///
-    /// # Errors
-    /// Data that are not finite.
-    pub fn of_rows(problem: &Problem) -> Result<Self> {
-        Self::with(problem, Ends::moved_on_dirichlet, Along::Parts)
-    }
-
-    fn with(problem: &Problem, moved: fn(&Ends, &Problem) -> f64, along: Along) -> Result<Self> {
+    fn with(problem: &Problem, moved: fn(&Ends, &Problem) -> f64) -> Result<Self> {
         let time = problem.time;
         let ends = Ends::at_time(problem, time)?;
         let curved_edges = curved_edges(problem, time)?;
         // s is off by that much, and once more where u_h is compared with it.
         let left_out = 2.0 * (curved_edges.left_out + moved(&ends, problem));
         let curved = curved_edges.records;
-        let Oscillation { of_cells, unresolved, pole } = oscillation(problem, along)?;
+        let Oscillation { of_cells, unresolved, pole } = oscillation(problem)?;
         let norm =
             |all: &mut dyn Iterator<Item = f64>| all.map(|osc| osc * osc).sum::<f64>().sqrt();
         let whole = norm(&mut of_cells.iter().copied());
@@ -88,9 +80,10 @@ impl Evaluated {
             norm(&mut of_cells.iter().zip(&unresolved).map(|(all, missed)| all - missed));
         let transfer = robin(problem, time)?;
         let rough = pole.map(|(field, at, is_proved)| NoBound::not_square(field, at, is_proved));
-        let forms = forms(problem, along)?;
-        let unseen = || NoBound::transfer_unseen(problem, &forms, along);
-        let no_bound = rough.or_else(|| NoBound::of_data(problem, &ends, &curved)).or_else(unseen);
+        let forms = Forms::new(&[problem])?;
+        let vanishes = || forms.vanishing.map(|edge| NoBound::transfer_vanishes(problem, edge));
+        let no_bound =
+            rough.or_else(|| NoBound::of_data(problem, &ends, &curved)).or_else(vanishes);
         let (carried, no_way) = match carried(problem) {
             Ok(carried) => (carried, None),
             Err(reason) => (0.0, Some(reason)),
@@ -135,7 +128,7 @@ impl<R: Scalar> Data<R> {
             given: pairs(&data.ends.given),
             curved: curved.collect(),
             transfer: transfer.iter().map(|edge| edge.map(|point| point.map(R::narrow))).collect(),
-            forms: data.forms.iter().map(narrowed).collect(),
+            forms: data.forms.narrowed(),
             oscillation: R::narrow(data.oscillation),
             unresolved: data.unresolved,
             no_bound: data.no_bound,
@@ -163,13 +156,21 @@ impl<R: Scalar> Data<R> {
         self.no_bound.as_ref()
     }
 
-    /// Together with the loads of `assembled`.
+    /// The forms of transfer laws whose points do not see h, where there is one.
+    pub fn forms(&self) -> Option<TransferForms<'_, R, u32>> {
+        let Forms { laws, factors, .. } = &self.forms;
+        let forms = TransferForms { laws, inputs: &[], values: &[], factors };
+        (!laws.is_empty()).then_some(forms)
+    }
+
+    /// Together with the loads of `assembled`, and its own forms.
     ///
     /// # Errors
     /// Boundary records that are not admissible in this scalar.
     pub fn given<'a>(
         &'a self,
         assembled: &'a Assembled<R>,
+        forms: &'a [TransferForms<'a, R, u32>],
     ) -> std::result::Result<LoadCase<'a, R, u32>, KernelError> {
         Ok(LoadCase {
             loads: assembled.cells(),
@@ -177,23 +178,8 @@ impl<R: Scalar> Data<R> {
             ends: VertexData { gap: &self.gap, given: &self.given },
             curved: &self.curved,
             transfer: &self.transfer,
-            forms: &self.forms,
+            forms,
             oscillation: self.oscillation,
         })
-    }
-}
-
-fn narrowed<R: Scalar>(form: &TransferForm<f64, u32>) -> TransferForm<R, u32> {
-    let square = |of: &Square<f64>| Square {
-        square: of.square.map(R::narrow),
-        linear: of.linear.map(R::narrow),
-        constant: R::narrow(of.constant),
-    };
-    TransferForm {
-        law: form.law,
-        compliance: R::narrow(form.compliance),
-        below: square(&form.below),
-        above: square(&form.above),
-        mean: R::narrow(form.mean),
     }
 }

@@ -40,6 +40,7 @@ mod stretch;
 pub mod term;
 #[cfg(test)]
 mod tests;
+pub mod transfer_forms;
 pub mod transfer_points;
 pub mod weighed;
 

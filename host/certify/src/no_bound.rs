@@ -2,12 +2,11 @@
 
 use std::fmt;
 
-use signorini_bound::certificate::{TransferForm, Verdict};
+use signorini_bound::certificate::Verdict;
 
 use super::cell::Cell;
 use super::curved::{Curved, Rough};
 use super::ends::Ends;
-use super::transfer_points::Along;
 use signorini_problem::pieces::Pieces;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Problem, excess_within_ranges};
@@ -22,9 +21,6 @@ impl NoBound {
     pub fn new(reason: impl Into<String>) -> Self {
         Self(reason.into())
     }
-
-    /// Reasons that [`NoBound::of_data`] may find, for callers that have not kept it.
-    pub const OF_DATA: &str = "u_D jumps between two edges, u_D or ψ jumps inside one, a transfer coefficient nearly vanishes or varies inside an edge, A is not proved to be positive definite, or an input without a range changes the range of a contact flux that varies along an edge";
 
     /// Why these data allow for no bound, whatever the iterate.
     pub fn of_data(problem: &Problem, ends: &Ends, curved: &[Curved]) -> Option<Self> {
@@ -85,27 +81,32 @@ impl NoBound {
         }))
     }
 
-    /// The first transfer edge whose points do not see its coefficient: in firmware that is no bound, on the desk where it vanishes.
-    pub(super) fn transfer_unseen(
-        problem: &Problem,
-        forms: &[TransferForm<f64, u32>],
-        along: Along,
-    ) -> Option<Self> {
-        let vanishes =
-            |form: &&TransferForm<f64, u32>| along == Along::Points || !form.compliance.is_finite();
-        let form = forms.iter().find(vanishes)?;
-        let edge = problem.loads.robin.get(form.law as usize)?.edge as usize;
-        let (name, place) = (boundary(problem, edge), middle(problem, edge));
-        Some(Self(match form.compliance.is_finite() {
-            true => format!(
-                "the transfer coefficient of boundary.{name} varies inside the edge around {place} in a way that 8 points do \
-                 not see: a vertex where it jumps or a finer mesh gives a controller a bound"
-            ),
-            false => format!(
-                "the transfer coefficient of boundary.{name} is not proved to be positive along the edge around {place}: the \
-                 bound divides by it where it vanishes"
-            ),
-        }))
+    /// A transfer edge along which h is not proved to be positive.
+    pub(super) fn transfer_vanishes(problem: &Problem, edge: usize) -> Self {
+        Self(format!(
+            "the transfer coefficient of boundary.{} is not proved to be positive along the edge around {}: the bound \
+             divides by it where it vanishes",
+            boundary(problem, edge),
+            middle(problem, edge)
+        ))
+    }
+
+    /// The first of these transfer laws whose points do not see h, and whose h an input changes.
+    pub fn of_changed_transfer(problem: &Problem, laws: &[u32]) -> Option<Self> {
+        laws.iter().find_map(|&law| {
+            let edge = problem.loads.robin.get(law as usize)?.edge as usize;
+            let name = boundary(problem, edge);
+            let changes = |input: &&Input| {
+                input.field.value == Field::Coefficient && input.of.value == name
+            };
+            let input = problem.scene.inputs.iter().find(changes)?;
+            Some(Self(format!(
+                "the transfer coefficient of boundary.{name} varies inside the edge around {} in a way that 8 points do not \
+                 see, and input.{} changes it: a vertex where it jumps or a finer mesh gives a controller a bound",
+                middle(problem, edge),
+                input.name.value
+            )))
+        })
     }
 
     /// A is not proved to be positive definite and bounded somewhere.

@@ -24,7 +24,6 @@ use std::f64::consts::PI;
 use super::cell::Cell;
 use super::robin::missed;
 use super::stretch::is_even;
-use super::transfer_points::Along;
 pub use alpha::alpha;
 use edges::{of_flux, pole_on_edge};
 use parts::square;
@@ -58,14 +57,14 @@ pub struct Oscillation {
 ///
 /// # Errors
 /// Data that are not finite.
-pub fn oscillation(problem: &Problem, along: Along) -> Result<Oscillation> {
+pub fn oscillation(problem: &Problem) -> Result<Oscillation> {
     let (mut all, inside) = of_source(problem)?;
     let mut through_sides = stretched::through_sides(problem, &all.of_cells, &inside);
     for edge in 0..problem.kinds.len() {
         let (at, _) = problem.topology.first_side(edge);
         let [known, missed] = match problem.kinds[edge] {
             EdgeKind::Neumann | EdgeKind::Contact => of_flux(problem, edge)?,
-            EdgeKind::Robin => missed(problem, edge, along)?,
+            EdgeKind::Robin => missed(problem, edge)?,
             EdgeKind::Interior | EdgeKind::Dirichlet => [0.0; 2],
         };
         all.of_cells[at] += known + missed;

@@ -10,7 +10,7 @@
 use signorini_kernel::Real;
 
 use super::between::{form_missed, value_missed};
-use super::transfer_points::{Along, EdgePoint, unseen};
+use super::transfer_points::{EdgePoint, unseen};
 use signorini_problem::quadrature::DATA_POINTS;
 use signorini_problem::quadrature::refined::{Part, refined};
 use signorini_problem::{Problem, Sum};
@@ -56,13 +56,13 @@ const LEFT: [f64; 2] = [1e-3, 1e-5];
 ///
 /// # Errors
 /// Data that are not finite at a point.
-pub fn missed(problem: &Problem, edge: usize, along: Along) -> Result<[f64; 2]> {
+pub fn missed(problem: &Problem, edge: usize) -> Result<[f64; 2]> {
     let data = (
         Sum::transfer(problem, edge, problem.time),
         Sum::on_edge(problem, edge, Field::Ambient, problem.time),
     );
     let (Some(h), Some(ambient)) = &data else { return Ok([0.0; 2]) };
-    let (unseen, is_even) = (unseen(problem, edge, along)?, h.constant().is_some());
+    let (unseen, is_even) = (unseen(problem, edge)?, h.constant().is_some());
     if ambient.constant().is_some() && (is_even || unseen.is_some()) {
         return Ok([0.0; 2]);
     }
@@ -226,8 +226,7 @@ mod tests {
             let old = "ambient = \"y + y^2 - 1 + (3*y - 6.5)/(2+y)\"";
             let text = text.replace(old, &format!("ambient = \"{ambient}\""));
             let (_, problem) = fixtures::on_grid(&text, grid(1, Cells::Quads))?;
-            missed(&problem, problem.loads.robin[0].edge as usize, Along::Parts)
-                .map(|both| both.iter().sum())
+            missed(&problem, problem.loads.robin[0].edge as usize).map(|both| both.iter().sum())
         };
         POINTS.check("a polynomial", missed_of("4", "y^7 - 3*y^2")?);
         assert_eq!(missed_of("4", "3")?, 0.0);

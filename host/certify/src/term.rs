@@ -84,7 +84,7 @@ pub fn full_terms(problem: &Problem) -> Result<Vec<TermData>> {
 pub fn condensed_terms(problem: &Problem) -> Result<Vec<TermData>> {
     let term = |term: Term| {
         let alone = problem.left_with(&[term])?;
-        let data = Evaluated::of_rows(&alone)?;
+        let data = Evaluated::of_term(&alone)?;
         TermData::new(problem, term, alone, data)
     };
     (0..=problem.scene.inputs.len()).map(term).collect()
@@ -108,7 +108,7 @@ impl TermData {
     /// Data that are not finite.
     pub fn silent(problem: &Problem) -> Result<Self> {
         let alone = problem.left_with(&[])?;
-        let data = Evaluated::of_rows(&alone)?;
+        let data = Evaluated::of_term(&alone)?;
         Ok(Self::of(alone, data, Vec::new()))
     }
 
@@ -164,15 +164,22 @@ fn as_stated(scene: &Scene) -> Scene {
 
 /// The data of a term with the most oscillation, and the first reason for no bound, of any coefficients within their ranges.
 fn at_all_corners(alone: &Problem) -> Result<Evaluated> {
-    let mut corners = corners(&alone.scene).map(|scene| Evaluated::of_term(&alone.restated(scene)));
+    let mut corners = corners(&alone.scene).map(|scene| at_corner(&alone.restated(scene)));
     // Without such inputs there is one corner, the scene itself.
-    let first = corners.next().unwrap_or_else(|| Evaluated::of_term(alone))?;
+    let first = corners.next().unwrap_or_else(|| at_corner(alone))?;
     corners.try_fold(first, |worst, there| {
         let there = there?;
         let oscillation = worst.oscillation.max(there.oscillation);
         let no_bound = worst.no_bound.or(there.no_bound);
         Ok::<_, Error>(Evaluated { oscillation, no_bound, ..there })
     })
+}
+
+/// The data of a term at a corner: there is no bound where an input changes an h that points do not see.
+fn at_corner(alone: &Problem) -> Result<Evaluated> {
+    let data = Evaluated::of_term(alone)?;
+    let changed = NoBound::of_changed_transfer(alone, &data.forms.laws);
+    Ok(Evaluated { no_bound: data.no_bound.or(changed), ..data })
 }
 
 /// `scene` with the inputs of coefficients at all corners of their ranges: once where there are none.

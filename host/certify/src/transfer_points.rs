@@ -1,8 +1,7 @@
 //! Transfer coefficients that the 8 points of an edge do not see: on parts of it h lies between two parabolas;
-//! what the kernel makes of it is said at [`TransferForm`]. A part is halved until both are 1e−4 apart, or it is 2⁻²⁴ of the edge
+//! the kernel takes them by forms ([`super::transfer_forms`]). A part is halved until both are 1e−4 apart, or it is 2⁻²⁴ of the edge
 //! long, or there are 4096 points.
 
-use signorini_bound::certificate::{Square, TransferForm};
 use signorini_kernel::Real;
 use signorini_problem::quadrature::DATA_POINTS;
 use signorini_problem::{Problem, Sum};
@@ -10,24 +9,8 @@ use signorini_scene::error::Result;
 use signorini_scene::expression::enclosure::{Interval, Region};
 use signorini_scene::scene::Field;
 
-/// Who integrates along transfer edges.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Along {
-    /// The desk: along parts where points of the edge miss 1e−8 of an integral, a ten-thousandth of the norm.
-    Parts,
-    /// Firmware: by 8 points of the edge, which may miss 1e−4.
-    Points,
-}
-
-impl Along {
-    fn missed(self) -> f64 {
-        match self {
-            Self::Parts => 1e-8,
-            Self::Points => 1e-4,
-        }
-    }
-}
-
+/// Part of an integral that points may miss: a ten-thousandth of the norm.
+const MISSED: f64 = 1e-8;
 /// By how much h may vary along an edge that points see: ∫(τ·n)²/h is beyond them where it nearly vanishes.
 const VARYING: f64 = 10.0;
 /// Halvings of an edge.
@@ -40,9 +23,8 @@ const ROUNDED: f64 = 1e-14;
 const ROUNDING: f64 = 1e-12;
 /// By how much h may vary in a part, and leave its parabola.
 const SMOOTH: [f64; 2] = [0.1, 1e-4];
-/// Part of the root of an integral over a part that its 8 points miss: η⁴ of a parabola that varies by η = 0.05 (`pieces`), and η⁸ of ∫1/H.
+/// Part of the root of an integral over a part that its 8 points miss: η⁴ of a parabola that varies by η = 0.05 (`pieces`).
 pub const MISSED_BETWEEN: f64 = 1e-5;
-const MISSED_OF_COMPLIANCE: f64 = 1e-10;
 /// Powers of t: those of squares of functions of degree 2.
 const POWERS: i32 = 5;
 
@@ -78,7 +60,7 @@ impl EdgePoint {
 ///
 /// # Errors
 /// Data that are not finite.
-pub fn unseen(problem: &Problem, edge: usize, along: Along) -> Result<Option<Vec<EdgePoint>>> {
+pub fn unseen(problem: &Problem, edge: usize) -> Result<Option<Vec<EdgePoint>>> {
     let Some(h) = Sum::transfer(problem, edge, problem.time) else { return Ok(None) };
     let Some(ambient) = Sum::on_edge(problem, edge, Field::Ambient, problem.time) else {
         return Ok(None);
@@ -93,16 +75,16 @@ pub fn unseen(problem: &Problem, edge: usize, along: Along) -> Result<Option<Vec
         return Ok(None);
     }
     let parts = data.parts()?;
-    Ok((!is_seen(&own, &parts, along.missed())).then_some(parts))
+    Ok((!is_seen(&own, &parts)).then_some(parts))
 }
 
 /// Whether points see ∫H tᵏ and ∫1/H, and H varies little at them.
-fn is_seen(own: &[EdgePoint], parts: &[EdgePoint], missed: f64) -> bool {
+fn is_seen(own: &[EdgePoint], parts: &[EdgePoint]) -> bool {
     let of = |points: &[EdgePoint], value: &dyn Fn(&EdgePoint) -> f64| -> f64 {
         points.iter().map(|at| at.weight * value(at)).sum()
     };
     let agrees = |value: &dyn Fn(&EdgePoint) -> f64, size: f64| {
-        (of(own, value) - of(parts, value)).abs() <= missed * size
+        (of(own, value) - of(parts, value)).abs() <= MISSED * size
     };
     let [low, high] = own
         .iter()
@@ -111,46 +93,6 @@ fn is_seen(own: &[EdgePoint], parts: &[EdgePoint], missed: f64) -> bool {
     high <= VARYING * low
         && agrees(&|at| 1.0 / at.h, of(parts, &|at| 1.0 / at.h))
         && (0..POWERS).all(|k| agrees(&|at| at.h * at.t.powi(k), size))
-}
-
-/// The forms of the transfer edges whose points do not see h, in the order of the laws.
-///
-/// # Errors
-/// Data that are not finite.
-pub fn forms(problem: &Problem, along: Along) -> Result<Vec<TransferForm<f64, u32>>> {
-    let mut forms = Vec::new();
-    for (law, record) in problem.loads.robin.iter().enumerate() {
-        if let Some(points) = unseen(problem, record.edge as usize, along)? {
-            forms.push(form(law as u32, &points));
-        }
-    }
-    Ok(forms)
-}
-
-fn form(law: u32, points: &[EdgePoint]) -> TransferForm<f64, u32> {
-    let mut form = TransferForm { law, ..TransferForm::default() };
-    for at in points {
-        let low = at.between[0];
-        let compliance = if low > 0.0 { at.weight / low } else { f64::INFINITY };
-        form.compliance += (1.0 + MISSED_OF_COMPLIANCE) * compliance;
-        add(&mut form.below, at, low);
-        add(&mut form.above, at, at.above());
-        form.mean += at.weight * at.ambient;
-    }
-    form
-}
-
-/// Adds a point's share of ∫W (s − u_ext)².
-fn add(to: &mut Square<f64>, &EdgePoint { t, weight, ambient, .. }: &EdgePoint, w: f64) {
-    let (weight, functions) = (w * weight, [1.0 - t, t, 4.0 * t * (1.0 - t)]);
-    let pairs = [[0, 0], [0, 1], [0, 2], [1, 1], [1, 2], [2, 2]];
-    for (square, [i, j]) in to.square.iter_mut().zip(pairs) {
-        *square += weight * functions[i] * functions[j];
-    }
-    for (linear, function) in to.linear.iter_mut().zip(functions) {
-        *linear += weight * ambient * function;
-    }
-    to.constant += weight * ambient * ambient;
 }
 
 /// Data along an edge.
@@ -246,24 +188,10 @@ mod tests {
         ] {
             let text = SCENE.replace("coefficient = \"2+y\"", &format!("coefficient = \"{h}\""));
             let (_, problem) = on_grid(&text, grid(4, Cells::Triangles))?;
-            assert_eq!(forms(&problem, Along::Points)?.is_empty(), are_seen, "{h}");
+            let laws = problem.loads.robin.iter().map(|law| unseen(&problem, law.edge as usize));
+            let found = laws.collect::<Result<Vec<_>>>()?;
+            assert_eq!(found.iter().all(Option::is_none), are_seen, "{h}");
         }
-        Ok(())
-    }
-
-    /// ∫1/H and ∫H of a step over a quarter of an edge: H is 100 on 0.004 of it and 1 elsewhere, times |E| = ¼.
-    #[test]
-    fn a_step_is_integrated() -> Result<()> {
-        let h = "1 + 99*(0.5 + 0.5*sign(0.0005 - abs(y - 0.07)))";
-        let text = SCENE.replace("coefficient = \"2+y\"", &format!("coefficient = \"{h}\""));
-        let (_, problem) = on_grid(&text, grid(4, Cells::Triangles))?;
-        let all = forms(&problem, Along::Points)?;
-        let [form] = &all[..] else { panic!("one edge") };
-        let [aa, ab, _, bb, ..] = form.below.square;
-        let exact = [4.0 * (0.996 + 0.004 / 100.0), 0.25 * (0.996 + 0.4)];
-        assert!((form.compliance / exact[0] - 1.0).abs() < 1e-4, "{form:?} {exact:?}");
-        assert!(((aa + 2.0 * ab + bb) / exact[1] - 1.0).abs() < 1e-4, "{form:?} {exact:?}");
-        assert!(form.compliance >= exact[0] && aa + 2.0 * ab + bb <= exact[1]);
         Ok(())
     }
 }

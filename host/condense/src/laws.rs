@@ -12,7 +12,7 @@ use signorini_kernel::mesh::boundary::Robin;
 use super::block::{Block, Functions};
 use signorini_certify::TermData;
 use signorini_certify::robin::{RobinPoints, robin};
-use signorini_certify::transfer_points::{Along, EdgePoint, MISSED_BETWEEN, unseen};
+use signorini_certify::transfer_points::{EdgePoint, MISSED_BETWEEN, unseen};
 use signorini_problem::Problem;
 use signorini_problem::quadrature::DATA_POINTS;
 use signorini_problem::triangular::triangular;
@@ -102,7 +102,7 @@ pub(super) fn points_of(
         RULE.iter().zip(points).map(seen).collect::<Vec<_>>()
     };
     let of = |(pattern, points): (&TermData, &RobinPoints)| {
-        Ok(unseen(&pattern.problem, edge, Along::Parts)?.unwrap_or_else(|| own(points)))
+        Ok(unseen(&pattern.problem, edge)?.unwrap_or_else(|| own(points)))
     };
     patterns.iter().zip(ambient).map(of).collect()
 }
@@ -110,7 +110,7 @@ pub(super) fn points_of(
 /// The rows of a Robin edge: `ambient` holds its points for each pattern. Where h is
 /// 0 the flux is, and there is nothing to add. Between two parabolas, with m the part that is left open,
 /// ```text
-///   ∫(τ·n + h(s − u_ext))²/h ≤ (1 + m) ∫(τ·n + h⁻(s − u_ext))²/h⁻ + (1 + 1/m) ∫N′(s − u_ext)²      (TransferForm)
+///   ∫(τ·n + h(s − u_ext))²/h ≤ (1 + m) ∫(τ·n + h⁻(s − u_ext))²/h⁻ + (1 + 1/m) ∫N′(s − u_ext)²      (TransferForms)
 /// ```
 pub(super) fn of_robin(
     problem: &Problem,

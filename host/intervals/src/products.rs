@@ -16,7 +16,7 @@ use signorini_certify::curved;
 use signorini_certify::deviation::{Deviation, Deviations};
 use signorini_certify::factor::coefficients;
 use signorini_certify::robin::robin;
-use signorini_certify::transfer_points::{Along, EdgePoint, MISSED_BETWEEN, unseen};
+use signorini_certify::transfer_points::{EdgePoint, MISSED_BETWEEN, unseen};
 use signorini_kernel::Real;
 use signorini_problem::Problem;
 use signorini_problem::field::CellField;
@@ -183,7 +183,7 @@ impl<'p> Residual<'p> {
             let length = problem.lengths[edge];
             let (value, density) = (goal.value_on(problem, edge), goal.density_on(problem, edge));
             let z_flux = z.tau[edge];
-            let unseen = unseen(problem, edge, Along::Parts)?;
+            let unseen = unseen(problem, edge)?;
             let own = f64::GAUSS[DATA_POINTS - 1].iter().zip(points);
             let own =
                 own.map(|(&[t, weight], &[h, ambient])| EdgePoint::seen(t, weight, h, ambient));

@@ -2,7 +2,7 @@
 
 use signorini_bake::full::{Baked, Controller};
 use signorini_bake::narrow::narrow;
-use signorini_certify::{CertifiedFields, Data, NoBound};
+use signorini_certify::{CertifiedFields, NoBound};
 use signorini_device::tick::Report;
 use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::Problem;
@@ -64,16 +64,13 @@ impl<R: Scalar, const WIDTH: usize> Session for Full<'_, R, WIDTH> {
             bubbles: self.controller.bubbles(),
         };
         let found = answer(report, &arrays, &self.baked.units());
-        let data = Data::<f64>::new(at)?;
         let factored = self.factored();
         let active = arrays.u.iter().skip(at.topology.counts.free).zip(self.controller.lower());
         let solution = Solution {
             ran: if factored.is_some() { Ran::Factor } else { Ran::Sweeps },
             factored,
             outputs: outputs.iter().map(|x| x.wide()).collect(),
-            no_bound: NoBound::of_verdict(&report.verdict, at, || {
-                data.no_bound().cloned().or_else(|| NoBound::of_ranges(at))
-            }),
+            no_bound: NoBound::of_verdict(&report.verdict, at, || self.baked.no_bound().cloned()),
             certified: match found.bound {
                 Some(_) => found.certified,
                 None => CertifiedFields::default(),

@@ -104,7 +104,8 @@ impl<'p, R: Scalar, const WIDTH: usize> KernelTick<'p, R, WIDTH> {
             Some((progress, _)) => Tick::resume(discretization, memory, progress)?,
             None => Tick::new(discretization, memory, Relaxation::for_unknowns(unknowns))?,
         };
-        let given = self.data.given(&self.moving)?;
+        let forms = self.data.forms();
+        let given = self.data.given(&self.moving, forms.as_slice())?;
         let (law, dirichlet) = (self.moving.law(), self.moving.dirichlet());
         let mut running = tick.begin(Data { given, law, dirichlet })?;
         let never = &mut Deadline::never();

@@ -59,8 +59,7 @@ fn candidate<R: Scalar>(problem: &Problem, budget: &Budget, baked: full::Baked<R
         staying: None,
         lacks_bound: false,
         // Where the bound is left out, nobody asks for it.
-        unbounded: (baked.is_certified() && !baked.has_bound())
-            .then(|| NoBound::OF_DATA.to_owned()),
+        unbounded: baked.no_bound().filter(|_| baked.is_certified()).map(NoBound::to_string),
         model: Model::Full(Box::new(baked)),
         shortfalls: budget.shortfalls(&needs),
         needs,

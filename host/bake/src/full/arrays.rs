@@ -19,8 +19,8 @@ use super::output::{Output, output};
 use crate::module_api::ModuleApi;
 use crate::range::refuse_answers;
 use crate::setting::checked;
-use signorini_certify::Certifier;
 use signorini_certify::term::full_terms;
+use signorini_certify::{Certifier, NoBound};
 use signorini_problem::functional::functionals;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Approach, Assembled, Parts, Problem};
@@ -131,7 +131,12 @@ impl<R: Scalar> Baked<R> {
 
     /// Whether these data allow for an error bound.
     pub fn has_bound(&self) -> bool {
-        self.data.has_bound
+        self.how.certified && self.no_bound().is_none()
+    }
+
+    /// Why its data allow for none.
+    pub fn no_bound(&self) -> Option<&NoBound> {
+        self.data.no_bound.as_ref()
     }
 
     /// The limits of its ticks.
@@ -258,7 +263,7 @@ impl<R: Scalar> Baked<R> {
             ("triangles", !self.of_triangles.is_empty()),
             ("quads", !self.of_quads.is_empty()),
             ("varying", !self.metric_place.is_empty()),
-            ("pieces", !self.factors.is_empty()),
+            ("pieces", !(self.factors.is_empty() && self.data.forms.laws.is_empty())),
             ("distorted", !self.distortions.is_empty()),
             ("contact", self.counts.contact > 0),
             ("limited", !self.data.spans.is_empty()),

@@ -1,7 +1,8 @@
 //! A baked scene as the kernel takes it: what the desk solves, and what the module lists.
 
+use signorini_bound::certificate::TransferForms;
 use signorini_bound::conforming::VertexData;
-use signorini_device::full::{Base, CurvedSum, Full, Functional, Lengths};
+use signorini_device::full::{Along, Base, CurvedSum, Full, Functional, Lengths};
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::flux_range::{Room, Spans};
 
@@ -9,6 +10,7 @@ use super::arrays::Baked;
 use super::data::Data;
 use super::output::Output;
 use super::pattern::Pattern;
+use signorini_certify::transfer_forms::Forms;
 use signorini_problem::scalar::Scalar;
 
 impl<R: Scalar> Baked<R> {
@@ -30,13 +32,14 @@ impl<R: Scalar> Baked<R> {
             .map(|of| CurvedSum { edge: of.edge, parts: &of.parts, energy: &of.energy })
             .collect();
         let rooms: Vec<_> = self.data.rooms.iter().map(|room| room.view()).collect();
+        let along = (&self.data.transfer[..], self.data.view_of_forms());
         take(&Full {
             discretization: self.discretization(),
-            base: self.data.base(&sums, &rooms),
+            base: self.data.base(&sums, &rooms, &along),
             patterns: &patterns,
             oscillation: &self.data.oscillation,
             outputs: &outputs,
-            has_bound: self.data.has_bound,
+            has_bound: self.has_bound(),
             corners: &self.corners,
             start: self.start,
             relaxation: self.how.relaxation,
@@ -45,10 +48,16 @@ impl<R: Scalar> Baked<R> {
 }
 
 impl<R: Scalar> Data<R> {
+    fn view_of_forms(&self) -> TransferForms<'_, R, u32> {
+        let Forms { laws, factors, .. } = &self.forms;
+        TransferForms { laws, inputs: &self.of_ambient, values: &[], factors }
+    }
+
     fn base<'a>(
         &'a self,
         curved_sums: &'a [CurvedSum<'a, R, u32>],
         rooms: &'a [Room<'a, R>],
+        along: &'a (&'a [[[R; 2]; 8]], TransferForms<'a, R, u32>),
     ) -> Base<'a, R, u32> {
         Base {
             loads: CellLoads { triangles: &self.triangles, quads: &self.quads },
@@ -65,7 +74,10 @@ impl<R: Scalar> Data<R> {
             ends: VertexData { gap: &self.gap_ends, given: &self.dirichlet_ends },
             curved: &self.curved,
             curved_sums,
-            transfer: &self.transfer,
+            transfer: match along.1.laws {
+                [] => Along::Seen(along.0),
+                _ => Along::Unseen(along),
+            },
         }
     }
 }

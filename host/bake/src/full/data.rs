@@ -11,12 +11,13 @@ use super::pattern::{Pattern, fluxes};
 use crate::narrow::{narrow, pairs};
 use crate::range::wider;
 use crate::room::Room;
-use signorini_certify::TermData;
 use signorini_certify::term::rooms_of;
+use signorini_certify::transfer_forms::Forms;
+use signorini_certify::{NoBound, TermData};
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Problem, excess_within_ranges};
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Field, Scene};
+use signorini_scene::scene::{Field, Input, Scene};
 
 /// The arrays of [`signorini_device::full::Base`], the patterns, the oscillation.
 #[derive(Debug, Clone, Default)]
@@ -36,9 +37,12 @@ pub(super) struct Data<R> {
     pub curved: Vec<Curved<R, u32>>,
     pub curved_sums: Vec<Bent<R>>,
     pub transfer: Vec<[[R; 2]; 8]>,
+    pub forms: Forms<R>,
+    /// The numbers of the inputs that change u_ext, where there are forms.
+    pub of_ambient: Vec<u16>,
     pub patterns: Vec<Pattern<R>>,
     pub oscillation: Vec<R>,
-    pub has_bound: bool,
+    pub no_bound: Option<NoBound>,
 }
 
 impl<R: Scalar> Data<R> {
@@ -54,6 +58,8 @@ impl<R: Scalar> Data<R> {
             .zip(of_inputs)
             .map(|(input, part)| Pattern::new(input.field.value, part, &neumann, is_uniform));
         let (curved, curved_sums) = bent(problem, parts)?;
+        let (forms, of_ambient) = forms(problem, parts)?;
+        let changed = || NoBound::of_changed_transfer(problem, &forms.laws);
         let of_base = neumann.iter().zip(fluxes(&neumann, base));
         let along = base.transfer.iter().filter(|_| !is_uniform);
         let mut data = Self {
@@ -72,9 +78,11 @@ impl<R: Scalar> Data<R> {
             curved,
             curved_sums,
             transfer: along.map(|edge| edge.map(|point| point.map(R::narrow))).collect(),
+            forms: forms.narrowed(),
+            of_ambient,
             patterns: patterns.collect(),
             oscillation: oscillation(problem, parts, stiffness),
-            has_bound: parts.iter().all(TermData::has_bound),
+            no_bound: parts.iter().find_map(|part| part.no_bound.clone()).or_else(changed),
         };
         data.leave_out_zeros(problem);
         Ok(data)
@@ -87,8 +95,9 @@ impl<R: Scalar> Data<R> {
             curved: Vec::new(),
             curved_sums: Vec::new(),
             transfer: Vec::new(),
+            forms: Forms::default(),
+            of_ambient: Vec::new(),
             oscillation: Vec::new(),
-            has_bound: false,
             ..self
         }
     }
@@ -117,7 +126,8 @@ impl<R: Scalar> Data<R> {
     /// Checks of the kernel that it makes only where its arrays are used.
     pub fn check(&self) -> std::result::Result<(), KernelError> {
         let weights = self.patterns.iter().flat_map(Pattern::weights);
-        let numbers = self.oscillation.iter().copied().chain(weights);
+        let bound = self.oscillation.iter().chain(&self.forms.factors);
+        let numbers = bound.copied().chain(weights);
         match numbers.into_iter().position(|x| !x.finite()) {
             Some(at) => Err(KernelError::NotFinite { of: Array::Inputs, at }),
             None => Ok(()),
@@ -143,6 +153,17 @@ pub(super) fn refuse_faint<R: Scalar>(scene: &Scene, data: &Data<R>) -> Result<(
 fn robin<R: Scalar>(law: &Robin<f64, u32>) -> Robin<R, u32> {
     let (coefficient, ambient) = (R::narrow(law.coefficient), R::narrow(law.ambient));
     Robin { edge: law.edge, coefficient, ambient }
+}
+
+/// The forms of transfer laws whose points do not see h, with the numbers of the inputs that change u_ext.
+fn forms(problem: &Problem, parts: &[TermData]) -> Result<(Forms<f64>, Vec<u16>)> {
+    let inputs = problem.scene.inputs.iter().zip(0_u16..);
+    let is_ambient = |(input, _): &(&Input, u16)| input.field.value == Field::Ambient;
+    let of_ambient: Vec<u16> = inputs.filter(is_ambient).map(|(_, at)| at).collect();
+    let acting = of_ambient.iter().map(|&at| &parts[usize::from(at) + 1]);
+    let terms: Vec<_> = parts.iter().take(1).chain(acting).map(|part| &part.problem).collect();
+    let forms = Forms::new(&terms)?;
+    Ok(if forms.laws.is_empty() { Default::default() } else { (forms, of_ambient) })
 }
 
 /// The largest excess of a contact edge, see [`excess_within_ranges`]; what is infinite leaves no bound.

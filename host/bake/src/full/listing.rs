@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 
 use signorini_bound::cells::{Cells, Quad, Triangle};
 use signorini_bound::certificate::{
-    Above, Curved, Discretization, ENTRIES, Factor, Metric, POINTS,
+    Above, Curved, Discretization, ENTRIES, Factor, Metric, POINTS, TransferForms,
 };
-use signorini_device::full::{Base, CurvedPart, CurvedSum, Full, Product};
+use signorini_device::full::{Along, Base, CurvedPart, CurvedSum, Full, Product};
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::mesh::edges::Edges;
@@ -27,6 +27,7 @@ pub(super) const NAMES: &str = "\
     kernel::mesh::boundary::Neumann kernel::mesh::boundary::Robin bound::cells::Cell \
     bound::cells::Cells bound::cells::Quad bound::cells::Triangle bound::certificate::Curved \
     bound::certificate::Discretization bound::certificate::Metric bound::certificate::Stability \
+    bound::certificate::TransferForms full::Along \
     bound::conforming::VertexData kernel::mesh::edges::EdgeCounts kernel::mesh::edges::Edges \
     full::AmbientShare full::Base full::EdgeTrace full::CurvedPart full::CurvedSum full::Full \
     full::Functional full::Pattern full::Points full::TransferPattern full::Product \
@@ -147,7 +148,11 @@ fn base<R: Scalar, I: Index>(of: &Base<R, u32>, to: &mut Statics) -> String {
     ]);
     let neumann = to.array::<Neumann<R, I>>("NEUMANN", "∫g of the edges with a given flux.", "Neumann<Scalar, Index>", of.neumann);
     let robin = to.array::<Robin<R, I>>("ROBIN", "Transfer laws: ∫h and ∫h u_ext.", "Robin<Scalar, Index>", of.robin);
-    let transfer = to.array::<[[R; 2]; 8]>("TRANSFER", "∫h and u_ext at 8 points of each transfer edge.", "[[Scalar; 2]; 8]", of.transfer);
+    let points = to.array::<[[R; 2]; 8]>("TRANSFER", "∫h and u_ext at 8 points of each transfer edge.", "[[Scalar; 2]; 8]", of.transfer.points());
+    let transfer = match &of.transfer {
+        Along::Seen(_) => format!("Along::Seen({points})"),
+        Along::Unseen((_, forms)) => format!("Along::Unseen(&({points}, {}))", forms_written::<R, I>(forms, to)),
+    };
     let contact_flux = to.numbers("CONTACT_FLUX", "∫q of each contact edge.", of.contact_flux);
     let spans = match of.spans.lengths() {
         [] => "Spans::UNLIMITED".to_owned(),
@@ -174,6 +179,16 @@ fn base<R: Scalar, I: Index>(of: &Base<R, u32>, to: &mut Statics) -> String {
         ("curved", to.array::<Curved<R, I>>("CURVED", "Edges on which ψ or u_D is not affine.", "Curved<Scalar, Index>", of.curved)),
         ("curved_sums", lines(of.curved_sums.iter().enumerate().map(|(at, of)| curved_sum(at, of, to)))),
         ("transfer", transfer),
+    ])
+}
+
+#[rustfmt::skip]
+fn forms_written<R: Scalar, I: Index>(of: &TransferForms<R, u32>, to: &mut Statics) -> String {
+    record("TransferForms", [
+        ("laws", to.array::<I>("UNSEEN_TRANSFER", "Transfer laws whose points do not see h.", "Index", of.laws)),
+        ("inputs", to.array::<u16>("INPUTS_OF_AMBIENT", "The inputs that change u_ext.", "u16", of.inputs)),
+        ("values", "&[]".to_owned()),
+        ("factors", to.numbers("TRANSFER_FACTORS", "Triangular factors of ∫(τ·n + h(s − u_ext))²/h.", of.factors)),
     ])
 }
 

@@ -17,7 +17,7 @@ fn smallest() -> f64 {
 #[test]
 fn linear_data_on_triangles_in_closed_form() -> Result<()> {
     let (_, problem) = fixtures::on_grid(SMOOTH, fixtures::distorted(grid(3, Cells::Triangles)))?;
-    let found = oscillation(&problem, Along::Parts)?.of_cells;
+    let found = oscillation(&problem)?.of_cells;
     for (at, vertices) in problem.mesh.triangles.iter().enumerate() {
         let corners = vertices.map(|vertex| problem.mesh.vertices[vertex as usize]);
         // ∫λ_iλ_j = |T|/12 (1 + δ_ij): ‖f − f̄‖² = |T|/12 Σ (f_i − f̄)².
@@ -31,7 +31,7 @@ fn linear_data_on_triangles_in_closed_form() -> Result<()> {
         for &edge in &problem.topology.of_triangles[at] {
             let (edge, length) = (edge as usize, problem.lengths[edge as usize]);
             // 1e−10 of it: u_ext is rational. Its own test is in `robin`.
-            expected += missed(&problem, edge, Along::Parts)?.iter().sum::<f64>();
+            expected += missed(&problem, edge)?.iter().sum::<f64>();
             let [[x0, y0], [x1, y1]] = problem.segment(edge);
             // ‖g − ḡ‖² of a linear g is |E|/12 times its rise squared; of q = −3.5x² − 1 with the
             // middle m, ∫ = |E| 3.5² (m² l²/3 + l⁴/180).
@@ -180,13 +180,13 @@ fn constant_data_oscillate_only_where_the_area_element_does() -> Result<()> {
     let constant = PARABOLA.replace("f = \"0\"", "f = \"3\"");
     for cells in [Cells::Triangles, Cells::Quads] {
         let (_, problem) = fixtures::on_grid(&constant, grid(3, cells))?;
-        assert!(oscillation(&problem, Along::Parts)?.of_cells.iter().all(|&cell| cell == 0.0));
+        assert!(oscillation(&problem)?.of_cells.iter().all(|&cell| cell == 0.0));
     }
     let mesh = fixtures::distorted(grid(3, Cells::Quads));
     let (_, problem) = fixtures::on_grid(&constant, mesh.clone())?;
-    assert!(oscillation(&problem, Along::Parts)?.of_cells.iter().any(|&cell| cell > 1e-3));
+    assert!(oscillation(&problem)?.of_cells.iter().any(|&cell| cell > 1e-3));
     let (_, problem) = fixtures::on_grid(PARABOLA, mesh)?;
-    assert!(oscillation(&problem, Along::Parts)?.of_cells.iter().all(|&cell| cell == 0.0));
+    assert!(oscillation(&problem)?.of_cells.iter().all(|&cell| cell == 0.0));
     Ok(())
 }
 
@@ -196,7 +196,7 @@ fn linear_source_on_a_square() -> Result<()> {
     let linear = PARABOLA.replace("f = \"0\"", "f = \"x\"");
     let (_, problem) = fixtures::on_grid(&linear, grid(4, Cells::Quads))?;
     let expected = 2.0_f64.sqrt() * 0.25 / PI * (0.25_f64.powi(4) / 12.0).sqrt();
-    for cell in oscillation(&problem, Along::Parts)?.of_cells {
+    for cell in oscillation(&problem)?.of_cells {
         OSCILLATION.check("a cell", cell - expected);
     }
     Ok(())

@@ -7,7 +7,6 @@
 
 use crate::Solution;
 use signorini_certify::oscillation::oscillation;
-use signorini_certify::transfer_points::Along;
 use signorini_problem::Problem;
 use signorini_scene::error::Result;
 
@@ -33,5 +32,5 @@ pub fn squares(problem: &Problem, solution: &Solution) -> Result<Vec<f64>> {
 
 /// osc_T of every cell.
 pub(super) fn oscillations(problem: &Problem) -> Result<Vec<f64>> {
-    Ok(oscillation(problem, Along::Parts)?.of_cells)
+    Ok(oscillation(problem)?.of_cells)
 }

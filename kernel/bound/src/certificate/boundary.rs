@@ -52,10 +52,10 @@ pub(super) fn add<R: Real, I: Index>(
             s: ends(discretization, s, edge),
             bubble: read(s.bubbles, edge),
         };
-        let forms = if features::PIECES { given.forms } else { &[] };
-        let form = forms.iter().find(|form| form.law.at() == at);
-        let [term, terms, open] = match (form, given.transfer.get(at)) {
-            (Some(form), _) => transfer.by_form(form),
+        let forms = if features::PIECES { given.forms.first() } else { None };
+        let by_form = forms.and_then(|forms| transfer.by_form(forms, at));
+        let [term, terms, open] = match (by_form, given.transfer.get(at)) {
+            (Some(known), _) => known,
             (None, Some(points)) => [transfer.at_points(points), R::ZERO, R::ZERO],
             (None, None) => [transfer.constant(law.coefficient, law.ambient), R::ZERO, R::ZERO],
         };

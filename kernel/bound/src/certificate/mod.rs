@@ -55,7 +55,7 @@ pub use factor::{Above, ENTRIES, Factor};
 pub use metric::{Metric, POINTS, of_quad, of_triangle};
 pub use signorini_kernel::verdict::{Certificate, Verdict};
 pub use stability::stability;
-pub use transfer::{Square, TransferForm};
+pub use transfer::TransferForms;
 
 use crate::averages;
 use crate::cells::Cells;
@@ -120,8 +120,8 @@ pub struct LoadCase<'a, R, I> {
     /// Of each transfer law ∫h and u_ext at the 8 Gauss points of its edge, or nothing where both are
     /// constant along every edge.
     pub transfer: &'a [[[R; 2]; 8]],
-    /// Transfer edges whose 8 points do not see h.
-    pub forms: &'a [TransferForm<R, I>],
+    /// Transfer edges whose 8 points do not see h: one record of all, or none.
+    pub forms: &'a [TransferForms<'a, R, I>],
     /// Part of f, g and q that their means leave out: √Σ_T (osc_T + Σ_{E⊂∂T} osc_E)².
     pub oscillation: R,
 }

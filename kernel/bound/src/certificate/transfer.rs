@@ -1,47 +1,64 @@
 //! Transfer laws in the bound: ∫r²/h with r = τ·n + h(s − u_ext).
 
 use signorini_kernel::Real;
+use signorini_kernel::index::{Index, read};
 
-/// A transfer edge inside which H = ∫h lies between H⁻ and H⁺, N = H⁺ − H⁻; t runs from 0 to 1 along it:
+/// Transfer edges inside which H = ∫h lies between H⁻ and H⁺ (borrowed), N = H⁺ − H⁻; t runs from 0 to 1 along each:
 /// ```text
-///   ‖H^{−½}r‖ ≤ (τ²∫1/H⁻ + 2τ∫(s − u_ext) + ∫H⁻(s − u_ext)²)^½ + (∫N′(s − u_ext)²)^½,     N′ = min(1, N/H⁻) N
+///   ‖H^{−½}r‖ ≤ ‖(H⁻)^{−½}τ + (H⁻)^½(s − u_ext)‖ + (∫N′(s − u_ext)²)^½,     N′ = min(1, N/H⁻) N
 /// ```
+/// With x = (τ, s at both ends, its bubble, −1, −p), p the inputs that change u_ext, both are norms of a triangular factor times x, the
+/// second without τ: sums of squares, in which s − u_ext loses no digit to the squares of either.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct TransferForm<R, I> {
-    /// Which law.
-    pub law: I,
-    /// ∫1/H⁻
-    pub compliance: R,
-    /// ∫H⁻(s − u_ext)²
-    pub below: Square<R>,
-    /// ∫N′(s − u_ext)²
-    pub above: Square<R>,
-    /// ∫u_ext
-    pub mean: R,
+pub struct TransferForms<'a, R, I> {
+    /// Which laws.
+    pub laws: &'a [I],
+    /// The numbers of the inputs p.
+    pub inputs: &'a [u16],
+    /// The values of all inputs.
+    pub values: &'a [R],
+    /// Of each law both factors by rows, which begin on the diagonal: the square of the length of x.
+    pub factors: &'a [R],
 }
 
-/// ∫W (s − u_ext)² for a weight W, by the values of s at both ends and its bubble.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Square<R> {
-    /// ∫W φᵢφⱼ of φ = 1 − t, t, 4t(1 − t): 00, 01, 02, 11, 12, 22.
-    pub square: [R; 6],
-    /// ∫W u_ext φᵢ
-    pub linear: [R; 3],
-    /// ∫W u_ext²
-    pub constant: R,
-}
+/// τ, s at both ends, its bubble, and −1.
+const OWN: usize = 5;
 
-impl<R: Real> Square<R> {
-    /// The integral, and the size of what it is summed from.
-    fn of(&self, [a, b, bubble]: [R; 3]) -> [R; 2] {
-        let [aa, ab, ac, bb, bc, cc] = self.square;
-        let [of_a, of_b, of_c] = self.linear;
-        let squares = aa * a * a + bb * b * b + cc * bubble * bubble;
-        let products = ab * a * b + ac * a * bubble + bc * b * bubble;
-        let linear = of_a * a + of_b * b + of_c * bubble;
-        let value = squares + R::TWO * (products - linear) + self.constant;
-        // Each product is less than the squares beside it.
-        [value, R::from_count(4) * (squares + self.constant)]
+impl<R: Real, I: Index> TransferForms<'_, R, I> {
+    /// The factors of a law that points do not see.
+    fn of(&self, law: usize) -> Option<&[R]> {
+        let at = self.laws.iter().position(|own| own.at() == law)?;
+        let width = OWN + self.inputs.len();
+        self.factors.chunks_exact(width * width).nth(at)
+    }
+
+    /// What stands at a place of x, `own` first.
+    fn entry(&self, own: &[R; OWN], at: usize) -> R {
+        match own.get(at) {
+            Some(&own) => own,
+            None => {
+                -self.inputs.get(at - OWN).map_or(R::ZERO, |of| read(self.values, *of as usize))
+            }
+        }
+    }
+
+    /// ‖Fx‖² for the factor F at the front of `factors`, of x from an entry on, and the size of what it is summed from; F is taken off.
+    fn square(&self, factors: &mut &[R], own: &[R; OWN], from: usize) -> [R; 2] {
+        let width = OWN + self.inputs.len();
+        let (mut value, mut terms) = (R::ZERO, R::ZERO);
+        for first in from..width {
+            let Some((row, rest)) = factors.split_at_checked(width - first) else { break };
+            *factors = rest;
+            let (mut sum, mut size) = (R::ZERO, R::ZERO);
+            for (&factor, at) in row.iter().zip(first..) {
+                let term = factor * self.entry(own, at);
+                sum += term;
+                size += term.magnitude() + sum.magnitude();
+            }
+            value += sum * sum;
+            terms += size * (R::TWO * sum.magnitude() + R::EPSILON * size);
+        }
+        [value, terms]
     }
 }
 
@@ -95,17 +112,13 @@ impl<R: Real> Transfer<R> {
         })
     }
 
-    /// The term of H⁻, the size of its terms, and what N′ adds to the root.
+    /// The term of H⁻, the size of its terms, and what N′ adds to the root; nothing for a law that its points see.
     #[inline(never)]
-    pub fn by_form<I>(&self, form: &TransferForm<R, I>) -> [R; 3] {
-        let ([a, b], bubble, tau) = (self.s, self.bubble, self.flux);
-        let mean = R::HALF * (a + b) + R::TWO * R::THIRD * bubble - form.mean;
-        let [energy, size] = form.below.of([a, b, bubble]);
-        let [open, of_open] = form.above.of([a, b, bubble]);
-        let of_flux = form.compliance * tau * tau;
-        let terms = a.magnitude() + b.magnitude() + bubble.magnitude() + form.mean.magnitude();
-        let terms = of_flux + R::TWO * tau.magnitude() * terms + size;
-        let open = open.or_larger(R::ZERO) + R::from_count(8) * R::EPSILON * of_open;
-        [of_flux + R::TWO * tau * mean + energy, terms, open]
+    pub fn by_form<I: Index>(&self, forms: &TransferForms<R, I>, law: usize) -> Option<[R; 3]> {
+        let [a, b] = self.s;
+        let (own, mut factors) = ([self.flux, a, b, self.bubble, -R::ONE], forms.of(law)?);
+        let [value, terms] = forms.square(&mut factors, &own, 0);
+        let [open, of_open] = forms.square(&mut factors, &own, 1);
+        Some([value, terms, open + R::from_count(8) * R::EPSILON * of_open])
     }
 }

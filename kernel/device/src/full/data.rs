@@ -3,7 +3,7 @@
 use super::curved::CurvedSum;
 use super::pattern::{DataMemory, Pattern};
 use crate::tick::Data;
-use signorini_bound::certificate::{Curved, LoadCase};
+use signorini_bound::certificate::{Curved, LoadCase, TransferForms};
 use signorini_bound::conforming::VertexData;
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::error::{Array, Error, same_length_or_empty};
@@ -12,6 +12,15 @@ use signorini_kernel::law::Law;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::{Index, Real, features};
+
+/// What the bound takes along transfer edges (borrowed).
+#[derive(Debug, Clone, Copy)]
+pub enum Along<'a, R, I> {
+    /// ∫h and u_ext at the Gauss points of every edge, or nothing where both are constant along them.
+    Seen(&'a [[[R; 2]; 8]]),
+    /// The same, and the forms of edges whose points do not see h. Behind one pointer, a scene without them takes nothing for it.
+    Unseen(&'a (&'a [[[R; 2]; 8]], TransferForms<'a, R, I>)),
+}
 
 /// The data where all inputs are 0 (borrowed), as [`Data`] takes them.
 #[derive(Debug, Clone, Copy, Default)]
@@ -38,8 +47,36 @@ pub struct Base<'a, R, I> {
     pub curved: &'a [Curved<R, I>],
     /// The same where inputs do, `curved` being empty then.
     pub curved_sums: &'a [CurvedSum<'a, R, I>],
-    /// ∫h and u_ext at the Gauss points of transfer edges, or nothing where both are constant along them.
-    pub transfer: &'a [[[R; 2]; 8]],
+    /// h and u_ext along transfer edges.
+    pub transfer: Along<'a, R, I>,
+}
+
+impl<R, I> Default for Along<'_, R, I> {
+    fn default() -> Self {
+        Self::Seen(&[])
+    }
+}
+
+impl<'a, R, I> Along<'a, R, I> {
+    /// ∫h and u_ext at the points.
+    pub const fn points(&self) -> &'a [[[R; 2]; 8]] {
+        match self {
+            Self::Seen(points) | Self::Unseen((points, _)) => points,
+        }
+    }
+
+    /// The forms for these inputs.
+    pub(super) fn forms<'v>(&self, values: &'v [R]) -> Option<TransferForms<'v, R, I>>
+    where
+        'a: 'v,
+    {
+        match self {
+            Self::Unseen((_, forms)) if features::PIECES => {
+                Some(TransferForms { values, ..*forms })
+            }
+            _ => None,
+        }
+    }
 }
 
 impl<R: Real, I: Index> DataMemory<'_, R, I> {
@@ -59,7 +96,7 @@ impl<R: Real, I: Index> DataMemory<'_, R, I> {
         copy(Array::Contact, base.ends.gap, self.gap_ends)?;
         copy(Array::Dirichlet, base.dirichlet, self.dirichlet)?;
         copy(Array::Dirichlet, base.ends.given, self.dirichlet_ends)?;
-        copy(Array::Robin, base.transfer, self.transfer)?;
+        copy(Array::Robin, base.transfer.points(), self.transfer)?;
         copy(Array::ContactSpans, base.spans.lengths(), self.spans)?;
         for (pattern, &p) in patterns.iter().zip(inputs) {
             pattern.add(p, self);
@@ -85,6 +122,7 @@ impl<R: Real, I: Index> DataMemory<'_, R, I> {
         &'d self,
         base: &Base<'d, R, I>,
         edges: &Edges<I>,
+        forms: &'d [TransferForms<'d, R, I>],
         (oscillation, moved): (R, R),
     ) -> Result<Data<'d, R, I>, Error> {
         let contact_flux = own_or(self.contact_flux, base.contact_flux);
@@ -102,8 +140,8 @@ impl<R: Real, I: Index> DataMemory<'_, R, I> {
                 given: own_or(self.dirichlet_ends, base.ends.given),
             },
             curved: own_or(self.curved, base.curved),
-            transfer: own_or(self.transfer, base.transfer),
-            forms: &[],
+            transfer: own_or(self.transfer, base.transfer.points()),
+            forms,
             oscillation,
         };
         let law = Law::above(own_or(self.gap, base.gap)).with_spans(spans);

@@ -149,7 +149,7 @@ impl Lengths {
             }
             Pattern::Ambient { .. } | Pattern::Coefficient(_) => {
                 self.robin = base.robin.len();
-                numbers.transfer = base.transfer.as_flattened().as_flattened().len();
+                numbers.transfer = base.transfer.points().as_flattened().as_flattened().len();
             }
         }
     }

@@ -21,7 +21,7 @@ mod transfer;
 mod units;
 
 pub use curved::{CurvedPart, CurvedSum, Product};
-pub use data::Base;
+pub use data::{Along, Base};
 pub use functional::Functional;
 pub use lengths::{Lengths, Numbers};
 pub use pattern::{
@@ -53,7 +53,7 @@ pub struct Full<'a, R, I> {
     pub oscillation: &'a [R],
     /// What each output is.
     pub outputs: &'a [Functional<'a, R, I>],
-    /// Whether the data allow for a bound: u_D is continuous, and no transfer coefficient nearly vanishes.
+    /// Whether the data allow for a bound: u_D is continuous, and no transfer coefficient vanishes along a part of an edge.
     pub has_bound: bool,
     /// Where C meets D: the places of ψ and u_D there, counted over the ends of all edges of their blocks.
     pub corners: &'a [[I; 2]],
@@ -107,7 +107,9 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         let Memory { tick: of_tick, data: mut of_data, progress } = memory;
         let moved = of_data.evaluate(&self.base, self.patterns, inputs)?;
         let oscillation = self.oscillation(inputs);
-        let data = of_data.view(&self.base, &self.discretization.edges, (oscillation, moved))?;
+        let (edges, forms) = (&self.discretization.edges, self.base.transfer.forms(inputs));
+        let forms = if features::PIECES { forms.as_slice() } else { &[] };
+        let data = of_data.view(&self.base, edges, forms, (oscillation, moved))?;
         let known = match progress.has_begun() {
             true => *progress,
             false => Progress::new(self.relaxation)?,

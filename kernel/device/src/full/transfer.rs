@@ -60,7 +60,7 @@ impl<R: Real, I: Index> TransferPattern<'_, R, I> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::full::{AmbientShare, Base, Contribution};
+    use crate::full::{Along, AmbientShare, Base, Contribution};
     use signorini_kernel::mesh::boundary::Robin;
 
     /// Two laws: h = 2 and 3 on them, u_ext = 10 and 20. Lengths are 1.
@@ -95,7 +95,7 @@ mod tests {
 
     /// h and ∫h u_ext of both laws, and h and u_ext at a point of each.
     fn at(inputs: [f64; 2]) -> [[[f64; 2]; 2]; 2] {
-        let base = Base { robin: &LAWS, transfer: &POINTS, ..Base::default() };
+        let base = Base { robin: &LAWS, transfer: Along::Seen(&POINTS), ..Base::default() };
         let (mut robin, mut transfer) = (LAWS, POINTS);
         let mut data =
             DataMemory { robin: &mut robin, transfer: &mut transfer, ..DataMemory::default() };

@@ -3,8 +3,8 @@
 use signorini_bound::certificate::Curved;
 use signorini_bound::conforming::VertexData;
 use signorini_device::full::{
-    Base, Contribution, CurvedPart, CurvedSum, DataMemory, EdgeTrace, Full, Functional, Lengths,
-    Memory, Pattern, Points, Product, Storage,
+    Along, Base, Contribution, CurvedPart, CurvedSum, DataMemory, EdgeTrace, Full, Functional,
+    Lengths, Memory, Pattern, Points, Product, Storage,
 };
 use signorini_device::tick::{CertifiedSweeps, Deadline, Limits, Progress, UncertifiedSweeps};
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
@@ -92,7 +92,7 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
             dirichlet: &arrays.start[counts.unknowns()..],
             ends: arrays.ends(),
             curved_sums: &sums,
-            transfer: &transfer,
+            transfer: Along::Seen(&transfer),
             ..Base::default()
         },
         patterns: &patterns,
@@ -159,7 +159,7 @@ fn play<R: Scalar>(
         numbers: lengths.map(<[R]>::to_vec),
         ends: [base.ends.gap.to_vec(), base.ends.given.to_vec()],
         curved: vec![Curved::default(); base.curved_sums.len()],
-        transfer: base.transfer.to_vec(),
+        transfer: base.transfer.points().to_vec(),
     };
     let (mut neumann, mut robin) = (arrays.neumann.clone(), arrays.robin.clone());
     let edges = &full.discretization.edges;

@@ -2,6 +2,7 @@
 
 mod compiled;
 mod factored;
+mod forms;
 mod scale;
 mod setting;
 

@@ -18,7 +18,6 @@ use signorini_certify::conductivity::Conductivity;
 use signorini_certify::curved::curved_edges;
 use signorini_certify::exact::{Distance, distance_on};
 use signorini_certify::robin::missed;
-use signorini_certify::transfer_points::Along;
 use signorini_intervals::Answered;
 use signorini_problem::Problem;
 use signorini_problem::quadrature::{gauss, on_panels};
@@ -214,7 +213,7 @@ impl Held<'_> {
     fn missed(&self) -> Result<f64> {
         let problem = self.problem;
         let laws = problem.loads.robin.iter();
-        let squares = laws.map(|law| missed(problem, law.edge as usize, Along::Parts));
+        let squares = laws.map(|law| missed(problem, law.edge as usize));
         let squares = squares.map(|of| of.map(|[known, left]| (known + left).powi(2)));
         Ok(squares.sum::<Result<f64>>()?.sqrt())
     }
