@@ -167,8 +167,7 @@ impl<R: Scalar> Baked<R> {
         assembled.system().map_err(&unfit)?;
         let certifier = Certifier::new(&least, &held, &assembled).map_err(&unfit)?;
         let discretization = certifier.discretization(&assembled).map_err(&unfit)?;
-        let functionals = functionals(problem)?;
-        let outputs = functionals.iter().map(|of| output(problem, of)).collect();
+        let outputs = functionals(problem)?.iter().map(|of| output(problem, of)).collect();
         let data = Data::new(problem, &full_terms(problem)?, discretization.stiffness)?;
         data.check().map_err(&unfit)?;
         refuse_faint(&problem.scene, &data)?;

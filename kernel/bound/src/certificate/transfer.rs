@@ -122,3 +122,29 @@ impl<R: Real> Transfer<R> {
         Some([value, terms, open + R::from_count(8) * R::EPSILON * of_open])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// (τ + 2a + 3b + 4d − 5 − 6p)² + (7p)² of H⁻, and (a − p)² of N′, for law 3 alone and p the second input.
+    #[test]
+    fn a_form_is_that_of_its_law_at_the_inputs() {
+        let mut factors = [0.0; 36];
+        factors[..6].copy_from_slice(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+        (factors[20], factors[21], factors[25]) = (7.0, 1.0, 1.0);
+        let forms = TransferForms {
+            laws: &[3_u16],
+            inputs: &[1],
+            values: &[100.0, 0.5],
+            factors: &factors,
+        };
+        let edge = Transfer { flux: 1.0, s: [2.0, 3.0], bubble: -1.0 };
+        let [value, terms, open] = edge.by_form(&forms, 3).unwrap_or_default();
+        // 1 + 4 + 9 − 4 − 5 − 3 = 2, and 2 − 0.5 = 1.5.
+        assert_eq!(value, 4.0 + 12.25);
+        assert!((64.0..1000.0).contains(&terms), "{terms}");
+        assert!(open > 2.25 && open < 2.25 + 1e-13, "{open}");
+        assert_eq!(edge.by_form(&forms, 0), None);
+    }
+}
