@@ -9,6 +9,7 @@
 //! bound² = identity², whatever S and τ are, is a test of the bound from both sides. Nothing is
 //! clipped: where S or τ are not admissible, single terms are negative.
 
+mod along;
 mod fewer;
 mod two_sided;
 
@@ -17,25 +18,22 @@ pub use fewer::of_fewer_points;
 use std::borrow::Cow;
 use std::iter::repeat;
 
-use signorini_kernel::mesh::geometry::scaled_normal;
+use along::EdgePoint;
 
 use super::admissible::Admissible;
 use super::cell::{Cell, Jet};
-use super::conductivity::{Conductivity, apply, dot};
+use super::conductivity::Conductivity;
 use super::curved;
 use super::deviation::Deviations;
 use super::sampled::{Lifted, Sampled, Solution};
 use super::weighed::{FEW, Weighed, in_cell, on_robin, plus, size_in_cell, twice};
 use signorini_problem::field::CellField;
-use signorini_problem::pointwise::{POINTS, exact_at, points_on};
+use signorini_problem::pointwise::{POINTS, points_on};
 use signorini_problem::quadrature::{gauss, on_panels};
 use signorini_problem::threads::in_portions;
 use signorini_problem::{EdgeKind, Problem, Sum};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Exact, Field};
-
-/// Panels on an edge, each with 8 points: the exact flux has kinks where contact ends.
-const PANELS: u32 = 8;
 
 /// Distances of S and τ to the exact solution, in the unit of ‖A^½∇u‖.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -105,19 +103,6 @@ struct CellPoint {
     square: f64,
     /// The size that its rounding is a part of.
     size: f64,
-}
-
-/// Values at a point of a boundary edge.
-struct EdgePoint {
-    x: [f64; 2],
-    /// An element of length.
-    weight: f64,
-    u: f64,
-    s: f64,
-    /// σ·n
-    sigma: f64,
-    /// τ·n
-    tau: f64,
 }
 
 impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
@@ -253,9 +238,8 @@ impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
     /// ∫[h(u − S)² + ((σ − τ)·n)²/h] over an edge of R, 0 on others.
     fn robin(&self, edge: usize) -> Result<Weighed> {
         let problem = self.problem;
-        let Some(coefficient) = Sum::transfer(problem, edge, problem.time) else {
-            return Ok([0.0; 2]);
-        };
+        let h = Sum::transfer(problem, edge, problem.time);
+        let Some(coefficient) = h else { return Ok([0.0; 2]) };
         let term = |point: EdgePoint| {
             let h = coefficient.finite(coefficient.at(point.x[0], point.x[1]), point.x)?;
             let EdgePoint { weight, u, s, sigma, tau, .. } = point;
@@ -269,32 +253,5 @@ impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
 
     fn data(&self, edge: usize, field: Field) -> Option<Sum<'_>> {
         Sum::on_edge(self.problem, edge, field, self.problem.time)
-    }
-
-    fn on_edge(&self, edge: usize, term: impl Fn(EdgePoint) -> Result<Weighed>) -> Result<Weighed> {
-        let points = self.edge_points(edge)?.into_iter();
-        points.map(term).try_fold([0.0; 2], |sum, term| Ok(plus(sum, term?)))
-    }
-
-    fn edge_points(&self, edge: usize) -> Result<Vec<EdgePoint>> {
-        let (problem, length) = (self.problem, self.problem.lengths[edge]);
-        let [a, b] = problem.segment(edge);
-        let normal: [f64; 2] = scaled_normal(a, b).into();
-        let (at, _) = problem.topology.first_side(edge);
-        let conductivity = Conductivity::of(problem, at);
-        let deviation = self.deviations.on(edge);
-        let point = |[t, weight]: [f64; 2]| {
-            let x = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
-            let (u, gradient) = exact_at(&self.problem.scene, self.exact, x, self.problem.time)?;
-            Ok(EdgePoint {
-                x,
-                weight: weight * length,
-                u,
-                s: self.admissible.on_edge(problem, edge, deviation, t)?,
-                sigma: dot(apply(&conductivity.at(x), gradient), normal) / length,
-                tau: self.admissible.tau[edge] / length,
-            })
-        };
-        on_panels(self.panels * PANELS / self.fewer, &gauss(8)).into_iter().map(point).collect()
     }
 }

@@ -94,6 +94,29 @@ fn the_bound_is_the_identity_for_gaps_with_kinks() -> Result<()> {
     Ok(())
 }
 
+/// A transfer coefficient that is narrow inside an edge: true errors are integrated on its parts, as the bound is.
+#[test]
+fn the_bound_is_the_identity_beside_narrow_transfer_coefficients() -> Result<()> {
+    let h = "(1 + 1e5*exp(-((y - 0.31)/2e-4)^2))";
+    let u = "value = \"x^2 - y^2\"";
+    let boundary = |name: &str| format!("[boundary.{name}]\nkind = \"dirichlet\"\n{u}\n");
+    let others = ["contact", "right", "dirichlet"].map(boundary).concat();
+    let text = format!(
+        "mesh = \"none.msh\"\n[material.default]\nconductivity = \"1\"\n[source]\nf = \"0\"\n{others}[boundary.left]\n\
+         kind = \"robin\"\ncoefficient = \"{h}\"\nambient = \"1 - y^2 + 2/{h}\"\n[exact]\nu = \"x^2 - y^2\"\n\
+         gradient = [\"2*x\", \"-2*y\"]\n"
+    );
+    for cells in [Cells::Triangles, Cells::Mixed] {
+        let (scene, problem) = on_grid(&text, grid(4, cells))?;
+        let solution = solve(&problem, &Options::default())?;
+        let (exact, bound) = (scene.exact.as_ref().expect("one"), solution.bound.expect("a bound"));
+        let found = distance(exact, &problem, &solution.certified.admissible())?;
+        assert!(found.combined <= bound.total, "{found:?} {bound:?}");
+        assert!((bound.duality_gap / found.identity - 1.0).abs() < 2e-3, "{found:?} {bound:?}");
+    }
+    Ok(())
+}
+
 /// A that no rule of points sees: a step, a bump of a hundredth of a cell and a wave shorter than cells, with u = y along them.
 #[test]
 fn of_conductivities_that_vary_inside_cells() -> Result<()> {
