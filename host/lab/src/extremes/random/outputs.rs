@@ -10,8 +10,8 @@ use signorini_intervals::{Answered, exact_value, of_answer};
 use signorini_kernel::verdict::Certificate;
 use signorini_problem::Problem;
 use signorini_scene::scene::{Condition, Located, Output, Quantity, Scene};
-use signorini_solve::Solution;
 use signorini_solve::outputs::{Reading, declared};
+use signorini_solve::{ScalarKind, Solution};
 
 /// The part of the largest number that sums may round and quadrature of data may miss: intervals of controllers leave it out.
 const ROUNDED: f64 = 1e-6;
@@ -111,8 +111,9 @@ impl Asked<'_> {
     /// Outputs with their values, and how far a controller would say that they are off.
     fn as_a_controller(&self, problem: &Problem) -> Vec<(String, f64, f64)> {
         let touching = self.touching(problem);
-        let (Some(bound), Ok(values)) = (self.answer.bound, declared(&touching, self.reading))
-        else {
+        // ψ is u there to the bit, whatever its scalar was.
+        let reading = Reading { scalar: ScalarKind::F64, ..self.reading };
+        let (Some(bound), Ok(values)) = (self.answer.bound, declared(&touching, reading)) else {
             return Vec::new();
         };
         let certificate = Certificate {
