@@ -17,14 +17,12 @@
 
 use signorini_kernel::flux_range::settled;
 
-use super::{Problem, Sum, widths};
+use super::widths::{self, ENDS};
+use super::{Problem, Sum};
 use crate::quadrature::enclosed::Integral;
 use signorini_scene::error::Result;
 use signorini_scene::scene::term::Term;
-use signorini_scene::scene::{Boundary, Condition, Field, Input};
-
-/// Fields of either end.
-pub(super) const ENDS: [Field; 2] = [Field::Flux, Field::Limit];
+use signorini_scene::scene::{Boundary, Condition, Field};
 
 /// The means of both ends of a contact edge's flux, and what is missed of them; an infinite end is its own mean.
 pub(super) fn ends(problem: &Problem, edge: usize, time: f64) -> Result<([f64; 2], f64)> {
@@ -119,7 +117,7 @@ impl Problem {
             if self.inputs_of(boundary, &ENDS).all(|input| input.range.is_none()) {
                 return Ok(());
             }
-            let Some(terms) = widths::terms(self, boundary, within) else { return Ok(()) };
+            let Some(terms) = widths::terms(self, boundary) else { return Ok(()) };
             self.looks(edge, &terms).try_for_each(|point| check_at(self, boundary, point))
         })
     }
@@ -140,11 +138,6 @@ impl Problem {
         }
         Ok(all)
     }
-}
-
-/// The values that an input may have; without a range its default alone.
-fn within(input: &Input) -> [f64; 2] {
-    input.range.as_ref().map_or([input.default; 2], |_| input.interval())
 }
 
 fn check_at(problem: &Problem, boundary: &Boundary, [x, y]: [f64; 2]) -> Result<()> {

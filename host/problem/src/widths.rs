@@ -7,20 +7,18 @@
 //! ```
 //! and is bounded by the largest value of hi − lo on each side: its mean and an excess.
 
-use super::limits::ENDS;
 use super::lowest::{Ranged, lowest};
 use super::{Problem, Sum};
-use crate::quadrature::{gauss, on_panels};
 use signorini_scene::expression::enclosure::Interval;
-use signorini_scene::scene::{Boundary, Datum, Field, Input};
+use signorini_scene::scene::{Boundary, Datum, Field};
 
-/// Gauss points a panel, and panels on an edge, at which the least and the largest span are looked for.
-const POINTS: usize = 8;
-const PANELS: u32 = 4;
-/// Part of a constant difference that rounding may leave.
-const CONSTANT: f64 = 1e-12;
-/// Part of an excess up to which it need not be known, and of hi − lo that rounding may be.
+/// Fields of either end.
+pub(super) const ENDS: [Field; 2] = [Field::Flux, Field::Limit];
+
+/// Part of an excess up to which it need not be known.
 const KNOWN: f64 = 1e-3;
+/// Part of hi − lo that its rounding may be, and part of the terms that either end is summed from.
+const CONSTANT: f64 = 1e-12;
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// By how much |E| (hi − lo) exceeds its integral somewhere on a contact edge, at most; `None` where an end is infinite, or hi − lo is
@@ -36,12 +34,9 @@ pub(super) fn now(problem: &Problem, edge: usize, time: f64) -> Option<Ranged<'_
     is_finite(&whole).then_some(whole)
 }
 
-/// hi − lo of a boundary as the scene states it, and what each input adds; `None` where an end is infinite.
-pub(super) fn terms<'p>(
-    problem: &'p Problem,
-    boundary: &'p Boundary,
-    values: impl Fn(&Input) -> [f64; 2],
-) -> Option<Vec<Ranged<'p>>> {
+/// hi − lo of a boundary as the scene states it, and what each input adds within its range, or at its default where it has none;
+/// `None` where an end is infinite.
+pub(super) fn terms<'p>(problem: &'p Problem, boundary: &'p Boundary) -> Option<Vec<Ranged<'p>>> {
     let alone = |expression: &'p Datum| Sum::alone(&problem.scene, expression, problem.time);
     let [minus, plus] = ENDS.map(|field| boundary.condition.load(field).map(alone));
     let stated = Ranged { minus, plus: Some(plus?), factor: [1.0; 2] };
@@ -49,7 +44,8 @@ pub(super) fn terms<'p>(
         return None;
     }
     let inputs = problem.inputs_of(boundary, &ENDS).map(|input| {
-        let (pattern, factor) = (Some(alone(&input.pattern)), values(input));
+        let factor = input.range.as_ref().map_or([input.default; 2], |_| input.interval());
+        let pattern = Some(alone(&input.pattern));
         match input.field.value {
             Field::Limit => Ranged { minus: None, plus: pattern, factor },
             _ => Ranged { minus: pattern, plus: None, factor },
@@ -70,48 +66,21 @@ fn is_finite(of: &Ranged) -> bool {
 /// leave none in a part of it.
 pub fn excess_within_ranges(problem: &Problem, edge: usize) -> Option<f64> {
     let boundary = problem.boundary_of(edge)?;
-    let all = terms(problem, boundary, Input::interval)?;
+    let all = terms(problem, boundary)?;
     let is_ranged = problem.inputs_of(boundary, &ENDS).all(|input| input.range.is_some());
-    let most = excess_of(problem, edge, &all)?;
-    Some(if is_ranged { most } else { f64::INFINITY })
-}
-
-/// A term less its mean at so many points of an edge, times the factor with which that is largest; nothing where it is constant but for
-/// rounding.
-fn above_mean(of: &Ranged, points: &[([f64; 2], f64)]) -> Option<Vec<f64>> {
-    let spans: Vec<f64> = points.iter().map(|&(point, _)| of.at(point)).collect();
-    let terms = points.iter().map(|&([x, y], _)| of.data().map(|of| of.terms_at(x, y)).sum());
-    let terms = terms.fold(0.0_f64, f64::max);
-    let mean: f64 = spans.iter().zip(points).map(|(span, (_, weight))| weight * span).sum();
-    let [low, high] = spans.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], span| {
-        [low.min(*span), high.max(*span)]
-    });
-    // Of ends that are equal rounding leaves a part of themselves.
-    let varies = high - low > (CONSTANT * mean.abs()).max(ROUNDING * terms);
-    let most = |span: &f64| -of.least(Interval::point(mean - span));
-    varies.then(|| spans.iter().map(most).collect())
-}
-
-/// The excess of a sum of such terms: the largest that is seen at points where it is proved that there is no larger one.
-fn excess_of(problem: &Problem, edge: usize, terms: &[Ranged]) -> Option<f64> {
-    let is_constant = |of: &&Ranged| of.data().all(|end| end.constant().is_some());
-    let varying: Vec<_> = terms.iter().filter(|of| !is_constant(of)).collect();
-    let inside = on_panels(PANELS, &gauss(POINTS));
-    let along = inside.iter().map(|&[t, weight]| (t, weight)).chain([(0.0, 0.0), (1.0, 0.0)]);
-    let points: Vec<_> = along.map(|(t, weight)| (problem.along(edge, t), weight)).collect();
-    let sums = varying.iter().filter_map(|term| above_mean(term, &points));
-    let seen = sums.reduce(|sum, more| sum.iter().zip(more).map(|(a, b)| a + b).collect());
-    let seen = seen.map(|sum| sum.into_iter().fold(f64::NEG_INFINITY, f64::max));
-    let proved = proved(problem, edge, &varying)?;
-    let size: f64 = varying.iter().map(|of| of.size_at(problem.along(edge, 0.5))).sum();
-    match proved <= seen.unwrap_or(0.0) + ROUNDING * size {
-        true => seen.map(|seen| problem.lengths[edge] * seen),
-        false => Some(problem.lengths[edge] * proved),
+    match is_ranged || all.iter().all(is_constant) {
+        true => excess_of(problem, edge, &all),
+        false => Some(f64::INFINITY),
     }
 }
 
-/// No excess of a sum of terms that vary is above this one; `None` where none varies.
-fn proved(problem: &Problem, edge: usize, varying: &[&Ranged]) -> Option<f64> {
+fn is_constant(of: &Ranged) -> bool {
+    of.data().all(|end| end.constant().is_some())
+}
+
+/// No excess of a sum of such terms is above this one; `None` where all are constant but for rounding.
+fn excess_of(problem: &Problem, edge: usize, terms: &[Ranged]) -> Option<f64> {
+    let varying: Vec<_> = terms.iter().filter(|of| !is_constant(of)).collect();
     if varying.is_empty() {
         return None;
     }
@@ -127,13 +96,15 @@ fn proved(problem: &Problem, edge: usize, varying: &[&Ranged]) -> Option<f64> {
         varying.iter().zip(&means).map(|(of, mean)| of.least(*mean - d(of))).sum()
     };
     let size: f64 = varying.iter().map(|of| of.size_at(problem.along(edge, 0.5))).sum();
+    let widest = means.iter().fold(0.0_f64, |most, mean| most.max(mean.size()));
+    let rounding = (CONSTANT * widest).max(ROUNDING * size);
     let found = lowest(
         segment,
         |at| lacks(&|of| Interval::point(of.at(at))),
         |part| lacks(&|of| of.within(part)),
-        |value, bound| value - bound <= KNOWN * value.abs() + ROUNDING * size,
+        |value, bound| -bound <= rounding || value - bound <= KNOWN * value.abs(),
     );
-    Some(-found.bound)
+    (-found.bound > rounding).then(|| -problem.lengths[edge] * found.bound)
 }
 
 #[cfg(test)]
@@ -182,6 +153,12 @@ input.leak = {{ of = \"contact\", field = \"flux\", pattern = \"-2\"{leak} }}
             assert!(is_known((default - most(0.5)) / default), "{default} {}", most(0.5));
             assert_eq!(excess_within_ranges(&open, edge), Some(f64::INFINITY));
         }
+        let constant =
+            scene("", "").replace("4 - x^2", "4").replace("default = 0.5", "default = 0");
+        let (_, open) = on_grid(&constant, grid(5, Cells::Triangles))?;
+        let edge = open.topology.counts.free;
+        assert_eq!(excess_within_ranges(&open, edge), Some(f64::INFINITY));
+        assert_eq!(excess(&open, edge, 0.0), None);
         Ok(())
     }
 
