@@ -66,12 +66,13 @@ fn is_finite(of: &Ranged) -> bool {
 /// leave none in a part of it.
 pub fn excess_within_ranges(problem: &Problem, edge: usize) -> Option<f64> {
     let boundary = problem.boundary_of(edge)?;
-    let all = terms(problem, boundary)?;
-    let is_ranged = problem.inputs_of(boundary, &ENDS).all(|input| input.range.is_some());
-    match is_ranged || all.iter().all(is_constant) {
-        true => excess_of(problem, edge, &all),
-        false => Some(f64::INFINITY),
+    let mut all = terms(problem, boundary)?;
+    if problem.inputs_of(boundary, &ENDS).all(|input| input.range.is_some()) {
+        return excess_of(problem, edge, &all);
     }
+    // Whether any of them varies, by whatever it is multiplied.
+    all.iter_mut().for_each(|of| of.factor = [-1.0, 1.0]);
+    excess_of(problem, edge, &all).map(|_| f64::INFINITY)
 }
 
 fn is_constant(of: &Ranged) -> bool {
