@@ -102,6 +102,23 @@ fn outputs_have_bounds_beside_them() {
     assert_eq!(bounds(&["--no-intervals"]).header, ["t"]);
 }
 
+/// A head that jumps along the river leaves no bound: the reason stands where the interval would.
+#[test]
+fn without_a_bound_the_reason_is_said() {
+    let folder = Folder::new();
+    let jump = [("\"-4.5\"", "\"-4.5 + 0.1*sign(y - 2.3)\"")];
+    let scene = folder.scene("levee.toml", LEVEE, &jump);
+    for more in [&["--ticks", "2"][..], &["--ticks", "2", "--baked"]] {
+        let said = tick(&scene, &folder, more).succeeds().stdout;
+        assert!(
+            said.contains(
+                "no interval of seepage in 2 of 2 ticks: the value of boundary.river near"
+            ),
+            "{more:?}: {said}"
+        );
+    }
+}
+
 #[test]
 fn a_series_has_a_file_for_each_tick_and_none_of_an_earlier_run() {
     let folder = Folder::new();

@@ -35,14 +35,14 @@ pub(super) fn check_now(problem: &Problem) -> Result<()> {
     for record in &problem.loads.robin {
         let edge = record.edge as usize;
         let Some(h) = Sum::transfer(problem, edge, problem.time) else { continue };
-        let Some(alone) = Sum::transfer(problem, edge, problem.time) else { continue };
-        for [x, y] in problem.looks(edge, &[Ranged::of(alone, [1.0; 2])]) {
-            let value = h.at(x, y);
+        let (key, h) = (h.key(), Ranged::of(h, [1.0; 2]));
+        for at @ [x, y] in problem.looks(edge, std::slice::from_ref(&h)) {
+            let value = h.at(at);
             if value < 0.0 {
                 let message = format!("the coefficient is {value} at ({x}, {y}), expected ≥ 0");
                 let hint =
                     "flux = coefficient · (ambient − u) with a negative coefficient has no limit";
-                return Err(problem.scene.error(h.key(), message).hint(hint).into());
+                return Err(problem.scene.error(key, message).hint(hint).into());
             }
         }
     }

@@ -1,6 +1,6 @@
 //! The kernel's tick on a scene whose parts D or R holds: the code of a device, on data that are integrated for each moment.
 
-use signorini_certify::Certifier;
+use signorini_certify::{Certifier, NoBound};
 use signorini_device::tick::{
     CertifiedSweeps, Data, Deadline, Limits, Memory, Progress, Report, Tick,
 };
@@ -140,6 +140,8 @@ impl<R: Scalar, const WIDTH: usize> Session for KernelTick<'_, R, WIDTH> {
         let (counts, law) = (at.topology.counts, self.moving.law());
         let active = (0..counts.contact).map(|at| contact::is_active(counts, law, u, at));
         let bound = found.bound.filter(|_| self.data.has_bound());
-        Ok(Solution { bound, ..found }.with_active(at, active))
+        let of_verdict = || NoBound::of_verdict(&report.verdict, at, || None);
+        let no_bound = self.data.no_bound().cloned().or_else(of_verdict);
+        Ok(Solution { bound, no_bound, ..found }.with_active(at, active))
     }
 }

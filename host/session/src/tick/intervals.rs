@@ -18,9 +18,14 @@ pub(super) enum Intervals<'m> {
 }
 
 impl Intervals<'_> {
-    /// Intervals of the declared outputs, in their order.
+    /// Intervals of the declared outputs, in their order; of an answer without a bound, why there is none.
     pub fn of(&mut self, problem: &Problem, solution: &Solution) -> Result<Vec<TickInterval>> {
         let bound = solution.bound.filter(|bound| bound.total.is_finite());
+        if let (Self::Anew(_) | Self::Weighed(_), None, Some(why)) =
+            (&self, bound, &solution.no_bound)
+        {
+            return Ok(vec![Err(why.to_string()); problem.scene.outputs.len()]);
+        }
         match self {
             Self::Unasked => Ok(Vec::new()),
             Self::Anew(lasting) => {
