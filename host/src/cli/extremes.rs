@@ -33,7 +33,7 @@ With --random N whole scenes are drawn instead: materials, loads, conditions, ce
 Odd ones have a feature that fixed rules miss, such as a narrow source or a step of A inside a cell. \
 Each is measured against its exact solution or a finer solve that counts with its own bound. Leaves random.json (counts, \
 the largest ratios, all that is broken), random.csv (a line a case) and the scene and mesh of every case that breaks a \
-promise. 20 000 cases take about an hour.
+promise. 20 000 cases take about three hours.
 
 Exit status 0 where nothing is worse than certified-poor or refused with a typed error, else 1.";
 
