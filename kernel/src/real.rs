@@ -27,6 +27,8 @@ pub trait Real: Field + Copy + Default + 'static {
     const TINY: Self;
     /// ∞
     const INFINITY: Self;
+    /// −∞
+    const NEG_INFINITY: Self;
     /// Gauss–Legendre rules on \[0, 1\] with 1 to 8 points: (point, weight).
     const GAUSS: [&'static [[Self; 2]]; 8];
 
@@ -66,6 +68,7 @@ macro_rules! real {
             const EPSILON: Self = $scalar::EPSILON;
             const TINY: Self = $scalar::MIN_POSITIVE;
             const INFINITY: Self = $scalar::INFINITY;
+            const NEG_INFINITY: Self = $scalar::NEG_INFINITY;
             const GAUSS: [&'static [[Self; 2]]; 8] = crate::quadrature::$gauss;
 
             fn from_count(count: u32) -> Self {

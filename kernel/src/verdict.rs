@@ -22,6 +22,8 @@ pub struct Certificate<R> {
     /// total + ‖A^½∇_h(s − u_h)‖: never less than ‖A^½∇_h(u − u_h)‖, the error of the edge means in the energy norm,
     /// cell by cell. Where s lifts curved boundary data on distorted quads, the norm of that is added to that of the rest.
     pub of_u: R,
+    /// Never more than ‖A^{−½}τ − A^½∇s‖, with its part on R: what of the gap is no matter of contact. 0 where nothing is said of it.
+    pub distance: R,
 }
 
 impl<R: Real> Certificate<R> {

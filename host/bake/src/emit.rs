@@ -33,7 +33,7 @@ pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Emitted {
         }
         Model::Full(baked) => ("full", baked.features(), WorstCase::default(), full::source(baked)),
     };
-    let weighed = intervals::of_choice(problem, choice);
+    let known = intervals::of_choice(problem, choice);
     let ranges = choice.condensed().map(|(baked, origin)| ranges::found(baked, origin));
     let chosen = Chosen {
         model: model.to_owned(),
@@ -45,11 +45,11 @@ pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Emitted {
         ranges: ranges.filter(|_| ranges::declared(&problem.scene)),
         worst_case,
         outputs: wanted(&problem.scene).iter().map(described).collect(),
-        without_interval: weighed.iter().map(|of| of.as_ref().err().cloned()).collect(),
+        without_interval: known.weighed.iter().map(|of| of.as_ref().err().cloned()).collect(),
     };
     let source = source
         + &worst::constants(worst_case)
         + &ranges.map(ranges::constants).unwrap_or_default()
-        + &intervals::constants::<R>(problem, &weighed);
+        + &intervals::constants::<R>(problem, &known);
     Emitted { source, chosen }
 }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use signorini_certify::ErrorBound;
+use signorini_intervals::of_outputs;
 use signorini_problem::Problem;
 use signorini_problem::functional::wanted;
 use signorini_problem::inputs::{InputSpace, drawn};
@@ -12,6 +13,16 @@ use signorini_scene::scene::Scene;
 use signorini_session::{Module, with_module};
 use signorini_solve::outputs::outputs;
 use signorini_solve::{Options, ScalarKind, SolverKind, solve};
+
+/// What is known of an output, or why nothing is.
+type Known<T> = std::result::Result<T, String>;
+
+/// What a tick says of its outputs.
+struct Told {
+    values: Vec<f64>,
+    plus_minus: Vec<Known<f64>>,
+    between: Vec<Known<[f64; 2]>>,
+}
 
 /// Inputs that are tried: drawn ones, corners of the ranges among them.
 const TRIED: usize = 12;
@@ -34,15 +45,21 @@ fn exact(problem: &Problem, inputs: &[f64]) -> Result<Vec<Option<f64>>> {
 fn holds(
     name: &str,
     [once, twice]: [&Problem; 2],
-    (values, plus_minus): (&[f64], &[std::result::Result<f64, String>]),
+    Told { values, plus_minus, between }: &Told,
     inputs: &[f64],
 ) -> Result<usize> {
     let (once, twice) = (exact(once, inputs)?, exact(twice, inputs)?);
     let mut count = 0;
-    for (at, by) in plus_minus.iter().enumerate() {
-        let (Ok(by), Some(once), Some(twice)) = (by, once[at], twice[at]) else { continue };
-        let apart = (twice - values[at]).abs() - (twice - once).abs();
+    for (at, (by, ends)) in plus_minus.iter().zip(between).enumerate() {
+        assert_eq!(by.is_ok(), ends.is_ok(), "{name}, output {at}");
+        let (Ok(by), Ok(ends), Some(once), Some(twice)) = (by, ends, once[at], twice[at]) else {
+            continue;
+        };
+        let moved = (twice - once).abs();
+        let apart = (twice - values[at]).abs() - moved;
         assert!(apart <= *by, "{name}, output {at} at {inputs:?}: {} ± {by}, {twice}", values[at]);
+        let beyond = (ends[0] - twice).max(twice - ends[1]) - moved;
+        assert!(beyond <= 0.0, "{name}, output {at} at {inputs:?}: {twice} is not in {ends:?}");
         count += 1;
     }
     Ok(count)
@@ -61,7 +78,9 @@ fn checked(name: &str, scene: &Scene, scalar: ScalarKind) -> Result<usize> {
             session.tick(&inputs)?;
             let answer = session.answer(&own.with_inputs(&inputs)?)?;
             let plus_minus = module.plus_minus(answer.bound.as_ref());
-            counts.push(holds(name, [once, twice], (&answer.outputs, &plus_minus), &inputs)?);
+            let between = module.between(session, &answer.outputs, answer.bound.as_ref());
+            let told = Told { values: answer.outputs, plus_minus, between };
+            counts.push(holds(name, [once, twice], &told, &inputs)?);
         }
         assert!(counts.iter().all(|count| *count == counts[0]), "{name}: {counts:?}");
         Ok(counts[0])
@@ -183,6 +202,63 @@ fn defaults_at_which_a_flux_is_given_say_nothing_of_other_inputs() -> Result<()>
         if let (Ok(off), Ok(on)) = (off, on) {
             assert!((off / on - 1.0).abs() < 1e-9, "{off} {on}");
         }
+    }
+    Ok(())
+}
+
+fn median(mut ratios: Vec<f64>) -> f64 {
+    ratios.sort_by(f64::total_cmp);
+    ratios[ratios.len() / 2]
+}
+
+/// A tick's own s and τ tell more than its bound: over inputs that are drawn evenly, an interval is in the median at most so many
+/// times that of a solve with the same inputs, and an output is where a solve says that it is.
+#[test]
+fn intervals_of_controllers_are_near_those_of_solves() -> Result<()> {
+    const TICKS: usize = 120;
+    // On the strip six of eight edges that touch may also be open, and s follows the gap above all of them.
+    let scenes =
+        [("levee.toml", 2.5), ("slab.toml", 2.5), ("strip.toml", 3.5), ("antiicing.toml", 2.5)];
+    for (name, most) in scenes {
+        let scene = Scene::read(&path(name))?;
+        let problem = on_mesh(&scene, 0)?;
+        let mut ratios = vec![[Vec::new(), Vec::new()]; scene.outputs.len()];
+        with_module(&problem, Some(ScalarKind::F64), |session, module: &Module| {
+            let spaces = InputSpace::of(&scene);
+            let all = drawn::<f64>(&spaces, TICKS).enumerate();
+            // Half of all ticks are at corners of the ranges: these are not drawn evenly.
+            for (_, inputs) in all.filter(|(tick, _)| tick % 4 < 2) {
+                session.tick(&inputs)?;
+                let at = problem.with_inputs(&inputs)?;
+                let answer = session.answer(&at)?;
+                let outputs = &answer.outputs[..scene.outputs.len()];
+                let between = module.between(session, outputs, answer.bound.as_ref());
+                let by = module.plus_minus(answer.bound.as_ref());
+                let solved = of_outputs(&at, &solve(&at, &Options::default())?);
+                let all = scene.outputs.iter().zip(between.into_iter().zip(by)).zip(&mut ratios);
+                for ((output, told), [narrow, wide]) in all {
+                    let ((Ok([least, most]), Ok(by)), Ok(of)) = (told, &solved[&output.name.value])
+                    else {
+                        continue;
+                    };
+                    let [low, high] = of.ends();
+                    assert!(least <= high && low <= most, "{name}: {least} {most} {low} {high}");
+                    narrow.push((most - least) / (high - low));
+                    wide.push(2.0 * by / (high - low));
+                }
+            }
+            Ok(())
+        })?;
+        let mut pooled = Vec::new();
+        let all = scene.outputs.iter().zip(ratios).filter(|(_, [narrow, _])| !narrow.is_empty());
+        for (output, [narrow, wide]) in all {
+            pooled.extend_from_slice(&narrow);
+            let [narrow, wide] = [narrow, wide].map(median);
+            println!("{name} {}: plus_minus {wide:.1}, between {narrow:.1}", output.name.value);
+        }
+        let all = median(pooled);
+        println!("{name}: {all:.2}");
+        assert!(all <= most, "{name}: {all}");
     }
     Ok(())
 }

@@ -11,6 +11,7 @@ use super::form::Admissibles;
 use super::{CondensedModel, Form, build};
 use signorini_certify::CertifiedFields;
 use signorini_certify::admissible::Following;
+use signorini_kernel::mesh::boundary::Robin;
 use signorini_problem::Problem;
 use signorini_scene::error::Result;
 
@@ -27,6 +28,17 @@ pub struct Recovery {
 /// As for [`super::condense`].
 pub fn recoverable(problem: &Problem) -> Result<(CondensedModel, Recovery)> {
     build(problem)
+}
+
+/// A column of s and τ.
+#[derive(Debug, Clone)]
+pub struct Column {
+    /// The problem in which this column is left alone.
+    pub problem: Problem,
+    /// s and τ.
+    pub certified: CertifiedFields,
+    /// The flux of each transfer law, ∫h (u_ext − u), where a coefficient changes: in a sum of columns that is ∫τ·n. Else nothing.
+    pub laws: Vec<f64>,
 }
 
 impl Recovery {
@@ -74,6 +86,43 @@ impl Recovery {
             indicators: Vec::new(),
             following: Following::Except(self.left_out(problem)),
         })
+    }
+
+    /// The columns that s and τ are sums of: a unit of every input, amplitude, opening and correction, in this order; nothing where
+    /// there is no bound. `problem` has the transfer coefficients that are asked for.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn columns(&self, problem: &Problem) -> Result<Vec<Column>> {
+        let Some(Admissibles { s, fluxes, functions, .. }) = &self.admissibles else {
+            return Ok(Vec::new());
+        };
+        let inputs = problem.scene.inputs.len();
+        let silent = problem.left_with(&[])?;
+        let edges = 0..problem.ends.len();
+        let following = Following::Except(self.left_out(problem));
+        let column = |j: usize| {
+            let of = if j <= inputs { problem.left_with(&[j])? } else { silent.clone() };
+            let of_s = |place: usize| s.row(place)[j];
+            let bubble = |edge| functions.bubble(edge).map_or(0.0, |place| of_s(place as usize));
+            // A correction has no flux and no means.
+            let of_fluxes = |place: usize| fluxes.row(place).get(j).copied().unwrap_or(0.0);
+            let certified = CertifiedFields {
+                vertices: (0..problem.mesh.vertices.len()).map(of_s).collect(),
+                bubbles: edges.clone().map(bubble).collect(),
+                tau: edges.clone().map(of_fluxes).collect(),
+                indicators: Vec::new(),
+                following: following.clone(),
+            };
+            let by_law = |law: &Robin<f64, u32>| {
+                let mean = of_fluxes(edges.end + law.edge as usize);
+                law.ambient - law.coefficient * mean
+            };
+            let has_means = fluxes.values.len() > edges.end * fluxes.columns;
+            let laws = of.loads.robin.iter().filter(|_| has_means).map(by_law).collect();
+            Ok(Column { problem: of, certified, laws })
+        };
+        (0..s.columns).map(column).collect()
     }
 
     /// The edges between vertices at which s is free: it follows no curve there.

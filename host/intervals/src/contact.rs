@@ -114,13 +114,13 @@ impl Above {
 
 impl ContactEdge {
     /// Of an edge, counted from the first one, on whatever side it is. Where it is open in all answers nothing passes beyond its least
-    /// flux, and s is at least so far above ψ at its ends.
-    pub fn unknown(problem: &Problem, at: usize, open: Option<[f64; 2]>) -> Self {
+    /// flux, and s is at least so far above ψ at its ends. Where it touches in all answers, it is pressed by so much at least.
+    pub fn unknown(problem: &Problem, at: usize, open: Option<[f64; 2]>, pressed: f64) -> Self {
         let [least, most] = problem.loads.flux_range(at).ends();
         let edge = problem.topology.counts.free + at;
         let none = Self {
             edge,
-            room: 0.0,
+            room: pressed,
             clear: [0.0; 2],
             left: [f64::NEG_INFINITY, f64::INFINITY],
             may: [true; 2],
@@ -135,6 +135,11 @@ impl ContactEdge {
             }
             _ => none,
         }
+    }
+
+    /// Whether z has its value here where it may be off by so much of `clear`: all of [0, 1] is not within that.
+    pub fn is_held(&self, part: f64) -> bool {
+        !self.clear.iter().all(|&clear| clear == f64::INFINITY || part * clear >= 1.0)
     }
 
     /// This edge where z keeps its value, like s where it touches ψ, or does not.

@@ -172,7 +172,7 @@ impl Braces {
 }
 
 /// The largest distance · √(middle² − k) + part · k.
-fn most(distance: f64, middle: f64, part: f64) -> f64 {
+pub(super) fn most(distance: f64, middle: f64, part: f64) -> f64 {
     match 2.0 * part * middle > distance {
         true => part * middle * middle + distance * distance / (4.0 * part),
         false => distance * middle,

@@ -23,6 +23,8 @@ mod exact;
 mod goal;
 mod interval;
 mod kept;
+pub mod known;
+pub mod midpoints;
 mod part;
 mod products;
 mod squares;

@@ -29,6 +29,8 @@ use signorini_scene::error::Result;
 pub(super) struct Residual<'p> {
     problem: &'p Problem,
     s: Admissible<'p>,
+    /// The fluxes of transfer laws, where they are not those of τ.
+    laws: Option<&'p [f64]>,
     deviations: &'p Deviations<'p>,
     /// Points of the cells in which s follows data, with ∇s there: these take long to evaluate.
     lifted: BTreeMap<usize, Vec<(PiecePoint, [f64; 2])>>,
@@ -114,7 +116,12 @@ impl<'p> Residual<'p> {
         let cells: BTreeSet<usize> = deviations.found.iter().map(cell).collect();
         let lifted = cells.into_iter().map(|at| Ok((at, gradients(problem, &s, deviations, at)?)));
         let lifted = lifted.collect::<Result<_>>()?;
-        Ok(Self { problem, s, deviations, lifted })
+        Ok(Self { problem, s, laws: None, deviations, lifted })
+    }
+
+    /// These with other fluxes through the edges of transfer laws, in their order.
+    pub fn with_laws(self, laws: &'p [f64]) -> Self {
+        Self { laws: Some(laws), ..self }
     }
 
     /// The products with these weights.
@@ -178,23 +185,26 @@ impl<'p> Residual<'p> {
         let problem = self.problem;
         let transfer = robin(problem, problem.time)?;
         let rounding = [self.s.tau, z.tau].map(|flux| ROUNDING * largest(flux));
-        for (record, points) in problem.loads.robin.iter().zip(&transfer) {
+        for (at, (record, points)) in problem.loads.robin.iter().zip(&transfer).enumerate() {
             let edge = record.edge as usize;
             let length = problem.lengths[edge];
             let (value, density) = (goal.value_on(problem, edge), goal.density_on(problem, edge));
             let z_flux = z.tau[edge];
+            let flux = self.laws.map_or(self.s.tau[edge], |laws| laws[at]);
             let unseen = unseen(problem, edge)?;
             let own = f64::GAUSS[DATA_POINTS - 1].iter().zip(points);
             let own =
                 own.map(|(&[t, weight], &[h, ambient])| EdgePoint::seen(t, weight, h, ambient));
             let missed = unseen.as_ref().map_or(0.0, |_| MISSED_BETWEEN);
             let mut of_edge = Products::default();
-            for at in unseen.unwrap_or_else(|| own.collect()) {
-                let [h, more] = [at.between[0], at.between[1] - at.between[0]].map(|h| h / length);
-                let s = self.s.on_edge(problem, edge, self.deviations.on(edge), at.t)? - at.ambient;
-                let z = z.on_edge(problem, edge, None, at.t)? - value;
+            for point in unseen.unwrap_or_else(|| own.collect()) {
+                let [h, more] =
+                    [point.between[0], point.between[1] - point.between[0]].map(|h| h / length);
+                let along = self.deviations.on(edge);
+                let s = self.s.on_edge(problem, edge, along, point.t)? - point.ambient;
+                let z = z.on_edge(problem, edge, None, point.t)? - value;
                 let here = Fluxes {
-                    residual: self.s.tau[edge] / length + h * s,
+                    residual: flux / length + h * s,
                     zeta: z_flux / length - density,
                     gradient: -h * z,
                 };
@@ -206,7 +216,7 @@ impl<'p> Residual<'p> {
                 let open = |v: f64| (share.min(1.0) * more).sqrt() * v.abs();
                 let seen = here.products(|a, b| a * b / h);
                 let seen = seen.beside(share.min(1.0), [open(s), open(z)], more.sqrt() * z.abs());
-                of_edge = of_edge.and(seen.times(at.weight * length));
+                of_edge = of_edge.and(seen.times(point.weight * length));
             }
             *sum = sum.and(of_edge.widened(missed));
         }

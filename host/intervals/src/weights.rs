@@ -19,6 +19,7 @@ use super::dual::{self, Dual};
 use super::goal::Goal;
 use super::interval::{FAR, UNBOUNDED, UNSOLVED};
 use super::kept::{keep, left};
+use super::known::Answers;
 use super::part::Part;
 use super::products::Residual;
 use signorini_certify::conductivity::Conductivity;
@@ -40,7 +41,7 @@ const PARTS: i32 = 10;
 const STEP: f64 = 2.0;
 
 /// Deviations of zero data from their chords: none.
-const NOTHING: Deviations<'static> = Deviations { found: Vec::new(), dropped: 0.0 };
+pub(super) const NOTHING: Deviations<'static> = Deviations { found: Vec::new(), dropped: 0.0 };
 
 /// By how much the parts of a bound may move an output, in the unit of the output over that of the bound.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -58,18 +59,6 @@ pub struct Weights {
 /// Weights of an output, or the reason why there are none.
 pub type Weighed = std::result::Result<Weights, String>;
 
-/// Facts on all answers of a controller.
-#[derive(Debug, Clone, Copy)]
-pub struct Answers<'a> {
-    /// How far s is above ψ at least at the ends of the contact edges that are open in all answers, in the order of the edges and in
-    /// the unit of u; nothing where nothing is known.
-    pub open: &'a [Option<[f64; 2]>],
-    /// A total as answers have it.
-    pub total: f64,
-    /// Whether all equations but those on contact edges hold, for all answers: those of a condensed model.
-    pub are_balanced: bool,
-}
-
 /// Weights of every output, in their order. Where data have no value at a point that is looked at here alone, that is the reason.
 pub fn weights(problem: &Problem, answers: &Answers) -> Vec<Weighed> {
     let outputs = wanted(&problem.scene);
@@ -78,21 +67,10 @@ pub fn weights(problem: &Problem, answers: &Answers) -> Vec<Weighed> {
 }
 
 fn weighed(problem: &Problem, answers: &Answers, outputs: &[Output]) -> Result<Vec<Weighed>> {
-    let none = |why: &str| Ok(vec![Err(why.to_owned()); outputs.len()]);
-    if problem.topology.counts.unknowns() > MOST_UNKNOWNS {
-        return none(&format!("the mesh has more than {MOST_UNKNOWNS} unknowns"));
+    match Weighing::new(problem, answers)? {
+        Ok(of) => outputs.iter().map(|output| of.output(output)).collect(),
+        Err(why) => Ok(vec![Err(why); outputs.len()]),
     }
-    if Parts::whatever_inputs(problem)?.counts.contact > 0 {
-        return none(
-            "contact alone holds a part: what a tick leaves open passes through any of its edges",
-        );
-    }
-    let Some(factor) = SharedFactor::of(problem)? else {
-        return none("its linear problem has no factor");
-    };
-    let unseen = unseen(problem)?;
-    let of = Weighing { problem, factor, corners: corners(problem)?, answers, unseen };
-    outputs.iter().map(|output| of.output(output)).collect()
 }
 
 /// The problem at all corners of the ranges of its transfer coefficients: norms of weights are convex in them.
@@ -117,17 +95,40 @@ fn unseen(problem: &Problem) -> Result<f64> {
     Ok(most)
 }
 
-struct Weighing<'p> {
-    problem: &'p Problem,
-    factor: SharedFactor,
-    corners: Vec<Problem>,
-    answers: &'p Answers<'p>,
+/// What all weights of a problem are made with.
+pub(super) struct Weighing<'p> {
+    pub problem: &'p Problem,
+    pub factor: SharedFactor,
+    pub corners: Vec<Problem>,
+    pub answers: &'p Answers<'p>,
     unseen: f64,
 }
 
-impl Weighing<'_> {
+impl<'p> Weighing<'p> {
+    /// What the weights of a problem are made with, or why it has none.
+    pub fn new(
+        problem: &'p Problem,
+        answers: &'p Answers<'p>,
+    ) -> Result<std::result::Result<Self, String>> {
+        let none = |why: &str| Ok(Err(why.to_owned()));
+        if problem.topology.counts.unknowns() > MOST_UNKNOWNS {
+            return none(&format!("the mesh has more than {MOST_UNKNOWNS} unknowns"));
+        }
+        if Parts::whatever_inputs(problem)?.counts.contact > 0 {
+            return none(
+                "contact alone holds a part: what a tick leaves open passes through any of its edges",
+            );
+        }
+        let Some(factor) = SharedFactor::of(problem)? else {
+            return none("its linear problem has no factor");
+        };
+        let unseen = unseen(problem)?;
+        let corners = corners(problem)?;
+        Ok(Ok(Self { problem, factor, corners, answers, unseen }))
+    }
+
     /// What is missed of loads in an output, over the total: as much of each as z is there, and of the end that a force is measured from.
-    fn of_loads(&self, weights: &dual::Weights) -> f64 {
+    pub fn of_loads(&self, weights: &dual::Weights) -> f64 {
         let most = weights.vertices.iter().fold(1.0_f64, |most, z| most.max(z.abs()));
         if self.unseen == 0.0 { 0.0 } else { 2.0 * most * self.unseen }
     }
@@ -151,7 +152,7 @@ impl Weighing<'_> {
         }
     }
 
-    fn nothing(&self) -> CertifiedFields {
+    pub fn nothing(&self) -> CertifiedFields {
         let edges = self.problem.ends.len();
         CertifiedFields {
             vertices: vec![0.0; self.problem.mesh.vertices.len()],
@@ -161,10 +162,12 @@ impl Weighing<'_> {
         }
     }
 
-    fn contact(&self) -> Vec<ContactEdge> {
+    pub fn contact(&self) -> Vec<ContactEdge> {
         let open = |at: usize| self.answers.open.get(at).copied().flatten();
         let counts = self.problem.topology.counts;
-        (0..counts.contact).map(|at| ContactEdge::unknown(self.problem, at, open(at))).collect()
+        let pressed = |at: usize| self.answers.pressed.get(at).copied().unwrap_or(0.0);
+        let edge = |at: usize| ContactEdge::unknown(self.problem, at, open(at), pressed(at));
+        (0..counts.contact).map(edge).collect()
     }
 
     fn flux(&self, goal: &Goal, part: &Part) -> Result<Weighed> {
@@ -173,12 +176,7 @@ impl Weighing<'_> {
         let mut sides = [None::<Weights>; 2];
         for part in self.parts(&contact) {
             // z is free where all of [0, 1] is within its part, and has its value on all other contact edges.
-            let held = contact.iter().map(|of| {
-                let is_free =
-                    of.clear.iter().all(|&clear| clear == f64::INFINITY || part * clear >= 1.0);
-                of.held(!is_free)
-            });
-            let held: Vec<_> = held.collect();
+            let held: Vec<_> = contact.iter().map(|of| of.held(of.is_held(part))).collect();
             let Some(solved) = dual.solve(&self.factor, &held, goal, far) else {
                 return Ok(Err(UNSOLVED.to_owned()));
             };
@@ -216,7 +214,7 @@ impl Weighing<'_> {
     }
 
     /// Parts of s − ψ that z may be off by: none, and such that z is off by up to 1 at some of the edges that are open.
-    fn parts(&self, contact: &[ContactEdge]) -> Vec<f64> {
+    pub fn parts(&self, contact: &[ContactEdge]) -> Vec<f64> {
         let clear = contact.iter().flat_map(|of| of.clear).filter(|clear| *clear > 0.0);
         let most = clear.filter(|clear| clear.is_finite()).fold(0.0, f64::max);
         let parts = (0..PARTS).map(|at| STEP.powi(at) / most);

@@ -2,6 +2,7 @@
 
 use signorini_bake::choice::Origin;
 use signorini_bake::condensed::{Baked, Controller};
+use signorini_bake::intervals::NarrowMidpoint;
 use signorini_bake::narrow::narrow;
 use signorini_certify::{ErrorBound, NoBound};
 use signorini_condense::CondensedModel;
@@ -19,6 +20,7 @@ pub(crate) struct Condensed<'b, R: Scalar> {
     origin: &'b Origin,
     baked: &'b Baked<R>,
     controller: Controller<'b, R>,
+    midpoints: Vec<Option<NarrowMidpoint<R>>>,
     inputs: Vec<R>,
     /// Outputs and report of the last tick.
     last: Option<(Vec<R>, Report<R>)>,
@@ -27,8 +29,13 @@ pub(crate) struct Condensed<'b, R: Scalar> {
 impl<'b, R: Scalar> Condensed<'b, R> {
     /// A session of `baked`, the model of `problem` that was made of `origin`.
     pub fn new(problem: &'b Problem, baked: &'b Baked<R>, origin: &'b Origin) -> Self {
-        let controller = Controller::new(baked);
-        Self { problem, origin, baked, controller, inputs: Vec::new(), last: None }
+        let (controller, midpoints) = (Controller::new(baked), Vec::new());
+        Self { problem, origin, baked, controller, midpoints, inputs: Vec::new(), last: None }
+    }
+
+    /// This session with the midpoints of its outputs.
+    pub fn with_midpoints(self, midpoints: Vec<Option<NarrowMidpoint<R>>>) -> Self {
+        Self { midpoints, ..self }
     }
 
     fn ran(&self, ended: Ended) -> Ran {
@@ -49,6 +56,16 @@ impl<R: Scalar> Session for Condensed<'_, R> {
 
     fn restart(&mut self) {
         (self.controller, self.last) = (Controller::new(self.baked), None);
+    }
+
+    fn between(&self) -> Vec<Option<[f64; 2]>> {
+        let certificate = self.last.as_ref().and_then(|(_, report)| report.certificate());
+        let Some(certificate) = certificate else { return Vec::new() };
+        let of_output = |of: &Option<NarrowMidpoint<R>>| {
+            let ends = of.as_ref()?.view().between(self.controller.combination(), certificate)?;
+            Some(ends.map(|end| end.wide()))
+        };
+        self.midpoints.iter().map(of_output).collect()
     }
 
     fn answer(&self, at: &Problem) -> Result<Solution> {

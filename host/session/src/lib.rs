@@ -56,6 +56,11 @@ pub trait Session {
     /// Numbers that do not fit.
     fn answer(&self, at: &Problem) -> Result<Solution>;
 
+    /// The least and the largest value that each output may have for the exact solution, where the last tick's own numbers tell.
+    fn between(&self) -> Vec<Option<[f64; 2]>> {
+        Vec::new()
+    }
+
     /// Poses `at` and answers for its inputs.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! The controller that `bake` would write, on this machine.
 
 use signorini_bake::choice::{Choice, Model, Wanted};
-use signorini_bake::intervals::{narrowed, of_choice};
+use signorini_bake::intervals::{NarrowMidpoint, OutputIntervals, narrowed, of_choice};
 use signorini_bake::setting;
 use signorini_certify::ErrorBound;
 use signorini_kernel::verdict::Certificate;
@@ -28,6 +28,24 @@ pub struct Module {
 }
 
 impl Module {
+    /// Where each output lies in the last tick of `session`, as `Controller::between` says it; where nothing is guaranteed, why.
+    pub fn between(
+        &self,
+        session: &dyn Session,
+        outputs: &[f64],
+        bound: Option<&ErrorBound>,
+    ) -> Vec<std::result::Result<[f64; 2], String>> {
+        let mut known = session.between();
+        known.resize(outputs.len(), None);
+        let around = outputs.iter().zip(self.plus_minus(bound)).zip(known);
+        let ends = |((value, by), known): ((&f64, std::result::Result<f64, String>), _)| match known
+        {
+            Some(ends) => Ok(ends),
+            None => by.map(|by| [value - by, value + by]),
+        };
+        around.map(ends).collect()
+    }
+
     /// How far each output may be off, as `Answer::plus_minus` says it; where nothing is guaranteed, why.
     pub fn plus_minus(&self, bound: Option<&ErrorBound>) -> Vec<std::result::Result<f64, String>> {
         let Some(bound) = bound else {
@@ -65,7 +83,7 @@ fn in_scalar<R: Scalar, T>(
     then: impl FnOnce(&mut dyn Session, &Module) -> Result<T>,
 ) -> Result<T> {
     let choice = Choice::<R>::new(problem, Wanted::default())?;
-    let weighed = of_choice(problem, &choice);
+    let OutputIntervals { weighed, midpoints } = of_choice(problem, &choice);
     let reasons = weighed.iter().map(|of| of.as_ref().err().cloned()).collect();
     let weights: Vec<_> = weighed.iter().map(narrowed::<R>).collect();
     let plus_minus = move |bound: &ErrorBound| {
@@ -79,7 +97,10 @@ fn in_scalar<R: Scalar, T>(
     };
     let name = format!("{}, {}", choice.candidate().name, R::NAME);
     let module = Module { name, plus_minus: Box::new(plus_minus), reasons };
-    with_choice(problem, &choice, |session| then(session, &module))
+    let narrow =
+        |of: &Option<_>| of.as_ref().and_then(|of| NarrowMidpoint::new(&problem.scene, of));
+    let midpoints = midpoints.iter().map(narrow).collect();
+    with_choice(problem, &choice, midpoints, |session| then(session, &module))
 }
 
 /// Calls `then` with a session of the condensed model of `problem`.
@@ -91,12 +112,13 @@ pub(crate) fn with_condensed<R: Scalar, T>(
     then: impl FnOnce(&mut dyn Session) -> Result<T>,
 ) -> Result<T> {
     let choice = Choice::<R>::new(problem, Wanted::model(ModelKind::Condensed))?;
-    with_choice(problem, &choice, then)
+    with_choice(problem, &choice, Vec::new(), then)
 }
 
 fn with_choice<R: Scalar, T>(
     problem: &Problem,
     choice: &Choice<R>,
+    midpoints: Vec<Option<NarrowMidpoint<R>>>,
     then: impl FnOnce(&mut dyn Session) -> Result<T>,
 ) -> Result<T> {
     if let Model::Full(baked) = &choice.candidate().model {
@@ -106,5 +128,5 @@ fn with_choice<R: Scalar, T>(
         let message = "setting.model: there is no condensed model of this scene";
         return Err(InputError::new(message).file(&problem.scene.path).into());
     };
-    then(&mut Condensed::new(problem, baked, origin))
+    then(&mut Condensed::new(problem, baked, origin).with_midpoints(midpoints))
 }

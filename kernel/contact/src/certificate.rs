@@ -169,12 +169,23 @@ impl<R: Real> Form<'_, R> {
             None => norm,
         };
         let of_u = total + (jump.value + jump.rounding) * (R::ONE + R::TWO * R::EPSILON);
-        let [gap, algebraic, oscillation, rounding, total, of_u] =
-            [gap, algebraic, oscillation, rounding, total, of_u].map(|part| self.unit * part);
+        // What curved data leave out of s may be in it, and fluxes are mended.
+        let distance = norm.value - (norm.rounding + algebraic + oscillation + rounding);
+        let distance = distance.or_larger(R::ZERO);
+        let [gap, algebraic, oscillation, rounding, total, of_u, distance] =
+            [gap, algebraic, oscillation, rounding, total, of_u, distance]
+                .map(|part| self.unit * part);
         // Next to underflow products are off by more than a part of themselves.
         let [rounding, total, of_u] = [rounding, total, of_u].map(|part| part + R::TINY);
-        let certificate =
-            Certificate { duality_gap: gap, algebraic, oscillation, rounding, total, of_u };
+        let certificate = Certificate {
+            duality_gap: gap,
+            algebraic,
+            oscillation,
+            rounding,
+            total,
+            of_u,
+            distance,
+        };
         let known = of_u.finite() && algebraic.finite();
         Ok(if known { Verdict::Certified(certificate) } else { Verdict::NotFinite })
     }

@@ -149,7 +149,7 @@ where
     R: Real,
     Numbers: AsMut<[R]>,
     Flags: AsMut<[u8]>,
-    Columns: AsMut<[R]>,
+    Columns: AsMut<[R]> + AsRef<[R]>,
     Spans: AsMut<[R]>,
     M: Solver<R>,
 {
@@ -159,6 +159,10 @@ where
     fn reset(&mut self) {
         self.iterate.reset();
         self.solver.reset();
+    }
+
+    fn combination(&self) -> &[R] {
+        self.iterate.combination()
     }
 
     #[inline(always)]
@@ -187,7 +191,7 @@ where
     R: Real,
     Numbers: AsMut<[R]>,
     Flags: AsMut<[u8]>,
-    Columns: AsMut<[R]>,
+    Columns: AsMut<[R]> + AsRef<[R]>,
     Spans: AsMut<[R]>,
     Matrix: AsRef<[Block<R>]> + AsMut<[Block<R>]>,
     Inputs: AsMut<[R]>,
@@ -199,6 +203,10 @@ where
     fn reset(&mut self) {
         self.iterate.reset();
         self.solver.reset();
+    }
+
+    fn combination(&self) -> &[R] {
+        self.iterate.shared().combination()
     }
 
     #[inline(always)]

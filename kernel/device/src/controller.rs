@@ -77,6 +77,12 @@ pub trait Weighed<R>: Sized {
     fn plus_minus(report: &Report<R>) -> Self;
 }
 
+/// Outputs of which a tick tells where they lie.
+pub trait Located<R>: Sized {
+    /// The least and the largest value of each, from what the tick's certificate was drawn from ([`crate::intervals`]).
+    fn between(&self, combination: &[R], report: &Report<R>) -> [Self; 2];
+}
+
 /// An answer as outputs are read off it.
 pub trait Reading<R> {
     /// How many outputs there are.
@@ -99,6 +105,11 @@ pub trait Storage<R: Real> {
 
     /// Forgets all ticks.
     fn reset(&mut self);
+
+    /// The numbers that the last tick's certificate was drawn from; none in a model whose intervals take its bound alone.
+    fn combination(&self) -> &[R] {
+        &[]
+    }
 
     /// Answers for `terms`, the constant 1 and the inputs.
     ///
@@ -184,6 +195,17 @@ impl<S: Scene> Controller<S> {
         }
         let Self { scene, storage } = self;
         scene.lend(|model, setup| storage.tick(model, setup, terms, limits, deadline))
+    }
+
+    /// The least and the largest value that each output may have for the exact solution of the scene, in its own unit, where
+    /// `answer` is that of the last tick; infinite where nothing is guaranteed. Narrower than [`Answer::plus_minus`], which knows
+    /// the bound alone.
+    #[inline(always)]
+    pub fn between(&self, answer: &Answer<S::Outputs, S::Scalar>) -> [S::Outputs; 2]
+    where
+        S::Outputs: Located<S::Scalar>,
+    {
+        answer.outputs.between(self.storage.combination(), &answer.report)
     }
 
     /// Forgets all ticks: the next one is the first again.

@@ -7,8 +7,16 @@
 //! whose weights the host finds once: norms of functions that tell this output from all others. They hold for all inputs and on
 //! whatever sides the contact edges are. Where a bound is as large as its algebraic part nothing is said of σ_h. What the sum of an
 //! output rounds is not in it.
+//!
+//! In a condensed model the tick's own s and τ tell more. The middle Σ of τ and A∇s is known but for the inputs p, the openings x
+//! and the corrections d, of which the output of Σ is a sum ([`Midpoint`]). The exact flux σ is as near to it as
+//! ```text
+//!   ‖A^{−½}(σ − Σ)‖ ≤ M,    M² = ½ total² − ¼ distance²        (Prager and Synge, with contact)
+//! ```
+//! which is half of the total where no contact is paid for.
 
 use signorini_kernel::Real;
+use signorini_kernel::index::read;
 use signorini_kernel::report::Report;
 use signorini_kernel::verdict::Certificate;
 
@@ -60,6 +68,122 @@ impl<R: Real> OutputWeights<R> {
         let total = (self.total + self.square * bound.total) * bound.total;
         total + self.algebraic * bound.algebraic + self.of_u * bound.of_u
     }
+}
+
+/// An output of the middle between τ and A∇s, and how far that of the exact solution may be from it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Midpoint<'a, R> {
+    /// Of each number of the tick's combination (p, x, d): its factor, and how far that may be off. Where an input changes a transfer
+    /// coefficient, at both ends of its range, else only once.
+    pub columns: [&'a [[R; 2]]; 2],
+    /// Which number of the combination that input is.
+    pub input: usize,
+    /// Its least value, and 1 over the length of its range.
+    pub range: [R; 2],
+    /// ‖A^{−½}ζ − A^½∇z‖ of the two functions that weigh errors in this output.
+    pub apart: R,
+    /// The part c of what contact leaves that they take, below and above: c K/2 at most, where K of 2M² is a matter of contact.
+    pub part: [R; 2],
+    /// ‖A^½∇z‖ + ‖A^{−½}ζ‖
+    pub sizes: R,
+    /// Of the total: what loads may miss.
+    pub loads: R,
+    /// Of the distance of τ from A∇s: how much of it counts.
+    pub distance: R,
+    /// What the law of contact keeps it above.
+    pub least: R,
+}
+
+impl<R: Real> Midpoint<'_, R> {
+    /// Of an output without one.
+    pub const NONE: Self = Self {
+        columns: [&[]; 2],
+        input: 0,
+        range: [R::ZERO; 2],
+        apart: R::INFINITY,
+        part: [R::ZERO; 2],
+        sizes: R::ZERO,
+        loads: R::ZERO,
+        distance: R::ZERO,
+        least: R::NEG_INFINITY,
+    };
+
+    /// Where the output lies for the exact solution; `None` for an output without a midpoint, or of another model's numbers.
+    ///
+    /// ```
+    /// use signorini_device::intervals::Midpoint;
+    /// use signorini_kernel::verdict::Certificate;
+    ///
+    /// let columns: [&[_]; 2] = [&[[3.0, 0.0], [0.5, 0.0]], &[]];
+    /// let of = Midpoint { columns, apart: 2.0, ..Midpoint::NONE };
+    /// // M = 0.5 where all of the total is distance, and 0.707 where nothing is known of it.
+    /// let bound = Certificate { total: 1.0, distance: 1.0, ..Certificate::default() };
+    /// assert_eq!(Midpoint { distance: 1.0, ..of }.between(&[1.0, 4.0], &bound), Some([4.0, 6.0]));
+    /// assert!(of.between(&[1.0, 4.0], &bound).is_some_and(|[least, _]| (least - 3.586).abs() < 1e-3));
+    /// assert_eq!(of.between(&[1.0], &bound), None);
+    /// ```
+    pub fn between(&self, combination: &[R], bound: &Certificate<R>) -> Option<[R; 2]> {
+        let [first, second] = self.columns;
+        if first.is_empty() || first.len() != combination.len() {
+            return None;
+        }
+        let [mut value, mut doubt] = sum(first, combination);
+        if !second.is_empty() {
+            let [at_most, doubt_at_most] = sum(second, combination);
+            let [least, over_length] = self.range;
+            let share = (read(combination, self.input) - least) * over_length;
+            value += share * (at_most - value);
+            doubt += doubt_at_most;
+        }
+        let distance = self.distance * bound.distance;
+        let square = R::HALF * bound.total * bound.total - R::QUARTER * distance * distance;
+        let middle = square.or_larger(R::ZERO).rounded_sqrt();
+        let admissible = bound.oscillation + bound.rounding + (R::ONE + R::HALF) * bound.algebraic;
+        let rest = doubt + self.sizes * admissible + self.loads * bound.total;
+        let [below, above] = self.part.map(|part| self.farthest(middle, part) + rest);
+        let ends = [(value - below).or_larger(self.least), value + above];
+        ends.iter().all(|end| end.finite()).then_some(ends)
+    }
+
+    /// The largest apart · √(M² − k) + part · k for 0 ≤ k ≤ M².
+    fn farthest(&self, middle: R, part: R) -> R {
+        match R::TWO * part * middle > self.apart {
+            true => part * middle * middle + self.apart * self.apart / (R::from_count(4) * part),
+            false => self.apart * middle,
+        }
+    }
+}
+
+/// Σ of factors times numbers, and how far it may be off.
+fn sum<R: Real>(columns: &[[R; 2]], combination: &[R]) -> [R; 2] {
+    let terms = columns.iter().zip(combination);
+    terms.fold([R::ZERO; 2], |[value, doubt], ([factor, off], number)| {
+        [value + *factor * *number, doubt + *off * number.magnitude()]
+    })
+}
+
+/// Where each output lies: by its midpoint, or else within what its weights say; infinite without a bound.
+#[inline(always)]
+pub fn between<R: Real, const N: usize>(
+    (midpoints, weights): (&[Midpoint<R>; N], &[OutputWeights<R>; N]),
+    values: &[R; N],
+    combination: &[R],
+    report: &Report<R>,
+) -> [[R; N]; 2] {
+    let (mut least, mut most) = ([R::NEG_INFINITY; N], [R::INFINITY; N]);
+    let ends = least.iter_mut().zip(&mut most);
+    for (((least, most), value), (of, weights)) in
+        ends.zip(values).zip(midpoints.iter().zip(weights))
+    {
+        let bound = report.certificate();
+        let around = || {
+            let by = weights.plus_minus(report);
+            [*value - by, *value + by]
+        };
+        [*least, *most] =
+            bound.and_then(|bound| of.between(combination, bound)).unwrap_or_else(around);
+    }
+    [least, most]
 }
 
 /// How far each output may be off.

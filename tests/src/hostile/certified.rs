@@ -233,9 +233,10 @@ pub fn judged<R: Bits>(
 
 /// All finite, and none negative.
 pub fn is_bound<R: Bits>(found: &Certificate<R>) {
-    let Certificate { duality_gap: gap, algebraic, oscillation, rounding, total, of_u } = *found;
-    let parts = [gap, algebraic, oscillation, rounding, total, of_u];
+    let Certificate { duality_gap: gap, algebraic, oscillation, rounding, total, of_u, distance } =
+        *found;
+    let parts = [gap, algebraic, oscillation, rounding, total, of_u, distance];
     assert!(parts.iter().all(|part| part.finite()), "{found:?}");
     assert!(parts.iter().all(|part| *part >= R::ZERO), "{found:?}");
-    assert!(gap <= total && total <= of_u, "{found:?}");
+    assert!(gap <= total && total <= of_u && distance <= gap, "{found:?}");
 }

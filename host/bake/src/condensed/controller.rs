@@ -51,6 +51,11 @@ impl<'b, R: Scalar> Controller<'b, R> {
         }
     }
 
+    /// The numbers that the certificate of the last tick was drawn from.
+    pub fn combination(&self) -> &[R] {
+        self.own.storage().shared().combination()
+    }
+
     /// The amplitudes of the last tick, where there are modes.
     pub fn amplitudes(&self) -> &[R] {
         match self.own.storage() {

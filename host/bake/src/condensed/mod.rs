@@ -21,7 +21,7 @@ mod visited;
 
 pub use arrays::{Baked, Work};
 pub use controller::Controller;
-pub use modes::Modes;
+pub use modes::{Modes, unit_of_amplitudes};
 pub use sizes::sizes;
 pub use source::source;
 pub use visited::Visited;

@@ -78,12 +78,27 @@ pub struct Scaled<'m> {
     gains: Vec<f64>,
 }
 
+/// How much an input changes the coefficient at most.
+fn change(of: &ModalModel) -> f64 {
+    let [lo, hi] = of.model.ranges[of.input];
+    hi - lo
+}
+
+/// T: a power of 4, so that its root is one of 2.
+fn unit_of_change(of: &ModalModel) -> f64 {
+    let change = change(of);
+    if change > 0.0 { 4_f64.powf(change.log(4.0).round()) } else { 1.0 }
+}
+
+/// What 1 stands for in amplitudes on the target.
+pub fn unit_of_amplitudes(of: &ModalModel) -> f64 {
+    unit_of_change(of).sqrt() * of.model.energy_unit
+}
+
 impl<'m> Scaled<'m> {
     /// In the units of the target.
     pub fn new(of: &'m ModalModel) -> Self {
-        let [lo, hi] = of.model.ranges[of.input];
-        let change = hi - lo;
-        let unit = if change > 0.0 { 4_f64.powf(change.log(4.0).round()) } else { 1.0 };
+        let (unit, change) = (unit_of_change(of), change(of));
         let (root, energy) = (unit.sqrt(), of.model.energy_unit);
         let scaled = |row: &Vec<f64>| row.iter().map(|a| root * a / energy).collect::<Vec<f64>>();
         let alphas: Vec<Vec<f64>> = of.of_contact.iter().map(scaled).collect();

@@ -52,6 +52,27 @@ impl Reduced {
         open
     }
 
+    /// The factors of a linear function in (p, x, d) of this model, from those in the whole one; each with what it may be off.
+    pub fn combined(&self, whole: &CondensedModel, of_whole: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        let Self { sides, maps, scale, .. } = self;
+        let build = Build { whole, sides, maps, scale };
+        whole
+            .certificate
+            .as_ref()
+            .map_or_else(|_| Vec::new(), |form| build.combined(form, of_whole))
+    }
+
+    /// No more than what presses each edge of the whole model in every tick, ∫_E (τ·n − lo): above 0 where it always touches and its
+    /// flux has no limit.
+    pub fn pressed(&self, whole: &CondensedModel) -> Vec<f64> {
+        let mut pressed = vec![0.0; self.sides.of.len()];
+        let all = self.sides.box_of(&self.maps);
+        for &at in self.maps.touching.iter().filter(|_| !whole.is_limited()) {
+            pressed[at] = whole.multiplier[at] * self.maps.r[at].least(1.0, &all).max(0.0);
+        }
+        pressed
+    }
+
     /// x of the whole model.
     pub fn expand(&self, p: &[f64], x: &[f64]) -> Vec<f64> {
         let mut whole = vec![0.0; self.sides.of.len()];

@@ -48,6 +48,21 @@ impl Build<'_> {
         self.maps.kept.iter().map(|&edge| form.ends[edge].map(place)).collect()
     }
 
+    /// Factors of (p, x′, d′) from those of (p, x, d), with what each may be off.
+    pub fn combined(&self, form: &Form, of_whole: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        let at = |vertex: &&Vertex| self.sides.at(vertex, self.maps) == VertexSide::MayChange;
+        let rows = self.columns(form, &form.vertices.iter().filter(at).collect::<Vec<_>>());
+        let mut sum = vec![[0.0; 2]; width(&rows)];
+        for ([factor, off], row) in of_whole.iter().zip(&rows) {
+            for ((sum, share), noise) in sum.iter_mut().zip(&row.factors).zip(&row.noise) {
+                let term = factor * share;
+                let rounding = factor.abs() * noise + 4.0 * f64::EPSILON * term.abs();
+                *sum = [sum[0] + term, sum[1] + off * share.abs() + rounding];
+            }
+        }
+        sum
+    }
+
     /// M, row by row: each column of F in (p, x′, d′).
     fn columns(&self, form: &Form, seen: &[&Vertex]) -> Vec<Affine> {
         let m = self.whole.inputs;

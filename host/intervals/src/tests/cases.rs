@@ -95,7 +95,8 @@ output.wet = { kind = "length", of = ["contact"] }
 /// data that are given beside them do not widen.
 #[test]
 fn a_sum_has_an_interval_where_its_parts_have_none() -> Result<()> {
-    use crate::weights::{Answers, weights};
+    use crate::known::Answers;
+    use crate::weights::weights;
     for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
         let mut widths = Vec::new();
         for n in [4, 8] {
@@ -122,7 +123,8 @@ fn a_sum_has_an_interval_where_its_parts_have_none() -> Result<()> {
             assert!(width("all") < 1e-6 && width("both") > 1e-4, "{cells:?}: {found:?}");
             assert_eq!(values["wet"], Some(2.0));
             widths.push(width("both"));
-            let answers = Answers { open: &[], total: 0.0, are_balanced: true };
+            let answers =
+                Answers { open: &[], pressed: &[], columns: &[], total: 0.0, are_balanced: true };
             let own = weights(&problem, &answers);
             for (output, weight) in scene.outputs.iter().zip(own) {
                 let has = ["both", "more"].contains(&output.name.value.as_str());

@@ -1,6 +1,7 @@
 //! Weights of a controller beside those on paper.
 
-use super::super::weights::{Answers, weights};
+use super::super::known::Answers;
+use super::super::weights::weights;
 use signorini_certify::Evaluated;
 use signorini_problem::Problem;
 use signorini_problem::fixtures::on_grid;
@@ -28,8 +29,12 @@ output.roof = { kind = "mean", of = "dirichlet" }
 fn weights_of_a_bar_are_those_of_its_resistances() -> Result<()> {
     for cells in [Cells::Triangles, Cells::Quads] {
         let (_, problem) = on_grid(BAR, grid(4, cells))?;
-        let of_a =
-            |are_balanced| weights(&problem, &Answers { open: &[], total: 0.0, are_balanced });
+        let of_a = |are_balanced| {
+            weights(
+                &problem,
+                &Answers { open: &[], pressed: &[], columns: &[], total: 0.0, are_balanced },
+            )
+        };
         let found = of_a(cells == Cells::Triangles);
         let slope: f64 = 2.0 / 7.0;
         let flux = (6.0 * slope * slope + 2.0 * (1.0 - 2.0 * slope).powi(2)).sqrt();
@@ -57,7 +62,8 @@ fn weights_have_what_is_missed_of_loads() -> Result<()> {
     let base = BAR.replace("source.f = \"0\"", &format!("source.f = \"{jump}\""));
     let total = |text: &str| -> Result<(Problem, f64)> {
         let (_, problem) = on_grid(text, grid(4, Cells::Triangles))?;
-        let answers = Answers { open: &[], total: 0.0, are_balanced: true };
+        let answers =
+            Answers { open: &[], pressed: &[], columns: &[], total: 0.0, are_balanced: true };
         let total = weights(&problem, &answers)[0].clone().expect("weights").total;
         Ok((problem, total))
     };

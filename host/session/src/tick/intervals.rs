@@ -1,7 +1,7 @@
 //! Where the outputs of a tick lie for the exact solution.
 
 use super::record::TickInterval;
-use crate::Module;
+use crate::{Module, Session};
 use signorini_intervals::{Answered, Lasting, of_next};
 use signorini_problem::Problem;
 use signorini_scene::error::Result;
@@ -19,7 +19,11 @@ pub(super) enum Intervals<'m> {
 
 impl Intervals<'_> {
     /// Intervals of the declared outputs, in their order; of an answer without a bound, why there is none.
-    pub fn of(&mut self, problem: &Problem, solution: &Solution) -> Result<Vec<TickInterval>> {
+    pub fn of(
+        &mut self,
+        problem: &Problem,
+        (session, solution): (&dyn Session, &Solution),
+    ) -> Result<Vec<TickInterval>> {
         let bound = solution.bound.filter(|bound| bound.total.is_finite());
         if let (Self::Anew(_) | Self::Weighed(_), None, Some(why)) =
             (&self, bound, &solution.no_bound)
@@ -38,9 +42,9 @@ impl Intervals<'_> {
                 Ok(found.map(|found| found.map(|of| of.ends())).collect())
             }
             Self::Weighed(module) => {
-                let outputs = solution.outputs.iter().take(problem.scene.outputs.len());
-                let around = outputs.zip(module.plus_minus(bound.as_ref()));
-                Ok(around.map(|(value, by)| by.map(|by| [value - by, value + by])).collect())
+                let declared = problem.scene.outputs.len().min(solution.outputs.len());
+                let outputs = &solution.outputs[..declared];
+                Ok(module.between(session, outputs, bound.as_ref()))
             }
         }
     }

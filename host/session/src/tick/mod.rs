@@ -260,7 +260,7 @@ impl Play<'_> {
         let answer = self.session.answer(problem);
         let solution = answer.map_err(|error| error.at_time(problem.time))?;
         let mut tick = TickRecord::of(problem, &solution)?;
-        tick.intervals = self.intervals.of(problem, &solution)?;
+        tick.intervals = self.intervals.of(problem, (&*self.session, &solution))?;
         if self.units == Units::default() {
             return Ok((tick, Some(solution)));
         }

@@ -119,8 +119,15 @@ impl<R: Real> Parts<R> {
         let apart = jump + root(self.lifted) + uncertainty_of_u;
         let apart = if features::VARYING { apart + missed * apart } else { apart };
         let of_u = total + (apart + stability.oblique * apart);
-        let certificate =
-            Certificate { duality_gap: seen, algebraic, oscillation, rounding, total, of_u };
+        let certificate = Certificate {
+            duality_gap: seen,
+            algebraic,
+            oscillation,
+            rounding,
+            total,
+            of_u,
+            distance: R::ZERO,
+        };
         let known = certificate.of_u.finite() && algebraic.finite();
         if known { Verdict::Certified(certificate) } else { Verdict::NotFinite }
     }

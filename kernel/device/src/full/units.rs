@@ -60,6 +60,7 @@ impl<R: Real> Units<R> {
                 // Next to underflow a product is less than it should be.
                 total: (of.total * self.energy).or_larger(R::TINY),
                 of_u: (of.of_u * self.energy).or_larger(R::TINY),
+                distance: of.distance * self.energy,
             }),
             other => other,
         };

@@ -5,11 +5,13 @@ use std::collections::BTreeMap;
 
 use signorini_bake::intervals::narrowed;
 use signorini_certify::cell::Cell;
-use signorini_intervals::weights::{Answers, weights};
+use signorini_intervals::known::Answers;
+use signorini_intervals::weights::weights;
 use signorini_intervals::{Answered, exact_value, of_answer};
 use signorini_kernel::verdict::Certificate;
 use signorini_problem::Problem;
 use signorini_scene::scene::{Condition, Located, Output, Quantity, Scene};
+use signorini_session::with_module;
 use signorini_solve::outputs::{Reading, declared};
 use signorini_solve::{ScalarKind, Solution};
 
@@ -82,7 +84,30 @@ impl Asked<'_> {
                 all.add(format!("weights of {name}"), off, by);
             }
         }
+        for (name, [least, most]) in self.by_a_module(problem) {
+            if let Some([known, slack]) = known.get(&name) {
+                let (middle, by) = (0.5 * (least + most), 0.5 * (most - least));
+                let off = (known - middle).abs() - slack - self.rounded(problem, &name);
+                all.add(format!("midpoint of {name}"), off, by);
+            }
+        }
         all
+    }
+
+    /// Where a condensed module with these outputs says that they lie, in a first tick.
+    fn by_a_module(&self, problem: &Problem) -> Vec<(String, [f64; 2])> {
+        if !self.is_balanced {
+            return Vec::new();
+        }
+        let inputs: Vec<f64> = problem.scene.inputs.iter().map(|input| input.default).collect();
+        let found = with_module(problem, Some(self.reading.scalar), |session, module| {
+            session.tick(&inputs)?;
+            let answer = session.answer(problem)?;
+            Ok(module.between(session, &answer.outputs, answer.bound.as_ref()))
+        });
+        let named = problem.scene.outputs.iter().map(|output| output.name.value.clone());
+        let all = named.zip(found.unwrap_or_default());
+        all.filter_map(|(name, ends)| Some((name, ends.ok()?))).collect()
     }
 
     /// The error of an output by rounding and quadrature: a part of the largest flux, or of the largest u.
@@ -122,7 +147,13 @@ impl Asked<'_> {
             of_u: bound.of_u,
             ..Certificate::default()
         };
-        let answers = Answers { open: &[], total: 0.0, are_balanced: self.is_balanced };
+        let answers = Answers {
+            open: &[],
+            pressed: &[],
+            columns: &[],
+            total: 0.0,
+            are_balanced: self.is_balanced,
+        };
         let within = weights(problem, &answers)
             .iter()
             .map(|of| narrowed::<f64>(of).within(&certificate))
