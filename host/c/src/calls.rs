@@ -5,7 +5,7 @@ use core::ffi::{CStr, c_char};
 
 use crate::named;
 use crate::report::Report;
-use crate::scene::{Inputs, Scalar};
+use crate::scene::{Inputs, Outputs, Scalar};
 use crate::state::State;
 use signorini_device::codes::Refusal;
 use signorini_device::kernel::Verdict;
@@ -53,6 +53,34 @@ unsafe fn owned<'s>(state: *mut State) -> Result<&'s mut State, Refusal> {
     // SAFETY: the caller's.
     let state = unsafe { state.as_mut() }.ok_or(Refusal::NullPointer)?;
     if state.is_own() { Ok(state) } else { Err(Refusal::ForeignState) }
+}
+
+/// # Safety
+/// Each pointer is null or valid.
+#[unsafe(export_name = named!("between"))]
+pub unsafe extern "C" fn between(
+    state: *const State,
+    outputs: *const Outputs,
+    report: *const Report,
+    least: *mut Outputs,
+    most: *mut Outputs,
+) -> i32 {
+    // SAFETY: the caller's.
+    let given = unsafe { (state.as_ref(), outputs.as_ref(), report.as_ref()) };
+    let (Some(state), Some(outputs), Some(report)) = given else {
+        return Refusal::NullPointer.code();
+    };
+    if !state.is_own() {
+        return Refusal::ForeignState.code();
+    }
+    let ends = state.controller().between(&report.answer(*outputs));
+    for (to, end) in [least, most].into_iter().zip(ends) {
+        // SAFETY: the caller's.
+        if let Some(to) = unsafe { to.as_mut() } {
+            *to = end;
+        }
+    }
+    Refusal::Ok.code()
 }
 
 /// # Safety

@@ -1,6 +1,7 @@
 //! What a tick came to, as C reads it.
 
 use crate::scene::{Answer, Outputs, Scalar};
+use signorini_device::kernel::report::{self, Ended};
 use signorini_device::kernel::verdict::{Certificate, Verdict};
 
 /// `NAME_report` of the header, field by field.
@@ -18,6 +19,7 @@ pub struct Report {
     oscillation: Scalar,
     rounding: Scalar,
     of_u: Scalar,
+    distance: Scalar,
     plus_minus: Outputs,
 }
 
@@ -29,6 +31,7 @@ const NONE: Certificate<Scalar> = Certificate {
     rounding: Scalar::INFINITY,
     total: Scalar::INFINITY,
     of_u: Scalar::INFINITY,
+    distance: 0.0,
 };
 
 impl Report {
@@ -53,7 +56,29 @@ impl Report {
             oscillation: bound.oscillation,
             rounding: bound.rounding,
             of_u: bound.of_u,
+            distance: bound.distance,
             plus_minus: answer.plus_minus(),
+        }
+    }
+
+    /// The answer that this is a report of, as far as intervals of its outputs need it.
+    pub fn answer(&self, outputs: Outputs) -> Answer {
+        let certificate = Certificate {
+            duality_gap: self.gap,
+            algebraic: self.algebraic,
+            oscillation: self.oscillation,
+            rounding: self.rounding,
+            total: self.bound,
+            of_u: self.of_u,
+            distance: self.distance,
+        };
+        let certified = Verdict::Certified(certificate);
+        let is_bounded = self.bounded == certified.code();
+        let verdict = if is_bounded { certified } else { Verdict::Unavailable };
+        let (ended, exchanges, sweeps, active) = (Ended::Exact, 0, 0, 0);
+        Answer {
+            outputs,
+            report: report::Report { ended, exchanges, sweeps, active, verdict, figures: () },
         }
     }
 }

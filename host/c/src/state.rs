@@ -77,6 +77,11 @@ impl State {
         self.header.identity == IDENTITY
     }
 
+    /// The controller.
+    pub fn controller(&self) -> &Controller {
+        &self.controller
+    }
+
     /// The controller, about to change, and the seal that is broken by it.
     pub fn open(&mut self) -> (&mut Controller, Seal) {
         let seal = Seal(core::mem::take(&mut self.header.seal));

@@ -34,7 +34,7 @@ pub struct Instructions {
 /// The interval of an output.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OutputBound {
-    /// The output.
+    /// Its middle.
     pub center: f64,
     /// How far the exact value is from it at most.
     pub plus_minus: f64,
@@ -153,7 +153,7 @@ impl Firmware {
         for ((name, board), (_, desk)) in self.outputs.0.iter().zip(&self.host_outputs.0) {
             let (board, desk) = (digits(*board), digits(*desk));
             let off = self.output_bounds.get(name).and_then(Option::as_ref);
-            let off = off.map_or_else(String::new, |of| format!("   ± {:?}", of.plus_minus));
+            let off = off.map_or_else(String::new, OutputBound::words);
             let name = name.escape_debug();
             let _ = writeln!(table, "  {name:<width$}  {board:>24}{desk:>24}{off}");
         }
@@ -248,14 +248,26 @@ fn digits(value: Option<f64>) -> String {
     value.map_or("null".to_owned(), |x| format!("{x:?}"))
 }
 
+impl OutputBound {
+    /// The least interval around a middle that has both ends, whatever that rounds.
+    fn of_ends([least, most]: [f64; 2], of: String) -> Self {
+        let center = 0.5 * (least + most);
+        let rounding = 4.0 * f64::EPSILON * (least.abs() + most.abs());
+        let plus_minus = 0.5 * (most - least) + rounding;
+        Self { center, plus_minus, of, estimate: None }
+    }
+
+    fn words(&self) -> String {
+        let Self { center, plus_minus, .. } = self;
+        format!("   {center:.6e} ± {plus_minus:.2e}")
+    }
+}
+
 /// The intervals of the first tick; `of` says of each output what it is the value of.
 fn bounds(names: &[String], said: &Ticks, of: &[String]) -> BTreeMap<String, Option<OutputBound>> {
-    let values = said.outputs().into_iter().zip(said.plus_minus());
     let of = of.iter().cloned().chain(std::iter::repeat(String::new()));
-    let bound = |((center, plus_minus), of): ((Option<f64>, Option<f64>), String)| {
-        Some(OutputBound { center: center?, plus_minus: plus_minus?, of, estimate: None })
-    };
-    names.iter().cloned().zip(values.zip(of).map(bound)).collect()
+    let bound = |(ends, of): (Option<[f64; 2]>, String)| Some(OutputBound::of_ends(ends?, of));
+    names.iter().cloned().zip(said.between().into_iter().zip(of).map(bound)).collect()
 }
 
 fn instructions(board: &Ticks) -> Result<Instructions, NoResult> {

@@ -58,13 +58,14 @@ pub const MACHINES: [Machine; 5] = [
 ];
 
 /// Functions and constants of a header, without the scene's name and an underscore before each.
-pub const EXPORTS: [&str; 13] = [
+pub const EXPORTS: [&str; 14] = [
     "init",
     "tick",
     "reset",
     "seal_state",
     "check_state",
     "culprit",
+    "between",
     "clamp",
     "error_name",
     "status_name",

@@ -29,6 +29,8 @@ pub struct Module {
     _turn: File,
     /// Whether builds are out of sight.
     quiet: bool,
+    /// Features of its programs.
+    more: &'static [&'static str],
     /// Programs by machine.
     programs: Once<PathBuf>,
     /// Ticks by machine.
@@ -53,13 +55,20 @@ impl Module {
         let file = folder.join(format!("{name}.rs"));
         take(&fresh, &file)?;
         let (programs, ticks) = (Once::default(), Once::default());
-        Ok(Self { name: name.to_owned(), file, _turn: turn, quiet: false, programs, ticks, chosen })
+        let (name, quiet, more) = (name.to_owned(), false, &[][..]);
+        Ok(Self { name, file, _turn: turn, quiet, more, programs, ticks, chosen })
     }
 
     /// Puts its builds out of sight.
     #[must_use]
     pub fn quietly(self) -> Self {
         Self { quiet: true, ..self }
+    }
+
+    /// With programs whose ticks say where their outputs lie.
+    #[must_use]
+    pub fn that_locates(self) -> Self {
+        Self { more: &["between"], ..self }
     }
 
     /// The file that holds it.
@@ -72,9 +81,9 @@ impl Module {
     /// # Errors
     /// No room on the board, a build that fails.
     pub fn image(&self, board: &Board) -> Result<PathBuf, NoResult> {
-        let linked = self.linked("scene", board, &[]);
+        let linked = self.linked("scene", board, self.more);
         linked.map_err(|why| {
-            NoResult::of(board, why, || self.linked("scene", &board.boundless(), &[]))
+            NoResult::of(board, why, || self.linked("scene", &board.boundless(), self.more))
         })
     }
 
@@ -134,7 +143,8 @@ impl Module {
         let folder = target_dir("desk");
         let mut command = cargo(&["build", "--profile", "desk", "--locked", "-p", PACKAGE]);
         command.args(["--bin", "scene_desk", "--target-dir"]).arg(&folder);
-        let features = [self.of_kernel(), vec!["desk".to_owned()]].concat();
+        let own = ["desk"].iter().chain(self.more).map(|&own| own.to_owned()).collect();
+        let features = [self.of_kernel(), own].concat();
         command.arg("--features").arg(features.join(","));
         command.env("SIGNORINI_SCENE", &self.file).current_dir(root().join("tests/firmware"));
         self.made(command, &folder.join("desk/scene_desk"), "desk")

@@ -49,9 +49,10 @@ impl Ticks {
         self.first("output ")
     }
 
-    /// How far each of them may be from its exact value; none where nothing is guaranteed.
-    pub fn plus_minus(&self) -> Vec<Option<f64>> {
-        self.first("plus-minus ")
+    /// Where the exact value of each of them lies; none where nothing is guaranteed.
+    pub fn between(&self) -> Vec<Option<[f64; 2]>> {
+        let ends = self.first("least ").into_iter().zip(self.first("most "));
+        ends.map(|(least, most)| Some([least?, most?])).collect()
     }
 
     /// The numbers of the first tick in lines that begin so.
@@ -121,14 +122,14 @@ mod tests {
     use super::*;
 
     const BOARD: &str = "tick 1\n@ instructions 512\noutput f32 3dcccccd\noutput f32 7f800000\n\
-                         plus-minus f32 3dcccccd\nsweeps 3\ntick 2\n@ instructions 480\noutput f32 3f800000\n";
+                         least f32 3dcccccd\nmost f32 3f800000\nsweeps 3\ntick 2\n@ instructions 480\noutput f32 3f800000\n";
 
     #[test]
     fn a_tick_is_read() {
         let ticks = Ticks::parse(BOARD);
         assert_eq!(ticks.count(), 2);
         assert_eq!(ticks.outputs(), [Some(0.1), None]);
-        assert_eq!(ticks.plus_minus(), [Some(0.1)]);
+        assert_eq!(ticks.between(), [Some([0.1, 1.0])]);
         assert_eq!(ticks.numbers("instructions"), Ok(vec![512, 480]));
         let beyond = Ticks::parse("@ instructions beyond").numbers("instructions");
         assert_eq!(beyond, Err("a tick's instructions: `beyond`".to_owned()));

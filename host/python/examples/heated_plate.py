@@ -103,7 +103,8 @@ controller = signorini.Controller(scene, mesh)
 print(controller)
 for air in (-30, -10, 1, 10):
     answer = controller(air=air)
-    print(f"air {air:4d} °C: {answer['power']:7.1f} W/m, within {answer.plus_minus['power']:.1f}")
+    least, most = answer.between['power']
+    print(f"air {air:4d} °C: {answer['power']:7.1f} W/m, between {least:.1f} and {most:.1f}")
 assert controller(air=10)["power"] == 0
 
 # %% [markdown]

@@ -31,9 +31,12 @@ enum Call {
     Reset(Sender<()>),
 }
 
-/// What a tick came to: how it ended, outputs, how far each may be off (∞ where nothing is guaranteed), bound and its part of u,
-/// exchanges and sweeps, contact force and length.
-type Told = (String, Vec<f64>, Vec<f64>, Option<[f64; 2]>, u32, [f64; 2]);
+/// What a tick came to: how it ended, outputs, how far each may be off and between which values it lies (∞ where nothing is
+/// guaranteed), bound and its part of u, exchanges and sweeps, contact force and length.
+type Told = (String, Vec<f64>, Known, Option<[f64; 2]>, u32, [f64; 2]);
+
+/// What is known of outputs.
+type Known = (Vec<f64>, Vec<[f64; 2]>);
 
 /// The controller of a scene.
 #[pyclass(module = "signorini._native", frozen)]
@@ -159,8 +162,11 @@ fn told(
     let answer = session.answer(&problem)?;
     let plus_minus = module.plus_minus(answer.bound.as_ref());
     let plus_minus = plus_minus.into_iter().map(|by| by.unwrap_or(f64::INFINITY)).collect();
+    let between = module.between(session, &answer.outputs, answer.bound.as_ref());
+    let nothing = [f64::NEG_INFINITY, f64::INFINITY];
+    let between = between.into_iter().map(|ends| ends.unwrap_or(nothing)).collect();
     let bound = answer.bound.map(|bound| [bound.total, bound.of_u]);
     let contact = [answer.contact_force, answer.contact_length];
     let ended = answer.status.name().to_owned();
-    Ok((ended, answer.outputs, plus_minus, bound, answer.sweeps, contact))
+    Ok((ended, answer.outputs, (plus_minus, between), bound, answer.sweeps, contact))
 }

@@ -24,7 +24,7 @@ static uint32_t never(void *context) {
 /* Something of everything. */
 int both(void) {
     levee_inputs inputs = levee_default_inputs;
-    levee_outputs outputs;
+    levee_outputs outputs, least, most;
     levee_report report;
     levee_limits limits;
     levee_deadline deadline;
@@ -43,6 +43,11 @@ int both(void) {
     }
     if (levee_tick(&levee, &inputs, &outputs, &report) != LEVEE_OK || report.status != LEVEE_EXACT) {
         return levee_error_name(LEVEE_OVERFLOW)[0] + levee_status_name(report.status)[0];
+    }
+    if (levee_between(&levee, &outputs, 0, 0, 0) != LEVEE_NULL_POINTER || levee_between(&levee, &outputs, &report, &least, &most) != LEVEE_OK
+        || !(least.seepage < most.seepage && least.wet < outputs.wet)
+        || !(most.seepage - least.seepage < report.plus_minus.seepage)) {
+        return 6;
     }
     if (levee_tick_within(&levee, &inputs, &limits, &deadline, &outputs, &report) != LEVEE_OK) {
         return levee_bounded_name(report.bounded)[0] + (levee_culprit(&levee) == 0 ? 4 : 5);

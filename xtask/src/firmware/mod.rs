@@ -20,6 +20,7 @@ use signorini_image::tools::ensure;
 use signorini_image::worst::WorstStart;
 
 use crate::baked::Failure;
+use crate::baked::Recipe;
 use crate::command::command;
 use crate::modules::{ROWS, Row};
 use crate::steps::Steps;
@@ -39,6 +40,18 @@ pub fn check(steps: &mut Steps) {
             firmware.verdict()?;
             within(row.median, firmware.instructions_per_tick.median)?;
             if row.is_explained { compare(&chosen, &firmware) } else { Ok(()) }
+        });
+    }
+    if let Some(row) = ROWS.iter().find(|row| row.is_played) {
+        steps.check(&format!("{}, with intervals, bit for bit", row.name()), || {
+            let own = options(row, false);
+            let recipe = Recipe { locates: true, ..own.recipe };
+            let (firmware, _) = measure(&Options { recipe, ..own })?;
+            firmware.verdict()?;
+            match firmware.output_bounds.values().any(Option::is_some) {
+                true => Ok(()),
+                false => Err("no output has an interval".to_owned()),
+            }
         });
     }
 }

@@ -51,7 +51,7 @@ ranges leave open, touching or free to change (ranges), what no tick exceeds, an
 Instructions are those of one call of Controller::tick over all ticks: to the instruction on m4-192k, to 40
 or 50 either way on the others, whose timer counts no finer. RAM is all statics (.data, .bss, .uninit) and the
 stack; stack is the deepest of all ticks, and part of RAM; flash is .vector_table, .text, .rodata and .data.
-All are of the whole image, with its start-up and console.
+All are of the whole image, with its start-up, its console and the numbers that intervals of outputs take.
 
 The scene is baked by `signorini bake` of this checkout, or by the program that SIGNORINI names in the
 environment.
@@ -88,7 +88,7 @@ impl Options {
             }
         }
         let scene = scene.ok_or("no scene given")?;
-        let recipe = Recipe { scene, scalar, model, inputs, full_edges };
+        let recipe = Recipe { scene, scalar, model, inputs, full_edges, locates: true };
         let out = out.unwrap_or_else(|| Path::new("out").join(recipe.scene_name()));
         Ok(Self { recipe, board, out, worst })
     }

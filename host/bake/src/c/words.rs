@@ -25,7 +25,7 @@ extern \"C\" {
 ";
 
 pub(super) const REPORT: &str = "
-/* What a tick came to. Where there is no bound, all numbers below `pulled` are infinite. */
+/* What a tick came to. Where there is no bound, all numbers below `pulled` are infinite, but `distance`. */
 typedef struct name_report {
     /* What ended the tick. */
     name_status status;
@@ -48,6 +48,8 @@ typedef struct name_report {
     name_scalar rounding;
     /* A bound on the error of the edge means, in the energy norm cell by cell. */
     name_scalar of_u;
+    /* How far apart the two fluxes are at least that the bound compares; 0 where nothing is said of it. */
+    name_scalar distance;
 ";
 
 pub(super) const PLUS_MINUS: &str = "    /* How far each output may be from its value for the exact solution, in its own unit; infinite where nothing is
@@ -102,6 +104,12 @@ typedef struct name_deadline {
  * or the other alone, has them in flash once. */
 name_error name_tick_within(name_state *state, const name_inputs *inputs, const name_limits *limits,
                             const name_deadline *deadline, name_outputs *outputs, name_report *report);
+
+/* Between which values each output lies for the exact solution, in its own unit, where `outputs` and `report` are those of the last
+ * tick of this state; infinite where nothing is guaranteed. It is narrower than plus_minus, which knows the bound alone, and takes a
+ * few products for each number of a condensed model. `least` and `most` may be null. */
+name_error name_between(const name_state *state, const name_outputs *outputs, const name_report *report,
+                        name_outputs *least, name_outputs *most);
 
 /* Forgets all ticks: the next one is the first again. The state is sealed. */
 name_error name_reset(name_state *state);

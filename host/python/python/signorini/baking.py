@@ -56,7 +56,9 @@ class ControllerAnswer:
 
     outputs: Dict[str, float]
     plus_minus: Dict[str, float]
-    """How far each output may be from its exact value, in its own unit; infinite where nothing is guaranteed."""
+    """How far each output may be from its exact value, in its own unit, by the bound alone; infinite where nothing is guaranteed."""
+    between: Dict[str, Tuple[float, float]]
+    """Between which values each output lies, by all that the tick knows."""
     ended: str
     """exact, accurate, settled, out-of-sweeps, out-of-time or not-finite."""
     bound: Optional[float]
@@ -113,10 +115,11 @@ class Controller:
             names = ", ".join(self.defaults) or "none"
             raise TypeError(f"no input {', '.join(sorted(unknown))}; inputs of the scene: {names}")
         values = [arguments.number(name, inputs.get(name, default)) for name, default in self.defaults.items()]
-        ended, outputs, plus_minus, bound, sweeps, (force, length) = self._native.tick(values)
+        ended, outputs, (plus_minus, between), bound, sweeps, (force, length) = self._native.tick(values)
         return ControllerAnswer(
             outputs=dict(zip(self.outputs, outputs)),
             plus_minus=dict(zip(self.outputs, plus_minus)),
+            between={name: (least, most) for name, (least, most) in zip(self.outputs, between)},
             ended=ended,
             bound=bound and bound[0],
             of_u=bound and bound[1],

@@ -1,4 +1,5 @@
-//! All ticks, line by line: outputs in their order, how far each may be off, then what the controller reports.
+//! All ticks, line by line: outputs in their order, how far each may be off, then what the controller reports. With the feature
+//! `between` also where each lies, which takes flash of its own.
 
 use signorini_board::journal::Journal;
 
@@ -20,7 +21,17 @@ pub fn play(
             continue;
         };
         // One call, so that images have its code once.
+        #[cfg(not(feature = "between"))]
         let told = [("output", answer.outputs), ("plus-minus", answer.plus_minus())];
+        #[cfg(feature = "between")]
+        let [least, most] = controller.between(&answer);
+        #[cfg(feature = "between")]
+        let told = [
+            ("output", answer.outputs),
+            ("plus-minus", answer.plus_minus()),
+            ("least", least),
+            ("most", most),
+        ];
         for (name, values) in told {
             for value in values.to_array() {
                 journal.scalar(name, value);
