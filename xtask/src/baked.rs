@@ -30,8 +30,6 @@ pub struct Recipe {
     pub inputs: Vec<String>,
     /// Whether edges that never change sides are kept.
     pub full_edges: bool,
-    /// Whether its ticks say where outputs lie.
-    pub locates: bool,
 }
 
 /// Why there is no module, and the exit status for it.
@@ -70,7 +68,6 @@ impl Recipe {
             model: Some(model.to_owned()),
             inputs: Vec::new(),
             full_edges: false,
-            locates: false,
         }
     }
 
@@ -83,9 +80,7 @@ impl Recipe {
         let scalar = self.scalar.iter().map(|scalar| format!("_{scalar}"));
         let inputs = self.inputs.iter().map(|input| format!("_{input}"));
         let edges = self.full_edges.then(|| "--full-edges".to_owned());
-        let locates = self.locates.then(|| "--between".to_owned());
-        let asked = scalar.chain(self.model.clone()).chain(inputs).chain(edges).chain(locates);
-        let asked: String = asked.collect();
+        let asked: String = scalar.chain(self.model.clone()).chain(inputs).chain(edges).collect();
         let name = format!("{}-{:08x}{asked}", self.scene_name(), self.place());
         name.replace(['/', '\\'], "_")
     }
@@ -137,7 +132,7 @@ impl Recipe {
                 let _ = fs::remove_file(&facts);
                 chosen
             })?;
-            Ok(Arc::new(if self.locates { module.that_locates() } else { module }))
+            Ok(Arc::new(module))
         })
     }
 }

@@ -139,9 +139,10 @@ impl<R: Scalar> NarrowMidpoint<R> {
         let changed = scene.inputs.iter().position(|of| of.field.value == Field::Coefficient);
         let [least, greatest] = changed.map_or([0.0; 2], |at| scene.inputs[at].interval());
         let over_length = if greatest > least { 1.0 / (greatest - least) } else { 0.0 };
-        // What rounding of the share of a range, of factors and of their sum may do.
-        let longer = 4.0 * (1.0 + least.abs() * over_length);
-        let share = (of.columns[0].len() + 8) as f64 * longer * R::EPSILON.wide();
+        // What rounding of factors, of products and of the share of a range may do.
+        let of_range =
+            if changed.is_some() { 4.0 * (1.0 + least.abs() * over_length) } else { 0.0 };
+        let share = (2.0 + of_range) * R::EPSILON.wide();
         let column = |[factor, off]: &[f64; 2]| {
             let off = (off + share * factor.abs()) * (1.0 + ROOM) + R::TINY.wide();
             [R::narrow(*factor), R::narrow(off)]

@@ -8,6 +8,7 @@
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::Arc;
 
 use crate::board::{Board, Build};
 use crate::cargo::{build, cargo, root, target_dir};
@@ -26,7 +27,7 @@ pub struct Module {
     name: String,
     file: PathBuf,
     /// No other command has module and programs of this name meanwhile.
-    _turn: File,
+    _turn: Arc<File>,
     /// Whether builds are out of sight.
     quiet: bool,
     /// Features of its programs.
@@ -56,7 +57,7 @@ impl Module {
         take(&fresh, &file)?;
         let (programs, ticks) = (Once::default(), Once::default());
         let (name, quiet, more) = (name.to_owned(), false, &[][..]);
-        Ok(Self { name, file, _turn: turn, quiet, more, programs, ticks, chosen })
+        Ok(Self { name, file, _turn: Arc::new(turn), quiet, more, programs, ticks, chosen })
     }
 
     /// Puts its builds out of sight.
@@ -67,8 +68,18 @@ impl Module {
 
     /// With programs whose ticks say where their outputs lie.
     #[must_use]
-    pub fn that_locates(self) -> Self {
-        Self { more: &["between"], ..self }
+    pub fn that_locates(&self) -> Self {
+        let (programs, ticks) = (Once::default(), Once::default());
+        Self {
+            name: format!("{}--between", self.name),
+            file: self.file.clone(),
+            _turn: Arc::clone(&self._turn),
+            quiet: self.quiet,
+            more: &["between"],
+            programs,
+            ticks,
+            chosen: self.chosen.clone(),
+        }
     }
 
     /// The file that holds it.

@@ -122,14 +122,14 @@ mod tests {
     use super::*;
 
     const BOARD: &str = "tick 1\n@ instructions 512\noutput f32 3dcccccd\noutput f32 7f800000\n\
-                         least f32 3dcccccd\nmost f32 3f800000\nsweeps 3\ntick 2\n@ instructions 480\noutput f32 3f800000\n";
+                         least f32 3dcccccd\nmost f32 3f000000\nsweeps 3\ntick 2\n@ instructions 480\noutput f32 3f800000\n";
 
     #[test]
     fn a_tick_is_read() {
         let ticks = Ticks::parse(BOARD);
         assert_eq!(ticks.count(), 2);
         assert_eq!(ticks.outputs(), [Some(0.1), None]);
-        assert_eq!(ticks.between(), [Some([0.1, 1.0])]);
+        assert_eq!(ticks.between(), [Some([0.1, 0.5])]);
         assert_eq!(ticks.numbers("instructions"), Ok(vec![512, 480]));
         let beyond = Ticks::parse("@ instructions beyond").numbers("instructions");
         assert_eq!(beyond, Err("a tick's instructions: `beyond`".to_owned()));

@@ -198,7 +198,10 @@ fn column(
     let doubt = values::doubt(problem) + values::imbalance(problem, &answer);
     let sizes: f64 = products.sizes.map(f64::sqrt).iter().sum();
     let rounding = ROUNDINGS * (start.terms + products.residual.max(0.0).sqrt() * sizes);
-    let off = 0.5 * products.off + INTEGRATED * start.terms + rounding + doubt * most_z;
+    // A mean of vertex values alone is exact.
+    let is_exact = goal.sign > 0.0 && deviations.found.is_empty();
+    let integrated = if is_exact { 0.0 } else { INTEGRATED * start.terms };
+    let off = 0.5 * products.off + integrated + rounding + doubt * most_z;
     Ok(Some([start.value + goal.sign * 0.5 * products.both, off]))
 }
 

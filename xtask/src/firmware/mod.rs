@@ -20,7 +20,6 @@ use signorini_image::tools::ensure;
 use signorini_image::worst::WorstStart;
 
 use crate::baked::Failure;
-use crate::baked::Recipe;
 use crate::command::command;
 use crate::modules::{ROWS, Row};
 use crate::steps::Steps;
@@ -44,9 +43,7 @@ pub fn check(steps: &mut Steps) {
     }
     if let Some(row) = ROWS.iter().find(|row| row.is_played) {
         steps.check(&format!("{}, with intervals, bit for bit", row.name()), || {
-            let own = options(row, false);
-            let recipe = Recipe { locates: true, ..own.recipe };
-            let (firmware, _) = measure(&Options { recipe, ..own })?;
+            let (firmware, _) = measure(&Options { locates: true, ..options(row, false) })?;
             firmware.verdict()?;
             match firmware.output_bounds.values().any(Option::is_some) {
                 true => Ok(()),
@@ -59,7 +56,7 @@ pub fn check(steps: &mut Steps) {
 fn options(row: &Row, worst: bool) -> Options {
     let name = format!("{}{}", row.name(), if worst { " worst" } else { "" });
     let out = target_dir("firmware").join("bills").join(name.replace(' ', "-"));
-    Options { recipe: row.recipe(), board: M4F_192K, out, worst }
+    Options { recipe: row.recipe(), board: M4F_192K, out, worst, locates: false }
 }
 
 /// `Ok` where bits are equal, and no start takes more than is proved.
@@ -98,7 +95,10 @@ pub fn check_worst(steps: &mut Steps) {
 fn measure(options: &Options) -> Result<(Firmware, Chosen), Failure> {
     ensure(&[options.board.triple])?;
     let module = options.recipe.bake()?;
-    let mut firmware = Firmware::measure(&module, &options.board)?;
+    let mut firmware = match options.locates {
+        true => Firmware::measure(&module.that_locates(), &options.board)?,
+        false => Firmware::measure(&module, &options.board)?,
+    };
     if options.worst {
         firmware.worst_start = Some(worst_start(&module, &options.board)?);
     }

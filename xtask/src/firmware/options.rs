@@ -16,6 +16,8 @@ pub struct Options {
     pub out: PathBuf,
     /// Whether the worst start is looked for.
     pub worst: bool,
+    /// Whether ticks say where outputs lie.
+    pub locates: bool,
 }
 
 const BOARDS: [Board; 4] = [M4F, M4F_192K, M7, M33];
@@ -88,9 +90,9 @@ impl Options {
             }
         }
         let scene = scene.ok_or("no scene given")?;
-        let recipe = Recipe { scene, scalar, model, inputs, full_edges, locates: true };
+        let recipe = Recipe { scene, scalar, model, inputs, full_edges };
         let out = out.unwrap_or_else(|| Path::new("out").join(recipe.scene_name()));
-        Ok(Self { recipe, board, out, worst })
+        Ok(Self { recipe, board, out, worst, locates: true })
     }
 }
 
