@@ -7,10 +7,11 @@ use signorini_device::intervals::{self as device, OutputWeights};
 use crate::choice::{Choice, Origin};
 use crate::condensed::unit_of_amplitudes;
 use crate::text::{code, prose};
+use signorini_certify::Column;
 use signorini_certify::term::corners;
-use signorini_intervals::known::{Answers, Column};
-use signorini_intervals::midpoints::{Midpoint, midpoints};
-use signorini_intervals::weights::{Weighed, Weights, weights};
+use signorini_intervals::known::Answers;
+use signorini_intervals::midpoints::{Midpoint, of_controller};
+use signorini_intervals::weights::{Weighed, Weights};
 use signorini_problem::Problem;
 use signorini_problem::functional::wanted;
 use signorini_problem::scalar::Scalar;
@@ -54,23 +55,15 @@ pub fn of_choice<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> OutputInte
         total,
         are_balanced: origin.is_some(),
     };
-    let weighed = weights(problem, &answers);
+    let (weighed, midpoints) = of_controller(problem, &answers);
     let in_model = |of: Option<Midpoint>| of.zip(origin).map(|(of, origin)| baked(origin, of));
-    let midpoints = midpoints(problem, &answers, &weighed).into_iter().map(in_model).collect();
+    let midpoints = midpoints.into_iter().map(in_model).collect();
     OutputIntervals { weighed, midpoints }
 }
 
 /// The columns of a model that has a bound, with its transfer coefficients at both ends of their range where an input changes them.
 fn columns(problem: &Problem, origin: &Origin) -> Result<Vec<Vec<Column>>> {
-    let of_corner = |scene: Scene| {
-        let columns = origin.recovery.columns(&problem.with_loads_of(scene)?)?;
-        let own = |signorini_condense::Column { problem, certified, laws }| Column {
-            problem,
-            certified,
-            laws,
-        };
-        Ok(columns.into_iter().map(own).collect())
-    };
+    let of_corner = |scene: Scene| origin.recovery.columns(&problem.with_loads_of(scene)?);
     match origin.whole.certificate {
         Ok(_) => corners(&problem.scene).map(of_corner).collect(),
         Err(_) => Ok(Vec::new()),

@@ -16,6 +16,7 @@ pub mod admissible;
 mod between;
 mod bound;
 mod certifier;
+mod column;
 pub mod conductivity;
 pub mod curved;
 mod data;
@@ -46,6 +47,7 @@ pub mod weighed;
 
 pub use bound::{Certified, ErrorBound};
 pub use certifier::{CertifiedFields, Certifier};
+pub use column::Column;
 pub use conductivity::eigenvalues;
 pub use data::{Data, Evaluated};
 pub use no_bound::NoBound;

@@ -63,7 +63,7 @@ use laws::Laws;
 pub use model::{Balance, CondensedModel, Corner, Form, Measure, Vertex};
 pub use modes::{LawsForm, LeftOut, ModalModel, modal};
 pub use order::along_boundary;
-pub use recovery::{Column, Recovery, recoverable};
+pub use recovery::{Recovery, recoverable};
 use signorini_certify::TermData;
 use signorini_certify::term::{condensed_terms, rooms_of};
 use signorini_problem::{Approach, Parts, Problem};

@@ -9,8 +9,8 @@ use super::chain::is_left_out;
 use super::elimination::Field;
 use super::form::Admissibles;
 use super::{CondensedModel, Form, build};
-use signorini_certify::CertifiedFields;
 use signorini_certify::admissible::Following;
+use signorini_certify::{CertifiedFields, Column};
 use signorini_kernel::mesh::boundary::Robin;
 use signorini_problem::Problem;
 use signorini_scene::error::Result;
@@ -28,17 +28,6 @@ pub struct Recovery {
 /// As for [`super::condense`].
 pub fn recoverable(problem: &Problem) -> Result<(CondensedModel, Recovery)> {
     build(problem)
-}
-
-/// A column of s and τ.
-#[derive(Debug, Clone)]
-pub struct Column {
-    /// The problem in which this column is left alone.
-    pub problem: Problem,
-    /// s and τ.
-    pub certified: CertifiedFields,
-    /// The flux of each transfer law, ∫h (u_ext − u), where a coefficient changes: in a sum of columns that is ∫τ·n. Else nothing.
-    pub laws: Vec<f64>,
 }
 
 impl Recovery {

@@ -1,18 +1,6 @@
 //! What is known of all answers of a controller, before any tick.
 
-use signorini_certify::CertifiedFields;
-use signorini_problem::Problem;
-
-/// A column of s and τ of a controller.
-#[derive(Debug, Clone)]
-pub struct Column {
-    /// The problem in which this column is left alone.
-    pub problem: Problem,
-    /// s and τ.
-    pub certified: CertifiedFields,
-    /// Fluxes through the edges of transfer laws, where those of τ are not those of this coefficient; else nothing.
-    pub laws: Vec<f64>,
-}
+use signorini_certify::Column;
 
 /// Facts on all answers of a controller.
 #[derive(Debug, Clone, Copy)]

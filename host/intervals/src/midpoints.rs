@@ -13,10 +13,11 @@ use super::dual::{self, Dual};
 use super::goal::Goal;
 use super::interval::{FAR, most};
 use super::kept::{keep, left};
-use super::known::{Answers, Column};
+use super::known::Answers;
 use super::products::Residual;
 use super::values::{self, INTEGRATED};
 use super::weights::{NOTHING, Weighed, Weighing};
+use signorini_certify::Column;
 use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::Conductivity;
 use signorini_certify::curved::followed;
@@ -62,29 +63,33 @@ struct Pair {
     part: [f64; 2],
 }
 
-/// The midpoints of the outputs that have weights, in their order.
-pub fn midpoints(
+/// The weights of every output, in their order, and the midpoints of those that have weights.
+pub fn of_controller(
     problem: &Problem,
     answers: &Answers,
-    weighed: &[Weighed],
-) -> Vec<Option<Midpoint>> {
+) -> (Vec<Weighed>, Vec<Option<Midpoint>>) {
     let outputs = wanted(&problem.scene);
-    let found = || -> Result<Vec<Option<Midpoint>>> {
-        match Weighing::new(problem, answers)? {
-            Ok(of) if answers.columns.iter().any(|columns| !columns.is_empty()) => {
-                let of_output = |(output, weighed): (&Output, &Weighed)| match weighed {
-                    Ok(_) => of.midpoint(output),
-                    Err(_) => Ok(None),
-                };
-                outputs.iter().zip(weighed).map(of_output).collect()
-            }
-            _ => Ok(vec![None; outputs.len()]),
-        }
+    let none = |why: String| vec![(Err(why), None); outputs.len()];
+    let found = match Weighing::new(problem, answers) {
+        Ok(Ok(of)) => outputs.iter().map(|output| of.with_midpoint(output)).collect(),
+        Ok(Err(why)) => none(why),
+        Err(error) => none(error.reason()),
     };
-    found().unwrap_or_else(|_| vec![None; outputs.len()])
+    found.into_iter().unzip()
 }
 
 impl Weighing<'_> {
+    fn with_midpoint(&self, output: &Output) -> (Weighed, Option<Midpoint>) {
+        let weighed = self.output(output).unwrap_or_else(|error| Err(error.reason()));
+        let has_columns = self.answers.columns.iter().any(|columns| !columns.is_empty());
+        let midpoint = match has_columns && weighed.is_ok() {
+            // Without one, weights say what is known.
+            true => self.midpoint(output).unwrap_or_default(),
+            false => None,
+        };
+        (weighed, midpoint)
+    }
+
     /// The midpoint of an output; nothing where there is none.
     fn midpoint(&self, output: &Output) -> Result<Option<Midpoint>> {
         let problem = self.problem;
@@ -163,15 +168,20 @@ impl Weighing<'_> {
         let rest = left(self.problem, goal, contact, &weights);
         let nothing = self.nothing();
         let answer = Answered { certified: &nothing, bound: None, scalar: ScalarKind::F64 };
-        let (mut apart, mut sizes) = (0.0_f64, 0.0_f64);
-        // Both are convex in transfer coefficients.
+        // All three squares are convex in transfer coefficients. A NaN is no size.
+        let larger = |most: f64, size: f64| if size <= most { most } else { size };
+        let mut squares = [0.0_f64; 3];
         for corner in &self.corners {
             let dual = Dual::new(corner, goal)?;
             let of_corner =
                 Residual::new(dual.problem(), &answer, &NOTHING)?.with(goal, &weights)?;
-            apart = apart.max(of_corner.weights.max(0.0).sqrt());
-            sizes = sizes.max(of_corner.sizes.map(f64::sqrt).iter().sum());
+            let [of_z, of_zeta] = of_corner.sizes;
+            for (most, square) in squares.iter_mut().zip([of_corner.weights, of_z, of_zeta]) {
+                *most = larger(*most, square);
+            }
         }
+        let [apart, of_z, of_zeta] = squares.map(f64::sqrt);
+        let sizes = of_z + of_zeta;
         let is_bounded = rest.loose == [0.0; 2]
             && rest.part.iter().chain([&apart, &sizes]).all(|number| number.is_finite());
         let pair = Pair { weights, apart, sizes, part: rest.part };

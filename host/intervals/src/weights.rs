@@ -133,7 +133,8 @@ impl<'p> Weighing<'p> {
         if self.unseen == 0.0 { 0.0 } else { 2.0 * most * self.unseen }
     }
 
-    fn output(&self, output: &Output) -> Result<Weighed> {
+    /// The weights of an output.
+    pub fn output(&self, output: &Output) -> Result<Weighed> {
         let (nothing, none) = (self.nothing(), |why: &str| Ok(Err(why.to_owned())));
         let answer = Answered { certified: &nothing, bound: None, scalar: ScalarKind::F64 };
         if let Quantity::Probe { .. } = output.quantity {

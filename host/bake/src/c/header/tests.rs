@@ -131,7 +131,7 @@ fn a_header_and_the_library_of_another_bake_do_not_link() {
 
 #[test]
 fn it_is_c_and_asserts_the_sizes_of_the_library() {
-    // Three outputs: 12 numbers and words of 4 bytes, and three intervals.
+    // Three outputs: 13 numbers and words of 4 bytes, and three intervals.
     let levee = header("levee", 624, 64);
     assert_eq!(compiled(&levee), Ok(()));
     assert!(compiled(&header("levee", 624, 68)).is_err_and(|why| why.contains("report_has")));
