@@ -149,7 +149,8 @@ impl Firmware {
         let mut table = format!("\n{scene} on {board}, {scalar}, {model}\n");
         let names = self.outputs.0.iter().map(|(name, _)| name.chars().count());
         let width = names.max().unwrap_or(0).max(12);
-        let _ = writeln!(table, "  {:<width$}  {:>24}{:>24}", "first tick", "board", "desk");
+        let head = ["first tick", "board", "desk", "   the exact value, guaranteed"];
+        let _ = writeln!(table, "  {:<width$}  {:>24}{:>24}{}", head[0], head[1], head[2], head[3]);
         for ((name, board), (_, desk)) in self.outputs.0.iter().zip(&self.host_outputs.0) {
             let (board, desk) = (digits(*board), digits(*desk));
             let off = self.output_bounds.get(name).and_then(Option::as_ref);
