@@ -1,14 +1,14 @@
 //! Options of a solve.
 
 use clap::ValueEnum;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::solver::Settings;
 
 use signorini_problem::scalar::Scalar;
 
 /// The scalar type of the kernel.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ScalarKind {
     /// Double precision.

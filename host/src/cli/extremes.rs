@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
-use std::time::Instant;
 
 use clap::Args;
 
@@ -11,7 +10,6 @@ use signorini_files::atomic::{writable, write_atomically};
 use signorini_lab::extremes::judge::Outcome;
 use signorini_lab::extremes::kept::Kept;
 use signorini_lab::extremes::random::record::Record;
-use signorini_lab::extremes::random::row::Row;
 use signorini_lab::extremes::section::section;
 use signorini_lab::extremes::{cases, random, run, text};
 use signorini_problem::progress::{say, steps};
@@ -33,7 +31,7 @@ With --random N whole scenes are drawn instead: materials, loads, conditions, ce
 Odd ones have a feature that fixed rules miss, such as a narrow source or a step of A inside a cell. \
 Each is measured against its exact solution or a finer solve that counts with its own bound. Leaves random.json (counts, \
 the largest ratios, all that is broken), random.csv (a line a case) and the scene and mesh of every case that breaks a \
-promise. 20 000 cases take about three hours.
+promise. 20 000 cases take about three hours; this too goes on where it was interrupted.
 
 Exit status 0 where nothing is worse than certified-poor or refused with a typed error, else 1.";
 
@@ -97,19 +95,20 @@ impl Arguments {
         let (seed, out) = (self.seed, &self.out);
         writable("--out", out)?;
         let cases = self.case.map_or(0..=count - 1, |case| case..=case);
-        let (bar, start) = (steps(cases.clone().count()), Instant::now());
-        let keep = |rows: &[Row]| {
-            let record = Record::new(seed, start.elapsed().as_secs_f64(), rows);
-            write_atomically(&out.join("random.json"), record.json().as_bytes())?;
-            write_atomically(&out.join("random.csv"), &random::row::csv(rows)?)
-        };
-        let record = random::run(seed, cases, || bar.inc(1), &keep)?;
+        let bar = steps(cases.clone().count());
+        let kept = Kept::open(out)?;
+        let rows = random::run(seed, cases, &kept, || bar.inc(1));
         bar.finish_and_clear();
+        let rows = rows?;
+        let record = Record::new(seed, kept.seconds(), &rows);
+        write_atomically(&out.join("random.json"), record.json().as_bytes())?;
+        write_atomically(&out.join("random.csv"), &random::row::csv(&rows)?)?;
         let broken = record.violations.iter().map(|violation| violation.case);
         let written: BTreeSet<u32> = broken.chain(self.case).collect();
         for case in written {
             random::write(seed, case, &out.join(format!("case-{case}")))?;
         }
+        kept.close()?;
         say(record.text());
         say(format_args!("written to {}", out.display()));
         Ok(u8::from(!record.violations.is_empty()))

@@ -4,19 +4,17 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use super::case::ExtremeCase;
-use super::record::Row;
-use crate::trade::journal::{Journal, digest, program};
-
+use crate::trade::journal::{Journal, program};
 use crate::trade::shard::Shard;
 use signorini_scene::error::{Error, Result};
 
 /// A finished case, and the seconds that all runs together had taken by then.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Line {
-    row: Row,
+struct Line<T> {
+    row: T,
     elapsed: f64,
 }
 
@@ -41,24 +39,23 @@ impl Kept {
         Ok(Self { folder, journal, start: Instant::now(), before: Mutex::default() })
     }
 
-    /// The row that is known of a case, or what `work` finds.
+    /// The row that is known of the case `key`, or what `work` finds.
     ///
     /// # Errors
     /// Those of `work`; a file that cannot be written.
-    pub(super) fn row(
+    pub(super) fn row<T: Serialize + DeserializeOwned + PartialEq>(
         &self,
-        case: &ExtremeCase,
-        work: impl FnOnce() -> Result<Row>,
-    ) -> Result<Row> {
-        let key = format!("{}, {:016x}", case.name(), digest(&format!("{case:?}")));
-        if let Some(Line { row, elapsed }) = held(&self.journal).known(&key) {
+        key: &str,
+        work: impl FnOnce() -> Result<T>,
+    ) -> Result<T> {
+        if let Some(Line { row, elapsed }) = held(&self.journal).known(key) {
             let mut before = held(&self.before);
             *before = before.max(elapsed);
             return Ok(row);
         }
         let row = work()?;
         let line = Line { row, elapsed: self.seconds() };
-        match held(&self.journal).add(&key, &line) {
+        match held(&self.journal).add(key, &line) {
             // What does not survive being written is worked out again.
             Ok(()) | Err(Error::Check(_)) => Ok(line.row),
             Err(error) => Err(error),
@@ -89,22 +86,22 @@ fn held<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::record::tests::fixture;
+    use super::super::record::{Row, tests::fixture};
     use super::*;
 
     #[test]
     fn what_is_finished_is_not_done_again() {
         let folder = tempfile::tempdir().unwrap();
-        let (cases, row) = (super::super::plan::cases(), fixture().cases.swap_remove(0));
+        let row = fixture().cases.swap_remove(0);
         let never = || -> Result<Row> { panic!("asked for by a test") };
         let first = Kept::open(folder.path()).unwrap();
-        assert_eq!(first.row(&cases[0], || Ok(row.clone())).unwrap(), row);
+        assert_eq!(first.row("a", || Ok(row.clone())).unwrap(), row);
         // Interrupted here: nothing is closed.
         drop(first);
         let second = Kept::open(folder.path()).unwrap();
-        assert_eq!(second.row(&cases[0], never).unwrap(), row);
+        assert_eq!(second.row("a", never).unwrap(), row);
         let other = Row { note: "another".to_owned(), ..row.clone() };
-        assert_eq!(second.row(&cases[1], || Ok(other.clone())).unwrap(), other);
+        assert_eq!(second.row("b", || Ok(other.clone())).unwrap(), other);
         second.close().unwrap();
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }

@@ -30,6 +30,7 @@ use std::cmp::Reverse;
 use std::time::{Duration, Instant};
 
 use crate::record_file::word;
+use crate::trade::journal::digest;
 use attempt::{Attempt, attempt};
 use case::ExtremeCase;
 use flush::flushed;
@@ -61,7 +62,11 @@ pub fn cases(only: Option<&str>) -> Vec<ExtremeCase> {
 pub fn run(cases: &[ExtremeCase], kept: &Kept, done: impl Fn() + Sync) -> Result<Record> {
     let mut order: Vec<usize> = (0..cases.len()).collect();
     order.sort_by_key(|&at| Reverse(cases[at].posed.grid.n));
-    let found = |&at: &usize| Ok((at, kept.row(&cases[at], || row(&cases[at]))?));
+    let found = |&at: &usize| {
+        let case = &cases[at];
+        let key = format!("{}, {:016x}", case.name(), digest(&format!("{case:?}")));
+        Ok((at, kept.row(&key, || row(case))?))
+    };
     let mut rows = on_two_threads(&order, found, done)?;
     rows.sort_by_key(|&(at, _)| at);
     let cases = rows.into_iter().map(|(_, row)| row).collect();

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::cut::Line;
 use super::feature::{self, Feature};
@@ -15,7 +15,7 @@ use signorini_scene::mesh::Mesh;
 use signorini_solve::ScalarKind;
 
 /// Where its truth comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Yardstick {
     /// A solution of the catalogue, at any scale.
@@ -28,7 +28,7 @@ pub enum Yardstick {
 }
 
 /// The solver.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Way {
     /// Sweeps of the kernel, as `solve` has them.

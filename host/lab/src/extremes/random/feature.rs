@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::catalogue;
 use super::cut::Line;
@@ -17,7 +17,7 @@ use signorini_problem::random::Random;
 use signorini_scene::mesh::Mesh;
 
 /// What the data of a scene have.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Feature {
     /// A Gaussian bump of f.

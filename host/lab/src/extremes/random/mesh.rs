@@ -7,14 +7,14 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::extremes::grid::partition;
 use signorini_problem::random::Random;
 use signorini_scene::mesh::{Curve, Mesh, Surface};
 
 /// The cells of a mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
     /// Triangles alone.

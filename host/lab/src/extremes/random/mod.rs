@@ -28,17 +28,16 @@ mod verdict;
 
 use std::ops::RangeInclusive;
 use std::path::Path;
-use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use attempt::{Attempt, attempt};
 use case::RandomCase;
 use measure::measure;
-use record::Record;
 use row::Row;
 use verdict::{broken_by, ended};
 
 use super::judge::{Ended, Outcome, judge};
+use super::kept::Kept;
 use super::watch::watched;
 use signorini_files::atomic::write_atomically;
 use signorini_problem::threads::on_two_threads;
@@ -48,35 +47,21 @@ use signorini_scene::mesh::gmsh::write as msh;
 /// A case without an answer by then hangs.
 const LIMIT: Duration = Duration::from_secs(1800);
 
-/// Called with all rows that are there so far.
-pub type Keep<'k> = dyn Fn(&[Row]) -> Result<()> + Sync + 'k;
-
-/// Cases between two records of a run that is not over.
-const OFTEN: usize = 250;
-
-/// Draws these cases of a seed and runs them in two threads; calls `done` after each and `keep` now and then.
+/// Draws these cases of a seed and runs in two threads those that are not yet `kept`; calls `done` after each. A case that breaks a
+/// promise is never kept, but run again.
 ///
 /// # Errors
-/// What `keep` returns.
+/// Finished cases cannot be kept.
 pub fn run(
     seed: u64,
     cases: RangeInclusive<u32>,
+    kept: &Kept,
     done: impl Fn() + Sync,
-    keep: &Keep,
-) -> Result<Record> {
-    let start = Instant::now();
-    let rows = Mutex::new(Vec::new());
-    let work = |&number: &u32| {
-        let row = row(seed, number);
-        let Ok(mut rows) = rows.lock() else { return Ok(()) };
-        rows.push(row);
-        if rows.len().is_multiple_of(OFTEN) { keep(&rows) } else { Ok(()) }
-    };
-    on_two_threads(&cases.collect::<Vec<_>>(), work, done)?;
-    let mut rows = rows.into_inner().unwrap_or_default();
+) -> Result<Vec<Row>> {
+    let work = |&number: &u32| kept.row(&format!("{number} of {seed}"), || Ok(row(seed, number)));
+    let mut rows = on_two_threads(&cases.collect::<Vec<_>>(), work, done)?;
     rows.sort_by_key(|row| row.case);
-    keep(&rows)?;
-    Ok(Record::new(seed, start.elapsed().as_secs_f64(), &rows))
+    Ok(rows)
 }
 
 /// Writes the scene and the mesh of a case into `folder`.

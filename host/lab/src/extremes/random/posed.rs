@@ -1,12 +1,12 @@
 //! A scene as it was drawn, before its setting, and which ends the flux of its contact has.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use signorini_problem::random::Random;
 use signorini_scene::mesh::Mesh;
 
 /// The condition that holds its parts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Hold {
     /// Given values somewhere.

@@ -1,6 +1,6 @@
 //! The findings of one random scene.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::attempt::Attempt;
 use super::case::{Effort, RandomCase, Way, Yardstick};
@@ -15,7 +15,7 @@ use signorini_scene::error::Result;
 use signorini_solve::ScalarKind;
 
 /// A line of `random.csv`.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Row {
     /// Its number.
     pub case: u32,
@@ -38,7 +38,7 @@ pub struct Row {
     /// Edges not on D.
     pub unknowns: Option<usize>,
     /// How it ended.
-    pub status: Option<&'static str>,
+    pub status: Option<String>,
     /// Sweeps spent.
     pub sweeps: Option<u32>,
     /// The true distance of s and τ over the bounds; as far as it is known where it seems above them.
@@ -80,7 +80,7 @@ impl Row {
         let of_f64 = case.effort.scalar == ScalarKind::F64;
         Self {
             unknowns: Some(attempt.problem.topology.counts.unknowns()),
-            status: Some(attempt.answer.status.name()),
+            status: Some(attempt.answer.status.name().to_owned()),
             sweeps: Some(attempt.answer.sweeps),
             error_over_bound: measured
                 .and_then(|of| ratio(of.least()[0], of.bound.total + of.total)),
