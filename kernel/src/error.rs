@@ -128,6 +128,7 @@ pub enum Array {
     Boundary,
     Neumann,
     Robin,
+    Storage,
     Contact,
     Dirichlet,
     RowPointers,

@@ -21,6 +21,8 @@ pub const LIMITED: bool = cfg!(feature = "limited");
 pub const ROBIN: bool = cfg!(feature = "robin");
 /// Transfer coefficients that inputs of a full model change.
 pub const TRANSFER: bool = cfg!(feature = "transfer");
+/// Cells that store u in a step of time.
+pub const STORAGE: bool = cfg!(feature = "storage");
 /// Gaps and Dirichlet values that are not affine along an edge.
 pub const CURVED: bool = cfg!(feature = "curved");
 /// Each cell's share in the error bound.

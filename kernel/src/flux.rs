@@ -12,6 +12,7 @@ use crate::error::{Array, Error, same_length, same_length_or_empty};
 use crate::index::{Index, read};
 use crate::mesh::edges::Edges;
 use crate::stiffness::Stiffness;
+use crate::storage::Storage;
 use crate::{Real, features};
 
 /// Outward fluxes through the sides of a triangle: `k` its stiffness, `u` the means over its sides,
@@ -124,6 +125,38 @@ pub fn recover<R: Real, I: Index>(
     low: &[R],
     flux: &mut [R],
 ) -> Result<Recovered<R>, Error> {
+    recover_with(edges, stiffness, loads, [u, low], flux, (|_, _| None, |_, _| None))
+}
+
+/// Fills `flux` as [`recover`] does, for a step in time whose cells store what `storage` says.
+///
+/// # Errors
+/// Slices of the wrong length.
+pub fn recover_in_step<R: Real, I: Index>(
+    edges: &Edges<I>,
+    stiffness: Stiffness<R>,
+    (loads, storage): (CellLoads<R>, Storage<R>),
+    u: &[R],
+    low: &[R],
+    flux: &mut [R],
+) -> Result<Recovered<R>, Error> {
+    let stored = (
+        |at, sides: &[I; 3]| Some(storage.in_triangle(at, sides, u)),
+        |at, sides: &[I; 4]| Some(storage.in_quad(at, sides, u)),
+    );
+    recover_with(edges, stiffness, loads, [u, low], flux, stored)
+}
+
+/// `stored` says what a triangle and a quad store by their sides.
+#[inline(always)]
+fn recover_with<R: Real, I: Index>(
+    edges: &Edges<I>,
+    stiffness: Stiffness<R>,
+    loads: CellLoads<R>,
+    [u, low]: [&[R]; 2],
+    flux: &mut [R],
+    stored: (impl Fn(usize, &[I; 3]) -> Option<[R; 3]>, impl Fn(usize, &[I; 4]) -> Option<[R; 4]>),
+) -> Result<Recovered<R>, Error> {
     same_length(Array::Unknowns, u.len(), edges.counts().edges())?;
     let (triangles, quads) = (edges.of_triangles().len(), edges.of_quads().len());
     same_length(Array::Stiffness, stiffness.triangles.len(), triangles)?;
@@ -141,6 +174,7 @@ pub fn recover<R: Real, I: Index>(
             if !low.is_empty() {
                 out = sum(out, crouzeix_raviart::product(k, &pick(sides, low)));
             }
+            out = stored.0(at, sides).map_or(out, |stored| sum(out, stored));
             sides.iter().zip(out).for_each(|(edge, out)| gathered.add(edge.at(), &mut half, out));
         }
     }
@@ -150,6 +184,7 @@ pub fn recover<R: Real, I: Index>(
             if !low.is_empty() {
                 out = sum(out, rannacher_turek::product(k, &pick(sides, low)));
             }
+            out = stored.1(at, sides).map_or(out, |stored| sum(out, stored));
             sides.iter().zip(out).for_each(|(edge, out)| gathered.add(edge.at(), &mut half, out));
         }
     }

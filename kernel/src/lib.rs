@@ -49,6 +49,8 @@ pub mod solver;
 #[cfg(feature = "mesh")]
 pub mod stiffness;
 #[cfg(feature = "mesh")]
+pub mod storage;
+#[cfg(feature = "mesh")]
 pub mod system;
 #[cfg(feature = "mesh")]
 mod tensor;

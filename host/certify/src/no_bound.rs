@@ -24,6 +24,9 @@ impl NoBound {
 
     /// Why these data allow for no bound, whatever the iterate.
     pub fn of_data(problem: &Problem, ends: &Ends, curved: &[Curved]) -> Option<Self> {
+        if problem.loads.step.is_some() {
+            return Some(Self::new("a step in time has no error bound yet"));
+        }
         let rough = || curved.iter().find_map(|edge| Self::rough(problem, edge));
         let jump = || ends.jump(problem).map(|jump| Self::values_differ(problem, jump));
         let of_tensor = || Self::not_definite(problem);

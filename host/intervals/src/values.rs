@@ -67,7 +67,7 @@ pub(super) fn doubt(problem: &Problem) -> f64 {
 pub(super) fn imbalance(problem: &Problem, answer: &Answered) -> f64 {
     let tau = &answer.certified.tau;
     let surplus =
-        |at: usize| CellField::new(problem, at, tau, tau).surplus(problem.loads.of_cell(at));
+        |at: usize| CellField::new(problem, at, tau, tau).surplus(problem.loads.of_cell(at), &[]);
     let cells: f64 = (0..problem.cells()).map(|at| surplus(at).abs()).sum();
     let mut given = vec![0.0; problem.ends.len()];
     problem.loads.neumann.iter().for_each(|record| given[record.edge as usize] = record.flux);

@@ -96,8 +96,10 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     /// Loads that the scalar type cannot hold.
     pub fn set_loads(&mut self, loads: &Loads) -> Result<(), Error> {
         let before = std::mem::replace(&mut self.loads, loads.narrowed());
-        let coefficients =
-            |of: &Loads<R>| of.robin.iter().map(|law| law.coefficient).collect::<Vec<R>>();
+        let of_step = |of: &Loads<R>| of.step.as_ref().map(|step| step.diagonal.clone());
+        let coefficients = |of: &Loads<R>| {
+            (of.robin.iter().map(|law| law.coefficient).collect::<Vec<R>>(), of_step(of))
+        };
         if coefficients(&before) != coefficients(&self.loads) {
             self.fill_values()?;
         }
@@ -123,9 +125,7 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     /// Boundary records that are not admissible.
     pub fn fill_load(&mut self) -> Result<(), Error> {
         let mut load = std::mem::take(&mut self.load);
-        let filled = self
-            .boundary()
-            .and_then(|boundary| assembly::load(&self.edges, self.cells(), &boundary, &mut load));
+        let filled = self.loads.fill(&self.edges, &mut load);
         self.load = load;
         filled
     }
@@ -203,7 +203,7 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     /// # Errors
     /// As for [`Assembled::boundary`].
     pub fn diagonal(&self) -> Result<DiagonalTerms<'_, R, u32>, Error> {
-        Ok(DiagonalTerms::new(&self.boundary()?))
+        self.loads.diagonal(&self.edges)
     }
 
     /// The fluxes (15) of `u`, which may have a low part, one an edge: see [`flux::recover`].
@@ -211,7 +211,14 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     /// # Errors
     /// Slices of the wrong length.
     pub fn recover(&self, u: &[R], low: &[R], flux: &mut [R]) -> Result<Recovered<R>, Error> {
-        flux::recover(&self.edges, self.stiffness(), self.cells(), u, low, flux)
+        let (edges, k) = (&self.edges, self.stiffness());
+        match &self.loads.step {
+            Some(step) => {
+                let loads = (self.cells(), step.storage(edges)?);
+                flux::recover_in_step(edges, k, loads, u, low, flux)
+            }
+            None => flux::recover(edges, k, self.cells(), u, low, flux),
+        }
     }
 
     /// The law on the contact edges.

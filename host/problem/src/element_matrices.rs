@@ -1,7 +1,6 @@
 //! Element matrices in f64, integrated once, narrowed once, and whether the scalar can hold them; and the diagonal of K with
 //! the load b alone, which tell the size of a problem's numbers before it is assembled.
 
-use signorini_kernel::assembly;
 use signorini_kernel::element::crouzeix_raviart;
 use signorini_kernel::error::{Array, CellId};
 use signorini_kernel::mesh::Mesh;
@@ -138,7 +137,7 @@ impl Problem {
     /// # Errors
     /// Records of the boundary that are not admissible.
     pub fn diagonal_terms(&self, edges: &Edges<u32>) -> Result<DiagonalTerms<'_, f64, u32>, Error> {
-        Ok(DiagonalTerms::new(&self.loads.boundary(edges)?))
+        self.loads.diagonal(edges)
     }
 
     /// The diagonal of K, and b, with the bits of [`super::Assembled`].
@@ -147,7 +146,6 @@ impl Problem {
     /// As for [`super::Assembled::system`].
     pub fn diagonal_and_load(&self) -> Result<[Vec<f64>; 2], Error> {
         let (edges, loads) = (self.topology.edges()?, &self.loads);
-        let boundary = loads.boundary(&edges)?;
         let matrices = ElementMatrices::of(self)?;
         let unknowns = edges.counts().unknowns();
         let own = |half: &u32| match edges.side(*half as usize) {
@@ -162,7 +160,7 @@ impl Problem {
         let mut diagonal: Vec<f64> = pairs.map(sum).collect();
         self.diagonal_terms(&edges)?.entries().for_each(|(edge, term)| diagonal[edge] += term);
         let mut load = vec![0.0; unknowns];
-        assembly::load(&edges, loads.cells(), &boundary, &mut load)?;
+        loads.fill(&edges, &mut load)?;
         finite(Array::MatrixValues, matrices.entries())?;
         finite(Array::MatrixValues, diagonal.iter())?;
         finite(Array::Load, load.iter())?;

@@ -119,18 +119,20 @@ impl CellField {
         means.iter().sum::<f64>() / means.len() as f64
     }
 
-    /// Σ_E ∫σ·n + ∫f, with ∫f = `load`: 0 for a cell in balance.
-    pub fn surplus(&self, load: f64) -> f64 {
+    /// Σ_E ∫σ·n + ∫f, with ∫f = `load`, less what the cell stores by its sides in a step of time: 0 for a cell in balance.
+    pub fn surplus(&self, load: f64, stored: &[f64]) -> f64 {
         let [_, fluxes] = self.sides();
-        fluxes.iter().sum::<f64>() + load
+        fluxes.iter().sum::<f64>() + load - stored.iter().sum::<f64>()
     }
 
-    /// ∫A∇u_h·∇u_h of a cell in balance: Σ_E u_E (∫_E σ·n + ∫f/m), because ∫A∇u_h·∇φ_E stands in brackets.
-    pub fn energy(&self, load: f64) -> f64 {
+    /// ∫A∇u_h·∇u_h of a cell in balance: Σ_E u_E (∫_E σ·n + ∫f/m), less what it stores by each side, because ∫A∇u_h·∇φ_E stands in brackets.
+    pub fn energy(&self, load: f64, stored: &[f64]) -> f64 {
         let ([means, fluxes], mean) = (self.sides(), self.mean());
         let share = load / means.len() as f64;
+        let stored = stored.iter().chain(std::iter::repeat(&0.0));
         // The brackets add up to the surplus, so that the mean may be left out: less cancels.
-        means.iter().zip(fluxes).map(|(u, out)| (u - mean) * (out + share)).sum()
+        let sides = means.iter().zip(fluxes).zip(stored);
+        sides.map(|((u, out), stored)| (u - mean) * (out + share - stored)).sum()
     }
 }
 

@@ -47,6 +47,17 @@ pub struct Lack {
 }
 
 impl Approach {
+    /// Refuses a scene whose materials store u: controllers answer for the steady state alone.
+    ///
+    /// # Errors
+    /// Such a scene.
+    pub fn check_steady(problem: &Problem) -> Result<()> {
+        match problem.scene.stores() {
+            true => Err(no_steps(problem).into()),
+            false => Ok(()),
+        }
+    }
+
     /// How `problem` is condensed: for every value of a transfer coefficient where one input changes it.
     pub fn condensing(problem: &Problem) -> Self {
         let inputs = problem.scene.inputs.iter();
@@ -135,6 +146,12 @@ impl Approach {
                     None
                 }
             },
+            Property::Step => match self {
+                Condensation | Modes | Tick | FullModel | FactoredTicks | Export | Baselines => {
+                    Some(no_steps)
+                }
+                Factor => None,
+            },
         }
     }
 }
@@ -193,6 +210,14 @@ fn no_clock(problem: &Problem) -> InputError {
 fn one_matrix(problem: &Problem) -> InputError {
     changes_matrix(problem, "it changes the matrix, and one is written for all ticks")
         .hint("take the full model (--full, model = \"full\")")
+}
+
+/// The material that stores is what a scene states.
+pub(super) fn no_steps(problem: &Problem) -> InputError {
+    let stores = problem.scene.materials.iter().find(|material| material.stores());
+    let place = stores.map(|material| &material.capacity);
+    refused_at(problem, place, "no controller steps in time yet".to_owned())
+        .hint("`signorini tick` steps in time on this machine; without `capacity` the controller is the steady one")
 }
 
 fn one_factor(problem: &Problem) -> InputError {

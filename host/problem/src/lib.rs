@@ -36,6 +36,7 @@ pub mod rounding;
 pub mod scalar;
 pub mod search;
 mod solvability;
+mod step;
 mod sum;
 #[cfg(test)]
 mod tests;
@@ -56,6 +57,7 @@ pub use loads::Loads;
 pub use property::Property;
 pub use room::{Room, rooms};
 pub use solvability::{BALANCE, Parts};
+pub use step::Step;
 pub use sum::Sum;
 pub use topology::{EdgeKind, Topology};
 pub use transfer::TransferPattern;
@@ -96,6 +98,8 @@ pub struct Problem {
     pub binding: Arc<Binding>,
     /// A.
     pub coefficients: Arc<Coefficients>,
+    /// (∫_T c)/m of each cell T with m sides, c the capacity; nothing where no material stores anything.
+    pub capacities: Arc<[f64]>,
     /// Loads, gaps and boundary values at `time`.
     pub loads: Loads,
     /// The time t of the loads and of the exact solution.
@@ -132,10 +136,11 @@ impl Problem {
             scene: Arc::new(scene.clone()),
             kinds: kinds.collect(),
             lengths: lengths.collect(),
-            mesh,
             topology: Arc::new(topology),
             ends: ends.into(),
             element: scene.setting.unwrap_or_default().element,
+            capacities: step::capacities(scene, &mesh, &binding)?,
+            mesh,
             binding: Arc::new(binding),
             coefficients: Arc::new(coefficients),
             loads: Loads::default(),

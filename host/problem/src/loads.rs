@@ -1,13 +1,14 @@
 //! Loads, gaps and boundary values as integrals over cells and edges, at one time.
 
 use signorini_kernel::Error as KernelError;
-use signorini_kernel::assembly::CellLoads;
+use signorini_kernel::assembly::{self, CellLoads};
 use signorini_kernel::flux_range::{FluxRange, Span, Spans};
 use signorini_kernel::law::Law;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::Edges;
 
-use super::{EdgeKind, Problem, Sum, limits, widths};
+use super::{EdgeKind, Problem, Step, Sum, limits, widths};
 use crate::cell::Cell;
 use crate::quadrature::enclosed::Integral;
 use crate::quadrature::mean_on_edge;
@@ -38,6 +39,8 @@ pub struct Loads<R = f64> {
     pub gap: Vec<R>,
     /// Mean of u_D on each Dirichlet edge.
     pub dirichlet: Vec<R>,
+    /// What the cells store, where the problem is a step in time.
+    pub step: Option<Step<R>>,
     /// The most that is missed of ∫f, ∫g, ∫q and their limits in all: out of balance, and seen by no mean.
     pub missed: f64,
 }
@@ -59,6 +62,32 @@ impl<R: Scalar> Loads<R> {
     /// ∫f over the cells.
     pub fn cells(&self) -> CellLoads<'_, R> {
         CellLoads { triangles: &self.triangles, quads: &self.quads }
+    }
+
+    /// The load b of the unknowns.
+    ///
+    /// # Errors
+    /// Records and masses that are not admissible in this scalar; `load` of another length.
+    pub fn fill(&self, edges: &Edges<u32>, load: &mut [R]) -> std::result::Result<(), KernelError> {
+        assembly::load(edges, self.cells(), &self.boundary(edges)?, load)?;
+        if let Some(step) = &self.step {
+            step.storage(edges)?.add_to_load(edges, load);
+        }
+        Ok(())
+    }
+
+    /// Terms on the diagonal of K beyond the element matrices.
+    ///
+    /// # Errors
+    /// As for [`Loads::boundary`].
+    pub fn diagonal(
+        &self,
+        edges: &Edges<u32>,
+    ) -> std::result::Result<DiagonalTerms<'_, R, u32>, KernelError> {
+        match &self.step {
+            Some(step) => Ok(DiagonalTerms::in_step(&step.diagonal)),
+            None => Ok(DiagonalTerms::new(&self.boundary(edges)?)),
+        }
     }
 
     /// Boundary records.
@@ -126,6 +155,7 @@ impl Loads {
             moved: R::narrow(self.moved),
             gap: all(&self.gap),
             dirichlet: all(&self.dirichlet),
+            step: self.step.as_ref().map(Step::narrowed),
             missed: self.missed,
         }
     }

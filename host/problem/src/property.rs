@@ -42,6 +42,8 @@ properties! {
     TransferInput,
     /// The flux of a contact boundary has a limit, or no least value.
     Limit,
+    /// It is a step in time.
+    Step,
 }
 
 impl Property {
@@ -60,6 +62,7 @@ impl Property {
             Self::LoadInTime => first_in_time(&problem.scene).is_some(),
             Self::TransferInput => problem.scene.transfer_input().is_some(),
             Self::Limit => problem.scene.limited().is_some(),
+            Self::Step => problem.loads.step.is_some(),
         }
     }
 }
@@ -74,6 +77,7 @@ impl fmt::Display for Property {
             Self::LoadInTime => "a load that depends on t",
             Self::TransferInput => "a transfer coefficient that an input changes",
             Self::Limit => "a contact boundary whose flux has a limit",
+            Self::Step => "a step in time",
         })
     }
 }

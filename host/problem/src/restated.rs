@@ -17,7 +17,8 @@ impl Problem {
     /// # Errors
     /// Data that are not finite or not admissible at that time.
     pub fn set_time(&mut self, time: f64) -> Result<()> {
-        self.loads = Loads::at_time(self, time)?;
+        let step = self.loads.step.take();
+        self.loads = Loads::at_time(self, time)?.in_step(self, step)?;
         self.time = time;
         limits::check(self)?;
         transfer::check_now(self)?;
@@ -93,6 +94,10 @@ impl Problem {
         let mut problem = self.restated(scene);
         problem.units = units.within(&self.units);
         problem.coefficients = Arc::new(coefficients);
+        problem.capacities = self.capacities.iter().map(|c| c / units.conductivity).collect();
+        let step = problem.loads.step.take();
+        let of_u = |u: f64| (u - units.zero) / units.u;
+        problem.loads.step = step.map(|step| step.in_units(units.conductivity, of_u));
         problem.set_time(self.time)?;
         Ok(problem)
     }

@@ -1,6 +1,5 @@
 //! Whether a problem has a solution, part by part, before any sweep is spent on it.
 
-use signorini_kernel::assembly;
 use signorini_kernel::mesh::components::{Part, PartCounts, Support, examine};
 use signorini_kernel::mesh::edges::{Edges, Side};
 
@@ -59,9 +58,8 @@ impl Parts {
         cells: &mut [Part<f64, u32>],
     ) -> std::result::Result<PartCounts, signorini_kernel::Error> {
         let (edges, loads) = (problem.topology.edges()?, &problem.loads);
-        let boundary = loads.boundary(&edges)?;
         let mut load = vec![0.0; edges.counts().unknowns()];
-        assembly::load(&edges, loads.cells(), &boundary, &mut load)?;
+        loads.fill(&edges, &mut load)?;
         examine(
             &edges,
             problem.diagonal_terms(&edges)?,

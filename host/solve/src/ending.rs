@@ -21,6 +21,8 @@ pub enum Ending {
     Tick(Ended),
     /// A tick that has no answer.
     Refused(Refusal),
+    /// No tick: where steps in time begin.
+    Start,
 }
 
 /// Before any work.
@@ -50,7 +52,9 @@ impl Ending {
     pub fn of_solve(self) -> Status {
         match self {
             Self::Solve(status) => status,
-            Self::Tick(Ended::Exact | Ended::Accurate | Ended::Settled) => Status::Converged,
+            Self::Tick(Ended::Exact | Ended::Accurate | Ended::Settled) | Self::Start => {
+                Status::Converged
+            }
             Self::Tick(Ended::OutOfSweeps | Ended::OutOfTime) => Status::OutOfSweeps,
             Self::Tick(Ended::NotFinite) | Self::Refused(_) => Status::NotFinite,
         }
@@ -72,6 +76,7 @@ impl Ending {
             Self::Refused(Refusal::Excluded) => "excluded",
             // What a scene's data or its scalar do not allow for.
             Self::Refused(_) => "not-finite",
+            Self::Start => "start",
         }
     }
 }

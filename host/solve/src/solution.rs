@@ -107,11 +107,11 @@ impl Solution {
         self.flux.iter().fold(f64::TINY, |most, flux| most.max(flux.abs()))
     }
 
-    /// max over the cells of |Σ_E ∫σ·n + ∫f|, relative to the largest edge flux.
+    /// max over the cells of |Σ_E ∫σ·n + ∫f − what is stored|, relative to the largest edge flux.
     pub fn conservation_defect(&self, problem: &Problem) -> f64 {
         let defect = (0..problem.cells()).map(|cell| {
             let field = CellField::new(problem, cell, &self.u, &self.flux);
-            field.surplus(problem.loads.of_cell(cell)).abs()
+            field.surplus(problem.loads.of_cell(cell), &problem.stored(cell, &self.u)).abs()
         });
         defect.fold(0.0, f64::max) / self.largest_flux()
     }
@@ -136,7 +136,7 @@ impl Solution {
     pub fn energy(&self, problem: &Problem) -> f64 {
         let squares = (0..problem.cells()).map(|cell| {
             let field = CellField::new(problem, cell, &self.u, &self.flux);
-            field.energy(problem.loads.of_cell(cell))
+            field.energy(problem.loads.of_cell(cell), &problem.stored(cell, &self.u))
         });
         squares.sum::<f64>().max(0.0).sqrt()
     }

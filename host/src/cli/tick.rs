@@ -106,6 +106,7 @@ impl Arguments {
             sweeps: self.budget_sweeps.unwrap_or(own.sweeps),
             error: self.error.unwrap_or(own.error),
             intervals: !self.no_intervals && work <= MOST_INTERVALS,
+            shows_start: self.log.is_none(),
         };
         let bar = steps(moments.len());
         let mut series = self.vtu.then(|| Series::new(&out, "ticks", 4));

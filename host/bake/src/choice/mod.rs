@@ -138,6 +138,7 @@ impl<R: Scalar> Choice<R> {
     /// No model fits what the scene declares: by how much the smallest one does not. What keeps a model that
     /// was asked for from existing, or a key of the setting from meaning anything to it.
     pub fn new(problem: &Problem, wanted: Wanted) -> Result<Self> {
+        Approach::check_steady(problem)?;
         let budget = Budget::of(&problem.scene);
         let setting = problem.scene.setting.unwrap_or_default();
         let (forced, compared) = (wanted.model.or(setting.model_kind()), wanted.is_compared);

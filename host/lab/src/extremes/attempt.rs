@@ -65,8 +65,13 @@ fn setting(case: &ExtremeCase) -> String {
 fn ticks(case: &ExtremeCase, problem: Problem) -> Result<Attempt> {
     let moment = |tick: u32| ScheduledTick { time: f64::from(tick), inputs: Vec::new() };
     let moments: Vec<ScheduledTick> = (0..case.effort.ticks).map(moment).collect();
-    let budget =
-        Budget { scalar: case.scalar, sweeps: case.most_sweeps(), error: 0.0, intervals: false };
+    let budget = Budget {
+        scalar: case.scalar,
+        sweeps: case.most_sweeps(),
+        error: 0.0,
+        intervals: false,
+        shows_start: false,
+    };
     let ticks = play(&problem, None, &moments, &budget, |_, _| Ok(()))?;
     let worst = ticks.iter().find(|tick| tick.failed()).or(ticks.last());
     let answer = Solution {

@@ -16,18 +16,29 @@ pub struct Material {
     pub conductivity: [Datum; 3],
     /// Whether the file gave a scalar.
     pub is_scalar: bool,
+    /// c ≥ 0 in x, y: what a unit of u stores per area; a constant one has been checked. 0 by default.
+    pub capacity: Datum,
 }
 
 impl Material {
-    /// Its data, to be changed, each with its unit.
+    /// Whether it stores anything.
+    pub fn stores(&self) -> bool {
+        self.capacity.value.is_constant() != Some(0.0)
+    }
+
+    /// Its data, to be changed, each with its unit. A capacity counts as a conductivity, in the same units of length and time.
     pub fn data_mut(&mut self) -> Vec<(Unit, &mut Datum)> {
-        self.conductivity.iter_mut().map(|entry| (Unit::Conductivity, entry)).collect()
+        let all = self.conductivity.iter_mut().chain([&mut self.capacity]);
+        all.map(|entry| (Unit::Conductivity, entry)).collect()
     }
 }
 
+const ABOUT_CAPACITIES: &str =
+    "it is what a unit of u stores: density times specific heat, or a specific storage";
+
 /// Reads `[material.NAME]`.
 pub(super) fn read_material(table: &Table) -> Result<Material> {
-    table.only("a material", "conductivity")?;
+    table.only("a material", "conductivity, capacity")?;
     let entry = table.require("conductivity")?;
     let read = |entry: &Entry| entry.expression(Variables::Space);
     let entries = entry.array().unwrap_or_default();
@@ -43,5 +54,13 @@ pub(super) fn read_material(table: &Table) -> Result<Material> {
         }
         _ => (scalar(read(&entry)?), true),
     };
-    Ok(Material { name: table.name.clone(), conductivity, is_scalar })
+    let capacity = table.expression_or_zero("capacity", Variables::Space)?;
+    if let (Some(entry), Some(c)) = (table.get("capacity"), capacity.value.is_constant()) {
+        if c < 0.0 {
+            let error =
+                entry.error(format_args!("{c} is negative, expected a capacity of at least 0"));
+            return Err(error.hint(ABOUT_CAPACITIES).into());
+        }
+    }
+    Ok(Material { name: table.name.clone(), conductivity, is_scalar, capacity })
 }

@@ -217,12 +217,14 @@ pub struct Target {
 }
 
 /// The ticks: 0 < step ≤ end.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Time {
     /// From tick to tick, in seconds.
     pub step: f64,
-    /// The time of the last tick, in seconds.
-    pub end: f64,
+    /// The time of the last tick, in seconds, where the scene says it.
+    pub end: Option<f64>,
+    /// u at the start, in x and y; where there is none, the steady solution at the inputs' defaults.
+    pub initial: Option<Datum>,
 }
 
 /// The exact solution in x, y, t.
@@ -251,6 +253,11 @@ impl Output {
 }
 
 impl Scene {
+    /// Whether a material stores u, so that ticks are steps in time.
+    pub fn stores(&self) -> bool {
+        self.materials.iter().any(Material::stores)
+    }
+
     /// The file to be named for it: the fragment, if one extends the scene.
     pub fn file(&self) -> &Path {
         self.fragment.as_ref().unwrap_or(&self.path)

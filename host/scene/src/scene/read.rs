@@ -18,7 +18,7 @@ use super::material::read_material;
 use super::setting::read_setting;
 use super::table::Table;
 use super::{Exact, Located, Scene, Target, Time};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::expression::{Expression, Variables};
 
 /// Most tables `[KIND.NAME]` of a kind: names are looked up one by one, and each input has a field of its own.
@@ -85,7 +85,7 @@ fn read_fragment(root: &Table, extends: &Entry) -> Result<Scene> {
 fn read_scene(root: &Table) -> Result<Scene> {
     root.only("the scene", SECTIONS)?;
     let boundaries = at_least_one(root, "boundary", read_boundary)?;
-    Ok(Scene {
+    let scene = Scene {
         title: read_title(root)?,
         mesh: read_mesh(root)?,
         materials: at_least_one(root, "material", read_material)?,
@@ -100,7 +100,15 @@ fn read_scene(root: &Table) -> Result<Scene> {
         fragment: None,
         path: root.document.path.clone(),
         text: root.document.text.clone(),
-    })
+    };
+    let stated = scene.time.as_ref().and_then(|time| time.initial.as_ref());
+    match stated {
+        Some(initial) if !scene.stores() => {
+            let error = scene.error(initial, "no material stores u, so that nothing has a start");
+            Err(error.hint("give a material a `capacity`, or remove `initial`").into())
+        }
+        _ => Ok(scene),
+    }
 }
 
 /// The table `[key]`, read, if there is one.
@@ -174,14 +182,19 @@ fn read_target(table: &Table) -> Result<Target> {
 }
 
 fn read_time(table: &Table) -> Result<Time> {
-    table.only("the time", "step, end")?;
+    table.only("the time", "step, end, initial")?;
     let step = table.require("step")?.positive("seconds")?;
-    let entry = table.require("end")?;
-    let end = entry.positive("seconds")?;
-    if end < step {
-        return Err(entry.error(format_args!("{end} comes before the first step, {step}")).into());
-    }
-    Ok(Time { step, end })
+    let end = table.get("end").map(|entry| match entry.positive("seconds")? {
+        end if end >= step => Ok(end),
+        end => {
+            let message = format!("{end} comes before the first step, {step}");
+            Err(Error::from(entry.error(message)))
+        }
+    });
+    let initial =
+        table.get("initial").filter(|entry| !entry.text().is_ok_and(|text| text.value == "steady"));
+    let initial = initial.map(|entry| entry.expression(Variables::Space));
+    Ok(Time { step, end: end.transpose()?, initial: initial.transpose()? })
 }
 
 fn read_exact(table: &Table) -> Result<Exact> {

@@ -108,6 +108,9 @@ impl Units {
                 moved(data, role.unit());
             }
         }
+        if let Some(initial) = scene.time.as_mut().and_then(|time| time.initial.as_mut()) {
+            moved(initial, Unit::U);
+        }
         if let Some(exact) = &mut scene.exact {
             moved(&mut exact.u, Unit::U);
             exact.gradient.iter_mut().for_each(|entry| times(entry, Unit::U));

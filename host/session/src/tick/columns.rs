@@ -5,19 +5,21 @@ use signorini_scene::scene::{Quantity, Scene};
 
 /// The text of `ticks.csv`:
 /// `t,status,sweeps,contact_force,contact_length,error_bound[,error_combined]` and a column for each
-/// declared output; the combined error only where the scene knows its exact solution. A value that
+/// declared output; the combined error only where the scene knows its exact solution and no material stores u. A value that
 /// does not exist is an empty field.
 pub fn ticks_csv(scene: &Scene, ticks: &[TickRecord]) -> csv::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let fixed = ["t", "status", "sweeps", "contact_force", "contact_length", "error_bound"];
-    let combined = scene.exact.iter().map(|_| "error_combined");
+    // The exact solution is that of the evolution, and a bound that of a step.
+    let exact = || scene.exact.iter().filter(|_| !scene.stores());
+    let combined = exact().map(|_| "error_combined");
     let outputs = scene.outputs.iter().map(|output| output.name.value.as_str());
     writer.write_record(fixed.into_iter().chain(combined).chain(outputs))?;
     for tick in ticks {
         let mut fields =
             vec![digits(tick.time), tick.status.name().to_owned(), tick.sweeps.to_string()];
         let bound = tick.bound.map(|bound| bound.total);
-        let combined = scene.exact.iter().map(|_| tick.combined);
+        let combined = exact().map(|_| tick.combined);
         let numbers = [tick.contact_force, tick.contact_length, bound].into_iter().chain(combined);
         let numbers = numbers.chain(tick.outputs.iter().copied());
         fields.extend(numbers.map(|number| number.map_or(String::new(), digits)));

@@ -15,6 +15,7 @@ mod intervals;
 pub mod log;
 mod record;
 pub mod schedule;
+mod start;
 #[cfg(test)]
 mod tests;
 
@@ -28,7 +29,7 @@ use signorini_kernel::Error as KernelError;
 use signorini_kernel::mesh::components::PartCounts;
 use signorini_kernel::solver::Settings;
 use signorini_problem::scalar::Scalar;
-use signorini_problem::{Approach, Parts, Problem};
+use signorini_problem::{Approach, Loads, Parts, Problem};
 use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
@@ -37,6 +38,7 @@ use signorini_solve::{Options, ScalarKind, Solution, choose_units, in_scene};
 
 use crate::{Session, coarse, kernel_tick, solves, with_module};
 use intervals::Intervals;
+use start::Start;
 
 /// When a tick happens, and what the inputs are then.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,6 +67,8 @@ pub struct Budget {
     pub error: f64,
     /// Whether intervals of the outputs are worked out, each tick anew.
     pub intervals: bool,
+    /// Whether the start of steps in time has a record of its own, before that of the first step.
+    pub shows_start: bool,
 }
 
 impl Budget {
@@ -76,6 +80,7 @@ impl Budget {
             sweeps: Options::default().max_sweeps,
             error: 0.0,
             intervals: true,
+            shows_start: true,
         }
     }
 
@@ -120,10 +125,20 @@ fn play_in<R: Scalar>(
     coarse: Option<&Problem>,
     moments: &[ScheduledTick],
     budget: &Budget,
-    done: impl FnMut(&TickRecord, Option<&Solution>) -> Result<()>,
+    mut done: impl FnMut(&TickRecord, Option<&Solution>) -> Result<()>,
 ) -> Result<Vec<TickRecord>> {
     let given = problem;
     let mut problem = problem.clone();
+    let mut ticks = Vec::new();
+    let first = moments.first().map_or(0.0, |moment| moment.time);
+    if let Some((dt, Start { problem: at_start, solution })) = Start::of(given, first)? {
+        problem = given.stepping(dt, solution.u.clone())?;
+        if budget.shows_start {
+            let start = TickRecord::of(&at_start, &solution)?;
+            done(&start, Some(&solution))?;
+            ticks.push(start);
+        }
+    }
     let Some(parts) = begun(&mut problem, moments)? else {
         return unsolvable(given, moments, done);
     };
@@ -132,7 +147,10 @@ fn play_in<R: Scalar>(
         coarse.scene = problem.scene.clone();
         coarse.set_time(problem.time)?;
     }
-    let units = choose_units(&problem)?;
+    let units = choose_units(&Problem {
+        loads: Loads { step: None, ..problem.loads.clone() },
+        ..problem.clone()
+    })?;
     if units != Units::default() {
         problem = problem.in_units(&units)?;
         coarse = coarse.map(|coarse| coarse.in_units(&units)).transpose()?;
@@ -152,7 +170,9 @@ fn play_in<R: Scalar>(
         true => Intervals::Anew(Lasting::default()),
         false => Intervals::Unasked,
     };
-    Play { session: &mut *session, intervals, units }.through(problem, moments, done)
+    ticks
+        .extend(Play { session: &mut *session, intervals, units }.through(problem, moments, done)?);
+    Ok(ticks)
 }
 
 /// Plays `moments` through the controller of `problem`, calling `done` after each, without a solution where the controller
@@ -239,7 +259,7 @@ impl Play<'_> {
                 Err(error) if !matches!(self.intervals, Intervals::Weighed(_)) => {
                     (TickRecord::refused(&problem, &error), None)
                 }
-                _ => self.tick(&problem)?,
+                _ => self.tick(&mut problem)?,
             };
             done(&tick, solution.as_ref())?;
             Ok(tick)
@@ -247,7 +267,8 @@ impl Play<'_> {
         ticks.collect()
     }
 
-    fn tick(&mut self, problem: &Problem) -> Result<(TickRecord, Option<Solution>)> {
+    /// Answers for `problem`; the next step of a problem in time begins from the answer.
+    fn tick(&mut self, problem: &mut Problem) -> Result<(TickRecord, Option<Solution>)> {
         match self.session.play(problem) {
             Ok(_) => {}
             Err(error)
@@ -261,10 +282,11 @@ impl Play<'_> {
         let solution = answer.map_err(|error| error.at_time(problem.time))?;
         let mut tick = TickRecord::of(problem, &solution)?;
         tick.intervals = self.intervals.of(problem, (&*self.session, &solution))?;
-        if self.units == Units::default() {
-            return Ok((tick, Some(solution)));
-        }
+        let is_plain = self.units == Units::default();
+        let posed = (!is_plain).then(|| Arc::new(problem.clone()));
+        problem.advance(&solution.u);
+        let Some(posed) = posed else { return Ok((tick, Some(solution))) };
         tick.rescale(&problem.scene, &self.units);
-        Ok((tick, Some(in_scene(&Arc::new(problem.clone()), &self.units, solution))))
+        Ok((tick, Some(in_scene(&posed, &self.units, solution))))
     }
 }

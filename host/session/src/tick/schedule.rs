@@ -15,22 +15,26 @@ const ROUNDING: f64 = 1e-9;
 /// # Errors
 /// Neither `[time]` nor a count; more than [`MOST`] ticks.
 pub fn moments(scene: &Scene, count: Option<u32>) -> Result<Vec<ScheduledTick>> {
-    let step = scene.time.map_or(1.0, |time| time.step);
-    let count = match (count, scene.time) {
+    let (step, end) =
+        scene.time.as_ref().map_or((1.0, None), |Time { step, end, .. }| (*step, *end));
+    // A step in time ends at its moment, and the start is none.
+    let first = u32::from(scene.stores());
+    let count = match (count, end) {
         (Some(count), _) => count,
-        (None, Some(time)) => up_to_end(scene, time)?,
+        (None, Some(end)) => up_to_end(scene, [step, end])? - first,
         (None, None) => {
             let hint = "add [time] with step and end to the scene, or give --ticks N or --log FILE";
             let error = InputError::new("time: missing; it says when the ticks are");
             return Err(error.file(&scene.path).hint(hint).into());
         }
     };
-    Ok((0..count)
+    Ok((first..first + count)
         .map(|tick| ScheduledTick { time: time_of(tick, step), inputs: Vec::new() })
         .collect())
 }
 
-fn up_to_end(scene: &Scene, Time { step, end }: Time) -> Result<u32> {
+/// Ticks from t = 0 to `end`, both among them.
+fn up_to_end(scene: &Scene, [step, end]: [f64; 2]) -> Result<u32> {
     let ticks = (end / step + ROUNDING).floor() + 1.0;
     if ticks <= f64::from(MOST) {
         return Ok(ticks as u32);

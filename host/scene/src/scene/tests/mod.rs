@@ -40,7 +40,7 @@ fn a_complete_scene_is_read_in_the_order_of_the_file() {
     let scene = scene(LEVEE);
     assert_eq!(scene.title, "drained levee");
     assert_eq!(scene.mesh.value, PathBuf::from("scenes/levee.msh"));
-    assert_eq!(scene.time, Some(Time { step: 0.01, end: 1.0 }));
+    assert_eq!(scene.time, Some(Time { step: 0.01, end: Some(1.0), initial: None }));
     let (ram, flash, tick, clock) = (Some(196_608), Some(1 << 20), Some(1e-3), Some(168e6));
     assert_eq!(scene.target, Some(Target { ram, flash, tick, clock }));
     assert_eq!(shown(&scene.source), pair("0", "source.f"));

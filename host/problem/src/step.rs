@@ -1,0 +1,157 @@
+//! A step in time: what the cells store in it, and the u that it begins from.
+//!
+//! ```text
+//!   c ∂u/∂t − ∇·(A∇u) = f   ─►   (K + M) u = b + M u_old,     M_E = Σ_T m_T,  m_T = (∫_T c)/(m dt)
+//! ```
+//! c is the mean of the capacity over each cell, and m its number of sides: the implicit Euler method with the diagonal mass of
+//! [`signorini_kernel::storage`]. A problem without a step is the steady one, whatever its materials store.
+
+use std::sync::Arc;
+
+use signorini_kernel::Error as KernelError;
+use signorini_kernel::mesh::edges::Edges;
+use signorini_kernel::storage::Storage;
+
+use crate::cell::Cell;
+use crate::quadrature::{DATA_POINTS, gauss};
+use crate::scalar::Scalar;
+use crate::{Binding, Loads, Problem, Sum};
+use signorini_scene::error::Result;
+use signorini_scene::mesh::Mesh;
+use signorini_scene::scene::Scene;
+
+/// Masses and old values of a step, in the scalar `R`.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Step<R = f64> {
+    /// m_T of the triangles, and of the quads.
+    masses: [Vec<R>; 2],
+    /// Mean of u at the end of the step before, one per edge.
+    old: Vec<R>,
+    /// What K_ii has beyond the element matrices, one per unknown: M_E, and ∫h of a transfer law.
+    pub(super) diagonal: Vec<R>,
+}
+
+impl<R: Scalar> Step<R> {
+    /// As the kernel takes it.
+    ///
+    /// # Errors
+    /// Numbers that are not admissible in this scalar.
+    pub fn storage<'a>(
+        &'a self,
+        edges: &Edges<u32>,
+    ) -> std::result::Result<Storage<'a, R>, KernelError> {
+        let [triangles, quads] = &self.masses;
+        Storage::new(edges, [triangles, quads], &self.old)
+    }
+}
+
+impl Step {
+    /// In other units of A, and of u, whose numbers `of_u` gives.
+    pub(super) fn in_units(self, conductivity: f64, of_u: impl Fn(f64) -> f64) -> Self {
+        let masses =
+            self.masses.map(|all| all.into_iter().map(|mass| mass / conductivity).collect());
+        Self { masses, old: self.old.into_iter().map(of_u).collect(), ..self }
+    }
+
+    /// This step in another scalar.
+    pub(super) fn narrowed<R: Scalar>(&self) -> Step<R> {
+        let all = |numbers: &[f64]| numbers.iter().map(|&x| R::narrow(x)).collect();
+        Step {
+            masses: self.masses.each_ref().map(|masses| all(masses)),
+            old: all(&self.old),
+            diagonal: all(&self.diagonal),
+        }
+    }
+
+    /// See [`Problem::stored`].
+    fn stored(&self, problem: &Problem, cell: usize, u: &[f64]) -> Vec<f64> {
+        let [triangles, quads] = &self.masses;
+        let mass = triangles.iter().chain(quads).nth(cell).copied().unwrap_or(0.0);
+        let sides = problem.topology.edges_of(cell).iter().map(|&edge| edge as usize);
+        sides.map(|edge| mass * (u[edge] - self.old[edge])).collect()
+    }
+}
+
+impl Loads {
+    /// These loads in a step of time; the step's diagonal is filled in.
+    pub(super) fn in_step(self, problem: &Problem, step: Option<Step>) -> Result<Self> {
+        let Some(mut step) = step else { return Ok(self) };
+        let refused = |error: KernelError| problem.scene.error(&problem.scene.mesh, error);
+        let edges = problem.topology.edges().map_err(refused)?;
+        let mut diagonal = vec![0.0; edges.counts().unknowns()];
+        step.storage(&edges).map_err(refused)?.add_to_diagonal(&edges, &mut diagonal);
+        for law in &self.robin {
+            diagonal[law.edge as usize] += law.coefficient;
+        }
+        step.diagonal = diagonal;
+        Ok(Self { step: Some(step), ..self })
+    }
+}
+
+impl Problem {
+    /// This problem as a step of length `dt` that begins from the means `old`, one per edge.
+    ///
+    /// # Errors
+    /// Masses that are not finite.
+    pub fn stepping(&self, dt: f64, old: Vec<f64>) -> Result<Self> {
+        let mut problem = self.clone();
+        let masses: Vec<f64> = self.capacities.iter().map(|share| share / dt).collect();
+        let (triangles, quads) = masses.split_at(self.mesh.triangles.len().min(masses.len()));
+        let masses = [triangles.to_vec(), quads.to_vec()];
+        let step = Step { masses, old, diagonal: Vec::new() };
+        problem.loads = std::mem::take(&mut problem.loads).in_step(self, Some(step))?;
+        Ok(problem)
+    }
+
+    /// What a cell stores by each of its sides, for these means over all edges: m_T (u_E − u_old,E). Nothing where the problem
+    /// is no step in time.
+    pub fn stored(&self, cell: usize, u: &[f64]) -> Vec<f64> {
+        self.loads.step.as_ref().map_or_else(Vec::new, |step| step.stored(self, cell, u))
+    }
+
+    /// The next step begins from the means `u`.
+    pub fn advance(&mut self, u: &[f64]) {
+        if let Some(step) = &mut self.loads.step {
+            step.old.copy_from_slice(u);
+        }
+    }
+}
+
+/// (∫_T c)/m of each cell, where c is not negative; nothing where no material stores anything.
+///
+/// # Errors
+/// A capacity that is negative or not finite somewhere, with the point.
+pub(super) fn capacities(scene: &Scene, mesh: &Mesh, binding: &Binding) -> Result<Arc<[f64]>> {
+    if !scene.stores() {
+        return Ok(Arc::new([]));
+    }
+    let mut shares = vec![0.0; binding.materials.len()];
+    for (number, material) in scene.materials.iter().enumerate().filter(|(_, of)| of.stores()) {
+        let own: Vec<usize> =
+            (0..shares.len()).filter(|&at| binding.materials[at] as usize == number).collect();
+        let cells: Vec<Cell> = own.iter().map(|&at| Cell::in_mesh(mesh, at)).collect();
+        let capacity = Sum::alone(scene, &material.capacity, 0.0);
+        if capacity.constant().is_none() {
+            cells.iter().try_for_each(|cell| not_negative(scene, &capacity, cell))?;
+        }
+        for ((&at, cell), integral) in own.iter().zip(&cells).zip(capacity.over(&cells)?) {
+            shares[at] = integral.value.max(0.0) / cell.corners().len() as f64;
+        }
+    }
+    Ok(shares.into())
+}
+
+/// Refuses a capacity that is negative at a point of the rule.
+fn not_negative(scene: &Scene, capacity: &Sum, cell: &Cell) -> Result<()> {
+    let wrong = cell.points(&gauss(DATA_POINTS)).into_iter().find(|point| {
+        let [x, y] = point.x;
+        capacity.at(x, y) < 0.0
+    });
+    let Some(point) = wrong else { return Ok(()) };
+    let [x, y] = point.x;
+    let message = format!("{} at ({x}, {y}), expected a capacity of at least 0", capacity.at(x, y));
+    Err(scene
+        .error(capacity.key(), message)
+        .hint("state one that is 0 or positive everywhere")
+        .into())
+}

@@ -1,0 +1,83 @@
+//! What cells store in a step of time: a diagonal mass, for the implicit Euler method.
+//!
+//! ```text
+//!   c ∂u/∂t ≈ k (u − u_old),   k = c/dt,   m_T = k |T|/m   in a cell T with m sides
+//!   K_EE += Σ_T m_T,   b_E += Σ_T m_T u_old,E,   F_E += m_T (u_E − u_old,E)   for side E of T
+//! ```
+//! Means over edges carry the mass. That is exact for Crouzeix–Raviart triangles, whose products the midpoints of the sides
+//! integrate, and keeps the rate on quads. The fluxes out of a cell then add up to k|T| (ū − ū_old) − ∫f for any u, where ū
+//! is the mean over its sides.
+
+use crate::Real;
+use crate::error::{Array, Error, all_finite, same_length};
+use crate::index::{Index, read};
+use crate::mesh::edges::Edges;
+
+/// Masses of all cells, and u at the end of the step before (borrowed, validated).
+#[derive(Debug, Clone, Copy)]
+pub struct Storage<'a, R> {
+    triangles: &'a [R],
+    quads: &'a [R],
+    old: &'a [R],
+}
+
+impl<'a, R: Real> Storage<'a, R> {
+    /// `triangles` and `quads` hold m_T ≥ 0 of every cell, in the unit of K; `old` has one mean per edge.
+    ///
+    /// # Errors
+    /// Slices of the wrong length, numbers that are not finite, a negative mass.
+    pub fn new<I: Index>(
+        edges: &Edges<I>,
+        [triangles, quads]: [&'a [R]; 2],
+        old: &'a [R],
+    ) -> Result<Self, Error> {
+        same_length(Array::Storage, triangles.len(), edges.of_triangles().len())?;
+        same_length(Array::Storage, quads.len(), edges.of_quads().len())?;
+        same_length(Array::Unknowns, old.len(), edges.counts().edges())?;
+        all_finite(Array::Storage, triangles)?;
+        all_finite(Array::Storage, quads)?;
+        all_finite(Array::Unknowns, old)?;
+        match triangles.iter().chain(quads).position(|&mass| mass < R::ZERO) {
+            Some(at) => Err(Error::OutOfRange { of: Array::Storage, at }),
+            None => Ok(Self { triangles, quads, old }),
+        }
+    }
+
+    /// Adds Σ_T m_T to each of the first edges, as many as `diagonal` has entries.
+    pub fn add_to_diagonal<I: Index>(self, edges: &Edges<I>, diagonal: &mut [R]) {
+        self.spread(edges, diagonal, |mass, _| mass);
+    }
+
+    /// Adds Σ_T m_T u_old to each of the first edges, as many as `load` has entries.
+    pub fn add_to_load<I: Index>(self, edges: &Edges<I>, load: &mut [R]) {
+        self.spread(edges, load, |mass, old| mass * old);
+    }
+
+    fn spread<I: Index>(self, edges: &Edges<I>, sums: &mut [R], term: impl Fn(R, R) -> R) {
+        let mut add = |edge: I, mass: R| {
+            if let Some(sum) = sums.get_mut(edge.at()) {
+                *sum += term(mass, read(self.old, edge.at()));
+            }
+        };
+        for (sides, &mass) in edges.of_triangles().iter().zip(self.triangles) {
+            sides.iter().for_each(|&edge| add(edge, mass));
+        }
+        for (sides, &mass) in edges.of_quads().iter().zip(self.quads) {
+            sides.iter().for_each(|&edge| add(edge, mass));
+        }
+    }
+
+    /// m_T (u − u_old) on the sides of a triangle.
+    pub fn in_triangle<I: Index>(self, at: usize, sides: &[I; 3], u: &[R]) -> [R; 3] {
+        self.taken(read(self.triangles, at), sides, u)
+    }
+
+    /// m_T (u − u_old) on the sides of a quad.
+    pub fn in_quad<I: Index>(self, at: usize, sides: &[I; 4], u: &[R]) -> [R; 4] {
+        self.taken(read(self.quads, at), sides, u)
+    }
+
+    fn taken<I: Index, const N: usize>(self, mass: R, sides: &[I; N], u: &[R]) -> [R; N] {
+        sides.map(|edge| mass * (read(u, edge.at()) - read(self.old, edge.at())))
+    }
+}
