@@ -1,7 +1,9 @@
 //! The kernel's certificate on a scene: its memory, and what of it depends on the mesh and A alone.
 
 use signorini_bound::averages;
-use signorini_bound::certificate::{self, Buffers, Certificate, Discretization, Verdict};
+use signorini_bound::certificate::{
+    self, Buffers, Certificate, Discretization, Kept, Verdict, certify_step,
+};
 use signorini_bound::conforming;
 use signorini_bound::equilibrium::Iterate;
 use signorini_kernel::Error as KernelError;
@@ -13,8 +15,9 @@ use super::forest::EquilibrationForest;
 use super::metric::Metric;
 use super::no_bound::NoBound;
 use super::relaxed::relaxed;
+use super::stored::stored_cells;
 use signorini_problem::scalar::Scalar;
-use signorini_problem::{Assembled, Parts, Problem};
+use signorini_problem::{Assembled, Parts, Problem, Step};
 
 /// A certificate in the making: one for each problem and scalar.
 #[derive(Debug)]
@@ -25,12 +28,39 @@ pub struct Certifier<R: Scalar> {
     follows_contact: bool,
     /// Whether the last search has found ways.
     found_ways: bool,
+    /// Whether steps in time may hand on along the ways found.
+    hands_on: bool,
+    fields: Fields<R>,
+    /// Why the last iterate has no bound, apart from its data.
+    refusal: Option<NoBound>,
+}
+
+/// Memory of a certificate: s at the vertices and its bubbles, τ, and each cell's part.
+#[derive(Debug, Clone)]
+struct Fields<R> {
     vertices: Vec<R>,
     bubbles: Vec<R>,
     tau: Vec<R>,
     indicators: Vec<R>,
-    /// Why the last iterate has no bound, apart from its data.
-    refusal: Option<NoBound>,
+}
+
+impl<R: Scalar> Fields<R> {
+    fn new(problem: &Problem) -> Self {
+        let zeros = |length| vec![R::ZERO; length];
+        let edges = problem.topology.counts.edges();
+        let (vertices, cells) = (problem.mesh.vertices.len(), problem.cells());
+        Self {
+            vertices: zeros(vertices),
+            bubbles: zeros(edges),
+            tau: zeros(edges),
+            indicators: zeros(cells),
+        }
+    }
+
+    fn buffers(&mut self) -> Buffers<'_, R> {
+        let Self { vertices, bubbles, tau, indicators } = self;
+        Buffers { vertices, bubbles, tau, indicators }
+    }
 }
 
 /// The admissible pair of a certificate, in f64.
@@ -49,6 +79,11 @@ pub struct CertifiedFields {
 }
 
 impl CertifiedFields {
+    /// s at the vertices, and its bubbles: a step in time begins from it.
+    pub fn conforming(&self) -> [&[f64]; 2] {
+        [&self.vertices, &self.bubbles]
+    }
+
     /// S and τ as the exact norms take them.
     pub fn admissible(&self) -> Admissible<'_> {
         let Self { vertices, bubbles, tau, following, .. } = self;
@@ -72,21 +107,22 @@ impl<R: Scalar> Certifier<R> {
         parts: &Parts,
         assembled: &Assembled<R>,
     ) -> Result<Self, KernelError> {
-        let edges = problem.topology.counts.edges();
-        let vertices = problem.mesh.vertices.len();
         let mut certifier = Self {
             metric: Metric::new(problem),
             ways: EquilibrationForest::new(problem),
             follows_contact: parts.counts.contact > 0,
             found_ways: false,
-            vertices: vec![R::ZERO; vertices],
-            bubbles: vec![R::ZERO; edges],
-            tau: vec![R::ZERO; edges],
-            indicators: vec![R::ZERO; problem.cells()],
+            hands_on: true,
+            fields: Fields::new(problem),
             refusal: None,
         };
         if !certifier.follows_contact && parts.counts.floating == 0 {
             certifier.seek(assembled, |_| false)?;
+        }
+        if assembled.step().is_some() && !certifier.found_ways {
+            // Cells keep what they lack: no way has to end where a flux may change.
+            certifier.hands_on = false;
+            certifier.seek(assembled, |_| true)?;
         }
         Ok(certifier)
     }
@@ -106,7 +142,10 @@ impl<R: Scalar> Certifier<R> {
             self.average(assembled, data, u)?;
             return Ok(None);
         }
-        let verdict = self.verdict(assembled, data, u, |_, _| ())?;
+        let verdict = match assembled.step() {
+            Some(step) => self.of_step(assembled, (data, step), u)?,
+            None => self.verdict(assembled, data, u, |_, _| ())?,
+        };
         self.refusal = match verdict {
             Verdict::Certified(_) => None,
             Verdict::Pulled { edge } => Some(NoBound::pulled(assembled.problem(), edge)),
@@ -155,16 +194,43 @@ impl<R: Scalar> Certifier<R> {
         moved: impl FnOnce(&mut [R], &mut [R]),
     ) -> Result<Verdict<R>, KernelError> {
         let discretization = self.ways.discretization(assembled, &self.metric)?;
-        let buffers = Buffers {
-            vertices: &mut self.vertices,
-            bubbles: &mut self.bubbles,
-            tau: &mut self.tau,
-            indicators: &mut self.indicators,
-        };
         let forms = data.forms();
         let given = data.given(assembled, forms.as_slice())?;
         let iterate = Iterate { u, law: assembled.law() };
-        certificate::certify_with(&discretization, &given, iterate, buffers, moved)
+        certificate::certify_with(&discretization, &given, iterate, self.fields.buffers(), moved)
+    }
+
+    /// The lesser bound of a step in time: where cells keep what they lack of balance, and where they hand on most of it.
+    fn of_step(
+        &mut self,
+        assembled: &Assembled<R>,
+        (data, step): (&Data<R>, &Step<R>),
+        u: &[R],
+    ) -> Result<Verdict<R>, KernelError> {
+        let forms = data.forms();
+        let given = data.given(assembled, forms.as_slice())?;
+        let discretization = self.ways.discretization(assembled, &self.metric)?;
+        let [vertices, bubbles] = step.conforming();
+        let contents: Vec<f64> = step.contents().map(|content| content.wide()).collect();
+        let keep = self.ways.kept(assembled.edges(), &self.metric, &contents);
+        let cells = stored_cells(assembled.problem(), step, &keep);
+        let storage = step.storage(assembled.edges())?;
+        let step = certificate::Step { storage, cells: &cells, vertices, bubbles };
+        let iterate = Iterate { u, law: assembled.law() };
+        let of = |kept: Kept, fields: &mut Fields<R>| {
+            certify_step(&discretization, (&given, &step), iterate, kept, fields.buffers())
+        };
+        let kept = of(Kept::All, &mut self.fields)?;
+        let total = |of: &Verdict<R>| of.certificate().map_or(R::INFINITY, |of| of.total);
+        if self.hands_on {
+            let mut fields = self.fields.clone();
+            let handed = of(Kept::Part, &mut fields)?;
+            if total(&handed) < total(&kept) {
+                self.fields = fields;
+                return Ok(handed);
+            }
+        }
+        Ok(kept)
     }
 
     /// Why the last iterate has no bound, given these data.
@@ -176,10 +242,10 @@ impl<R: Scalar> Certifier<R> {
     pub fn answer(&self) -> CertifiedFields {
         let wide = |numbers: &[R]| numbers.iter().map(|x| x.wide()).collect();
         CertifiedFields {
-            vertices: wide(&self.vertices),
-            bubbles: wide(&self.bubbles),
-            tau: wide(&self.tau),
-            indicators: wide(&self.indicators),
+            vertices: wide(&self.fields.vertices),
+            bubbles: wide(&self.fields.bubbles),
+            tau: wide(&self.fields.tau),
+            indicators: wide(&self.fields.indicators),
             following: Following::WhereNeeded,
         }
     }
@@ -247,9 +313,10 @@ impl<R: Scalar> Certifier<R> {
     ) -> Result<(), KernelError> {
         self.ways.find(assembled, &self.metric, |_| true)?;
         let discretization = self.ways.discretization(assembled, &self.metric)?;
-        let (s, law, given) = (&mut self.vertices, assembled.law(), data.given(assembled, &[])?);
+        let Fields { vertices: s, tau, .. } = &mut self.fields;
+        let (law, given) = (assembled.law(), data.given(assembled, &[])?);
         let distortions = discretization.metric.distortions;
-        averages::fill(&discretization.cells, assembled.cells(), distortions, u, s, &mut self.tau)?;
+        averages::fill(&discretization.cells, assembled.cells(), distortions, u, s, tau)?;
         conforming::impose(&discretization.mesh, &discretization.edges, u, law, given.ends, s)
             .map(|_| ())
     }

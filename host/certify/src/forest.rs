@@ -6,6 +6,7 @@ use signorini_bound::equilibrium::is_root;
 use signorini_bound::forest::{Forest, ForestBuffers};
 use signorini_bound::prepare::{Conductivities, prepare};
 use signorini_kernel::Error as KernelError;
+use signorini_kernel::mesh::edges::Edges;
 
 use super::metric::Metric;
 use signorini_problem::scalar::Scalar;
@@ -73,6 +74,25 @@ impl<R: Scalar> EquilibrationForest<R> {
         let (mesh, of_edges) = (assembled.mesh()?, (edges, assembled.stiffness()));
         self.stability = prepare(&mesh, of_edges, &boundary, a, root, buffers, cells)?;
         Ok(())
+    }
+
+    /// The part of what each cell lacks of balance in a step of time that is cheaper to keep than to hand on: k|T|/(k|T| + g_T), where
+    /// g_T is what the way out conducts, with all that its cells store:
+    /// ```text
+    ///   g_T = α_T where the way ends,   1/g_T = 1/α_T + 1/(k_P|P| + g_P) where P is the next cell on it
+    /// ```
+    pub fn kept(&self, edges: &Edges<u32>, metric: &Metric<R>, contents: &[f64]) -> Vec<f64> {
+        let alpha: Vec<f64> = metric.alpha().iter().map(|alpha| alpha.wide()).collect();
+        let mut conducted = alpha.clone();
+        // Roots first.
+        for cell in self.order.iter().map(|&cell| cell as usize) {
+            if let Some((_, next)) = edges.beyond(self.parent[cell] as usize) {
+                let beyond = contents[next] + conducted[next];
+                conducted[cell] = 1.0 / (1.0 / alpha[cell] + 1.0 / beyond);
+            }
+        }
+        let kept = contents.iter().zip(conducted);
+        kept.map(|(content, conducted)| content / (content + conducted)).collect()
     }
 
     /// Energy that it takes to bring 1 from the farthest cell to its root.

@@ -37,6 +37,7 @@ mod profile;
 mod relaxed;
 pub mod robin;
 pub mod sampled;
+mod stored;
 mod stretch;
 pub mod term;
 #[cfg(test)]

@@ -17,7 +17,7 @@ use signorini_kernel::system::System;
 use signorini_kernel::{Error, Tensor};
 
 use super::element_matrices::ElementMatrices;
-use super::{Loads, Parts, Problem, QuadCoefficient};
+use super::{Loads, Parts, Problem, QuadCoefficient, Step};
 use crate::scalar::{Scalar, UnitBox, narrowed};
 
 /// Element matrices, CSR and loads in the scalar `R`; [`Assembled::system`] is the contact problem.
@@ -183,6 +183,11 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     /// Element matrices.
     pub fn stiffness(&self) -> Stiffness<'_, R> {
         self.matrices.stiffness()
+    }
+
+    /// The step in time that it is, if it is one.
+    pub fn step(&self) -> Option<&Step<R>> {
+        self.loads.step.as_ref()
     }
 
     /// ∫f over the cells.

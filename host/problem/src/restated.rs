@@ -96,8 +96,7 @@ impl Problem {
         problem.coefficients = Arc::new(coefficients);
         problem.capacities = self.capacities.iter().map(|c| c / units.conductivity).collect();
         let step = problem.loads.step.take();
-        let of_u = |u: f64| (u - units.zero) / units.u;
-        problem.loads.step = step.map(|step| step.in_units(units.conductivity, of_u));
+        problem.loads.step = step.map(|step| step.in_units(units));
         problem.set_time(self.time)?;
         Ok(problem)
     }

@@ -19,6 +19,7 @@ use crate::{Binding, Loads, Problem, Sum};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::Scene;
+use signorini_scene::scene::units::Units;
 
 /// Masses and old values of a step, in the scalar `R`.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -27,11 +28,25 @@ pub struct Step<R = f64> {
     masses: [Vec<R>; 2],
     /// Mean of u at the end of the step before, one per edge.
     old: Vec<R>,
+    /// s at its end: at the vertices, and the bubbles of edges.
+    conforming: [Vec<R>; 2],
     /// What K_ii has beyond the element matrices, one per unknown: M_E, and ∫h of a transfer law.
     pub(super) diagonal: Vec<R>,
 }
 
 impl<R: Scalar> Step<R> {
+    /// k|T| of each cell, triangles first.
+    pub fn contents(&self) -> impl Iterator<Item = R> {
+        let [triangles, quads] = &self.masses;
+        let of = |sides: u32| move |&mass: &R| R::from_count(sides) * mass;
+        triangles.iter().map(of(3)).chain(quads.iter().map(of(4)))
+    }
+
+    /// s at the end of the step before: at the vertices, and the bubbles of edges.
+    pub fn conforming(&self) -> [&[R]; 2] {
+        self.conforming.each_ref().map(Vec::as_slice)
+    }
+
     /// As the kernel takes it.
     ///
     /// # Errors
@@ -46,11 +61,17 @@ impl<R: Scalar> Step<R> {
 }
 
 impl Step {
-    /// In other units of A, and of u, whose numbers `of_u` gives.
-    pub(super) fn in_units(self, conductivity: f64, of_u: impl Fn(f64) -> f64) -> Self {
-        let masses =
-            self.masses.map(|all| all.into_iter().map(|mass| mass / conductivity).collect());
-        Self { masses, old: self.old.into_iter().map(of_u).collect(), ..self }
+    /// In `units`.
+    pub(super) fn in_units(self, units: &Units) -> Self {
+        let of_u = |all: Vec<f64>| all.into_iter().map(|u| (u - units.zero) / units.u).collect();
+        let divided = |all: Vec<f64>, by: f64| all.into_iter().map(|x| x / by).collect();
+        let [vertices, bubbles] = self.conforming;
+        Self {
+            masses: self.masses.map(|masses| divided(masses, units.conductivity)),
+            old: of_u(self.old),
+            conforming: [of_u(vertices), divided(bubbles, units.u)],
+            ..self
+        }
     }
 
     /// This step in another scalar.
@@ -59,6 +80,7 @@ impl Step {
         Step {
             masses: self.masses.each_ref().map(|masses| all(masses)),
             old: all(&self.old),
+            conforming: self.conforming.each_ref().map(|values| all(values)),
             diagonal: all(&self.diagonal),
         }
     }
@@ -89,16 +111,18 @@ impl Loads {
 }
 
 impl Problem {
-    /// This problem as a step of length `dt` that begins from the means `old`, one per edge.
+    /// This problem as a step of length `dt` that begins from the means `u`, one per edge, and from s with these values at the
+    /// vertices and these bubbles.
     ///
     /// # Errors
     /// Masses that are not finite.
-    pub fn stepping(&self, dt: f64, old: Vec<f64>) -> Result<Self> {
+    pub fn stepping(&self, dt: f64, u: &[f64], conforming: [&[f64]; 2]) -> Result<Self> {
         let mut problem = self.clone();
         let masses: Vec<f64> = self.capacities.iter().map(|share| share / dt).collect();
         let (triangles, quads) = masses.split_at(self.mesh.triangles.len().min(masses.len()));
         let masses = [triangles.to_vec(), quads.to_vec()];
-        let step = Step { masses, old, diagonal: Vec::new() };
+        let conforming = conforming.map(<[f64]>::to_vec);
+        let step = Step { masses, old: u.to_vec(), conforming, diagonal: Vec::new() };
         problem.loads = std::mem::take(&mut problem.loads).in_step(self, Some(step))?;
         Ok(problem)
     }
@@ -109,10 +133,11 @@ impl Problem {
         self.loads.step.as_ref().map_or_else(Vec::new, |step| step.stored(self, cell, u))
     }
 
-    /// The next step begins from the means `u`.
-    pub fn advance(&mut self, u: &[f64]) {
+    /// The next step begins from the means `u` and from this s.
+    pub fn advance(&mut self, u: &[f64], conforming: [&[f64]; 2]) {
         if let Some(step) = &mut self.loads.step {
-            step.old.copy_from_slice(u);
+            step.old = u.to_vec();
+            step.conforming = conforming.map(<[f64]>::to_vec);
         }
     }
 }

@@ -132,7 +132,7 @@ fn play_in<R: Scalar>(
     let mut ticks = Vec::new();
     let first = moments.first().map_or(0.0, |moment| moment.time);
     if let Some((dt, Start { problem: at_start, solution })) = Start::of(given, first)? {
-        problem = given.stepping(dt, solution.u.clone())?;
+        problem = given.stepping(dt, &solution.u, solution.certified.conforming())?;
         if budget.shows_start {
             let start = TickRecord::of(&at_start, &solution)?;
             done(&start, Some(&solution))?;
@@ -284,7 +284,7 @@ impl Play<'_> {
         tick.intervals = self.intervals.of(problem, (&*self.session, &solution))?;
         let is_plain = self.units == Units::default();
         let posed = (!is_plain).then(|| Arc::new(problem.clone()));
-        problem.advance(&solution.u);
+        problem.advance(&solution.u, solution.certified.conforming());
         let Some(posed) = posed else { return Ok((tick, Some(solution))) };
         tick.rescale(&problem.scene, &self.units);
         Ok((tick, Some(in_scene(&posed, &self.units, solution))))

@@ -48,7 +48,8 @@ impl TickRecord {
     pub(super) fn of(problem: &Problem, solution: &Solution) -> Result<Self> {
         let bound = solution.bound.filter(|bound| bound.total.is_finite());
         let combined = match (&problem.scene.exact, bound) {
-            (Some(exact), Some(_)) => {
+            // The exact solution is that of the evolution, and the bound of a step that of the step.
+            (Some(exact), Some(_)) if problem.loads.step.is_none() => {
                 Some(distance(exact, problem, &solution.certified.admissible())?.combined)
             }
             _ => None,

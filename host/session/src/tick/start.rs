@@ -1,6 +1,6 @@
 //! The start of steps in time: the steady state at the inputs' own defaults, or a stated u.
 
-use signorini_certify::{Certified, CertifiedFields, NoBound};
+use signorini_certify::{Certified, Data, NoBound};
 use signorini_kernel::solver::{Outcome, Status};
 use signorini_kernel::system::Residual;
 use signorini_problem::{Assembled, EdgeKind, Parts, Problem, Sum};
@@ -91,7 +91,7 @@ fn stated_start(problem: &Problem, dt: f64, initial: &Datum) -> Result<Solution>
     // Its fluxes are those that no storage balances.
     let unfit = unfit::<f64>(&problem.scene);
     let assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
-    let parts = Parts::examine(&problem.stepping(dt, u.clone())?)?;
+    let parts = Parts::examine(&problem.stepping(dt, &u, [&[], &[]])?)?;
     let outcome = Outcome {
         status: Status::Converged,
         sweeps: 0,
@@ -99,7 +99,9 @@ fn stated_start(problem: &Problem, dt: f64, initial: &Datum) -> Result<Solution>
         residual: Residual::default(),
         omega: 1.0,
     };
-    let reason = Some(NoBound::new("a stated start has no error bound"));
-    let without = Certified { bound: None, no_bound: reason, answer: CertifiedFields::default() };
-    read_off(problem, &parts, &assembled, &outcome, [&u, &[]], without).map_err(unfit)
+    let data = Data::new(problem)?;
+    let s = Certified::new(problem, &parts, &assembled, (&data, true), &u).map_err(&unfit)?;
+    let no_bound = Some(NoBound::new("a stated start has no error bound"));
+    let stated = Certified { bound: None, no_bound, ..s };
+    read_off(problem, &parts, &assembled, &outcome, [&u, &[]], stated).map_err(unfit)
 }

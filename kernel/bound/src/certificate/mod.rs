@@ -40,12 +40,14 @@
 //! `f32`, more where u is large against its changes or cells are thin.
 
 mod boundary;
+mod change;
 mod extension;
 mod factor;
 mod metric;
 mod parts;
 mod quad;
 mod stability;
+mod step;
 mod transfer;
 mod triangle;
 mod walk;
@@ -55,6 +57,7 @@ pub use factor::{Above, ENTRIES, Factor};
 pub use metric::{Metric, POINTS, of_quad, of_triangle};
 pub use signorini_kernel::verdict::{Certificate, Verdict};
 pub use stability::stability;
+pub use step::{Kept, Step, StoredCell, certify_step};
 pub use transfer::TransferForms;
 
 use crate::averages;
@@ -166,6 +169,30 @@ pub fn certify_with<R: Real, I: Index>(
     buffers: Buffers<R>,
     moved: impl FnOnce(&mut [R], &mut [R]),
 ) -> Result<Verdict<R>, Error> {
+    let Discretization { edges, cells, .. } = discretization;
+    let mut buffers = buffers;
+    admissible(discretization, given, iterate, &mut buffers, moved)?;
+    let Buffers { vertices, bubbles, tau, indicators } = buffers;
+    equilibrium::impose(edges, &given.boundary, iterate, tau);
+    let s = Continuous { vertices, bubbles };
+    let mut parts = walk::over_cells(discretization, given, iterate.u, s, tau, indicators);
+    if let Some(edge) = equilibrium::pulled(edges, &given.boundary, tau) {
+        return Ok(Verdict::Pulled { edge });
+    }
+    boundary::add(discretization, given, iterate, s, tau, indicators, &mut parts);
+    let missed = discretization.metric.missed;
+    Ok(parts.conclude(cells.len(), (discretization.stability, missed), given.oscillation))
+}
+
+/// Fills s, and τ with the means of fluxes over the cells of each edge.
+#[inline(always)]
+fn admissible<R: Real, I: Index>(
+    discretization: &Discretization<R, I>,
+    given: &LoadCase<R, I>,
+    iterate: Iterate<R>,
+    buffers: &mut Buffers<R>,
+    moved: impl FnOnce(&mut [R], &mut [R]),
+) -> Result<(), Error> {
     let Discretization { mesh, edges, cells, .. } = discretization;
     let Buffers { vertices, bubbles, tau, indicators } = buffers;
     let (u, law) = (iterate.u, iterate.law);
@@ -181,15 +208,7 @@ pub fn certify_with<R: Real, I: Index>(
     conforming::impose(mesh, edges, u, law, given.ends, vertices)?;
     conforming::bubbles(mesh, edges, u, law, given.ends, vertices, bubbles)?;
     moved(vertices, bubbles);
-    equilibrium::impose(edges, &given.boundary, iterate, tau);
-    let s = Continuous { vertices, bubbles };
-    let mut parts = walk::over_cells(discretization, given, u, s, tau, indicators);
-    if let Some(edge) = equilibrium::pulled(edges, &given.boundary, tau) {
-        return Ok(Verdict::Pulled { edge });
-    }
-    boundary::add(discretization, given, iterate, s, tau, indicators, &mut parts);
-    let missed = discretization.metric.missed;
-    Ok(parts.conclude(cells.len(), (discretization.stability, missed), given.oscillation))
+    Ok(())
 }
 
 /// The function s: vertex values and bubbles of edges.

@@ -80,21 +80,37 @@ impl<R: Real> Parts<R> {
 
     /// `cells`: how many there are.
     #[inline(always)]
-    pub fn conclude(
+    pub fn conclude(&self, cells: usize, of_mesh: (Stability<R>, R), oscillation: R) -> Verdict<R> {
+        let unbalanced = self.unbalanced(cells, of_mesh.0);
+        self.conclude_with(cells, of_mesh, oscillation, unbalanced)
+    }
+
+    /// What rounding leaves of the balance of `cells` cells, brought to the roots of the forest.
+    #[inline(always)]
+    pub fn unbalanced(&self, cells: usize, stability: Stability<R>) -> R {
+        let root = |square: R| square.or_larger(R::ZERO).rounded_sqrt();
+        // A sum of 4 terms at most, and of all cells (Σ|ρ|)² ≤ cells · Σρ².
+        let all = |squares: R| {
+            R::from_count(2) * R::EPSILON * root(R::from_count(cells as u32) * squares)
+        };
+        let plainly = stability.largest * all(self.terms);
+        plainly.or_smaller(stability.weighed * all(self.uncertainty))
+    }
+
+    /// The verdict where rounding of the cells' balance costs `unbalanced`.
+    #[inline(always)]
+    pub fn conclude_with(
         &self,
         cells: usize,
         (stability, missed): (Stability<R>, R),
         oscillation: R,
+        unbalanced: R,
     ) -> Verdict<R> {
         let root = |square: R| square.or_larger(R::ZERO).rounded_sqrt();
         let gap = root(self.gap.value());
         let times = |count: u32| R::from_count(count) * R::EPSILON;
         // A difference of 4 terms, each rounded 4 times: half an ε of each, and (Σ|x|)² ≤ 4 Σx².
         let uncertainty = times(4) * root(self.uncertainty);
-        // A sum of 4 terms at most, and of all cells (Σ|ρ|)² ≤ cells · Σρ².
-        let all = |squares: R| times(2) * root(R::from_count(cells as u32) * squares);
-        let plainly = stability.largest * all(self.terms);
-        let unbalanced = plainly.or_smaller(stability.weighed * all(self.uncertainty));
         let lifted = root(gap * gap + self.direct).or_larger(gap) - gap;
         // Squares below the smallest normal number are lost, some in every cell.
         let lost = (R::ONE + stability.largest) * root(R::from_count(16 * cells as u32) * R::TINY);

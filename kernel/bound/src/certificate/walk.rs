@@ -69,7 +69,7 @@ fn over_triangles<R: Real, I: Index>(
     parts
 }
 
-fn of_triangle_cell<R: Real, I: Index>(
+pub(super) fn of_triangle_cell<R: Real, I: Index>(
     metric: Metric<R>,
     cell: &Triangle<R, I>,
     s: Continuous<R>,
@@ -100,7 +100,7 @@ fn of_triangle_cell<R: Real, I: Index>(
     })
 }
 
-fn of_quad_cell<R: Real, I: Index>(
+pub(super) fn of_quad_cell<R: Real, I: Index>(
     metric: Metric<R>,
     (cell, number): (&Quad<R, I>, usize),
     s: Continuous<R>,

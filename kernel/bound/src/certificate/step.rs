@@ -1,0 +1,307 @@
+//! The bound of a step in time.
+//!
+//! The step from w = s_old is k(u − w) − ∇·(A∇u) = f with k = c/dt. For admissible s and any τ that meets the boundary conditions let
+//! R = f − k(s − w) + ∇·τ, with mean R̄ on each cell and R′ = R − R̄. Where c > 0, completing the square gives
+//! ```text
+//!   gap² + Σ‖R̄‖²/k + Σ‖R′‖²/k ≥ combined² + 2∫_C […],
+//!   combined² = ‖A^½∇(u − s)‖² + ∫k(u − s)² + ‖A^{−½}(σ − τ)‖² + ∫_R […],
+//! ```
+//! with gap and the terms of C and R as in the steady problem ([`super`]). R′ may go to the oscillation instead, where each cell pays
+//! ‖R′‖²/(k + π²α/h²): the lesser total of both is taken. What f varies by in a cell is the caller's oscillation, as ever.
+//!
+//! A cell may keep what it lacks of balance: that is R̄. Or it hands it on along the forest, as in the steady problem, of which a
+//! cell that stores nothing has to hand on all. [`Kept`] says which; the caller takes the lesser total of both.
+//!
+//! The bound is about this one step, whose start w is s of the step before, not about the evolution.
+
+use super::change::{Change, minus, of_quad, of_triangle};
+use super::parts::{CellTerms, Parts};
+use super::walk::{of_quad_cell, of_triangle_cell};
+use super::{
+    Buffers, Continuous, Discretization, LoadCase, Verdict, admissible, boundary, quad, triangle,
+};
+use crate::cells::{Cell, Cells, Either, Quad, Triangle, pick};
+use crate::equilibrium::{self, Iterate};
+use signorini_kernel::Real;
+use signorini_kernel::error::{Array, Error, same_length};
+use signorini_kernel::flux::{on_quad, on_triangle};
+use signorini_kernel::index::{Index, read, write};
+use signorini_kernel::storage::Storage;
+
+/// What one cell stores.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StoredCell<R> {
+    /// k|T|
+    pub content: R,
+    /// The largest area element of the reference coordinates over their mean: 1 on triangles and parallelograms.
+    pub spread: R,
+    /// By how much the area element rises along x̂ and ŷ over the cell, over its mean: 0 on triangles and parallelograms.
+    pub tilt: [R; 2],
+    /// Mean of the area element times mean of its inverse, less 1: 0 on triangles and parallelograms.
+    pub skew: R,
+    /// k/(k + π²α/h²): the part of ‖R′‖²/k that remains of it in the oscillation.
+    pub shed: R,
+    /// The part of what it lacks of balance that it keeps where cells hand on the rest.
+    pub keep: R,
+}
+
+/// A step in time (borrowed).
+#[derive(Debug, Clone, Copy)]
+pub struct Step<'a, R> {
+    /// What cells store by their sides, and the means that the step begins from.
+    pub storage: Storage<'a, R>,
+    /// One per cell, triangles first.
+    pub cells: &'a [StoredCell<R>],
+    /// s_old at the vertices.
+    pub vertices: &'a [R],
+    /// The bubbles of s_old, one per edge; may be empty where there are no quads.
+    pub bubbles: &'a [R],
+}
+
+/// What becomes of the balance that a cell lacks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kept {
+    /// The cell keeps all of it.
+    All,
+    /// It keeps its part ([`StoredCell::keep`]), and hands the rest on.
+    Part,
+}
+
+/// Sums over the cells beside [`Parts`].
+#[derive(Debug, Clone, Copy)]
+struct Stored<R> {
+    /// Σ‖R̄‖²/k
+    mean: R,
+    /// Σ‖R′‖²/k
+    rest: R,
+    /// Σ‖R′‖²/(k + π²α/h²)
+    shed: R,
+    /// Σ(terms of R̄|T|)²/(k|T|), infinite where a cell stores nothing.
+    terms: R,
+    /// Σ k|T| s²
+    size: R,
+}
+
+/// Bounds the error of an iterate of `step`.
+///
+/// # Errors
+/// Arrays of the wrong length.
+pub fn certify_step<R: Real, I: Index>(
+    discretization: &Discretization<R, I>,
+    (given, step): (&LoadCase<R, I>, &Step<R>),
+    iterate: Iterate<R>,
+    kept: Kept,
+    mut buffers: Buffers<R>,
+) -> Result<Verdict<R>, Error> {
+    let Discretization { edges, cells, .. } = discretization;
+    same_length(Array::Storage, step.cells.len(), edges.cells())?;
+    same_length(Array::Vertices, step.vertices.len(), buffers.vertices.len())?;
+    admissible(discretization, given, iterate, &mut buffers, |_, _| ())?;
+    let Buffers { vertices, bubbles, tau, indicators } = buffers;
+    add_stored(cells, step.storage, iterate.u, tau);
+    equilibrium::impose(edges, &given.boundary, iterate, tau);
+    let s = Continuous { vertices, bubbles };
+    let of_cells = OverCells { discretization, given, step, u: iterate.u, s, kept };
+    let (mut parts, stored) = of_cells.sum(tau, indicators);
+    if let Some(edge) = equilibrium::pulled(edges, &given.boundary, tau) {
+        return Ok(Verdict::Pulled { edge });
+    }
+    boundary::add(discretization, given, iterate, s, tau, indicators, &mut parts);
+    Ok(conclude(discretization, given.oscillation, parts, stored))
+}
+
+/// The lesser total of R′ in the storage and R′ in the oscillation.
+fn conclude<R: Real, I: Index>(
+    discretization: &Discretization<R, I>,
+    oscillation: R,
+    mut parts: Parts<R>,
+    stored: Stored<R>,
+) -> Verdict<R> {
+    let (cells, missed) = (discretization.cells.len(), discretization.metric.missed);
+    let stability = discretization.stability;
+    // s is moved by rounding of its data, in the norm of the storage too.
+    let moved = R::TWO * R::EPSILON;
+    parts.perturbation += moved * moved * stored.size;
+    parts.gap.add(stored.mean);
+    let root = |square: R| square.or_larger(R::ZERO).rounded_sqrt();
+    // What rounding leaves of a cell's balance may leave along the forest, or stay.
+    let staying = R::from_count(8) * R::EPSILON * root(stored.terms);
+    let unbalanced = parts.unbalanced(cells, stability).or_smaller(staying);
+    let mut inside = parts;
+    inside.gap.add(stored.rest);
+    let inside = inside.conclude_with(cells, (stability, missed), oscillation, unbalanced);
+    let outside = oscillation + root(stored.shed);
+    let outside = parts.conclude_with(cells, (stability, missed), outside, unbalanced);
+    match (inside.certificate(), outside.certificate()) {
+        (Some(a), Some(b)) if b.total < a.total => outside,
+        (None, Some(_)) => outside,
+        _ => inside,
+    }
+}
+
+/// Adds to the means of fluxes on edges what the cells store by their sides.
+fn add_stored<R: Real, I: Index>(cells: &Cells<R, I>, storage: Storage<R>, u: &[R], tau: &mut [R]) {
+    let mut add = |edge: I, flux: R| {
+        let sum = read(tau, edge.at()) + flux * read(cells.of_edges, edge.at());
+        write(tau, edge.at(), sum);
+    };
+    for cell in cells.triangles {
+        let stored = storage.in_triangle(cell.number.at(), &cell.edges, u);
+        let flux = cell.turned(stored.map(|flux| flux * cell.softness));
+        cell.edges.iter().zip(flux).for_each(|(&edge, flux)| add(edge, flux));
+    }
+    for cell in cells.quads {
+        let number = cell.number.at().wrapping_sub(cells.triangles.len());
+        let stored = storage.in_quad(number, &cell.edges, u);
+        let flux = cell.turned(stored.map(|flux| flux * cell.softness));
+        cell.edges.iter().zip(flux).for_each(|(&edge, flux)| add(edge, flux));
+    }
+}
+
+/// What a cell is to give up by its sides, and what it does.
+struct Balance<R> {
+    /// ∫f
+    source: R,
+    /// ∫f − k∫(s − s_old): with this for its load R̄ is 0.
+    wanted: R,
+    /// The load that τ balances.
+    load: R,
+}
+
+struct OverCells<'a, R, I> {
+    discretization: &'a Discretization<'a, R, I>,
+    given: &'a LoadCase<'a, R, I>,
+    step: &'a Step<'a, R>,
+    u: &'a [R],
+    s: Continuous<'a, R>,
+    kept: Kept,
+}
+
+impl<R: Real, I: Index> OverCells<'_, R, I> {
+    /// The walk over the cells from the leaves.
+    fn sum(&self, tau: &mut [R], indicators: &mut [R]) -> (Parts<R>, Stored<R>) {
+        let (mut parts, mut stored) = (Parts::default(), Stored::nothing());
+        for cell in self.discretization.cells.from_leaves() {
+            let (number, found) = match cell {
+                Either::Triangle(cell) => (cell.number, self.of_triangle(cell, tau, &mut stored)),
+                Either::Quad(cell) => (cell.number, self.of_quad(cell, tau, &mut stored)),
+            };
+            let Some((share, of_mean)) = found else { break };
+            write(indicators, number.at(), share.gap + share.open + of_mean);
+            parts.add(share);
+        }
+        (parts, stored)
+    }
+
+    /// A triangle's share, and its ‖R̄‖²/k.
+    fn of_triangle(
+        &self,
+        cell: &Triangle<R, I>,
+        tau: &mut [R],
+        stored: &mut Stored<R>,
+    ) -> Option<(CellTerms<R>, R)> {
+        let (number, metric) = (cell.number.at(), self.discretization.metric);
+        let source = read(self.given.loads.triangles, number);
+        let [now, old] = [self.s.vertices, self.step.vertices];
+        let change = of_triangle(pick(&cell.vertices, now)?, pick(&cell.vertices, old)?);
+        let balance = self.balance(cell, source, &change, tau)?;
+        let mut share = of_triangle_cell(metric, cell, self.s, self.u, balance.load, tau)?;
+        let own = on_triangle(&cell.k, &pick(&cell.edges, self.u)?, source);
+        let kept = self.step.storage.in_triangle(number, &cell.edges, self.u);
+        let out = cell.outward(tau)?;
+        share.algebraic =
+            triangle::energy(cell, metric.varying(number), minus(minus(out, own), kept));
+        let of_mean = stored.add(self.stored_in(number), (&balance, &change), &out, &mut share);
+        Some((share, of_mean))
+    }
+
+    /// A quad's share, and its ‖R̄‖²/k.
+    fn of_quad(
+        &self,
+        cell: &Quad<R, I>,
+        tau: &mut [R],
+        stored: &mut Stored<R>,
+    ) -> Option<(CellTerms<R>, R)> {
+        let (number, metric) = (cell.number.at(), self.discretization.metric);
+        let quad = number.wrapping_sub(self.discretization.cells.triangles.len());
+        let source = read(self.given.loads.quads, quad);
+        let in_mesh = |vertices: &[R], bubbles: &[R]| {
+            let corners = cell.vertices_in_mesh(pick(&cell.vertices, vertices)?);
+            Some([corners, cell.sides_in_mesh(pick(&cell.edges, bubbles)?)])
+        };
+        let [now, old] = [
+            in_mesh(self.s.vertices, self.s.bubbles)?,
+            in_mesh(self.step.vertices, self.step.bubbles)?,
+        ];
+        let change = of_quad(now, old, self.stored_in(number).tilt);
+        let balance = self.balance(cell, source, &change, tau)?;
+        let load = balance.load;
+        let mut share = of_quad_cell(metric, (cell, quad), self.s, self.u, load, tau)?;
+        let own = on_quad(&cell.k, &pick(&cell.edges, self.u)?, source);
+        let kept = self.step.storage.in_quad(quad, &cell.edges, self.u);
+        let out = cell.outward(tau)?;
+        share.algebraic = quad::energy(cell, metric.varying(number), minus(minus(out, own), kept));
+        let of_mean = stored.add(self.stored_in(number), (&balance, &change), &out, &mut share);
+        Some((share, of_mean))
+    }
+
+    fn stored_in(&self, cell: usize) -> StoredCell<R> {
+        read(self.step.cells, cell)
+    }
+
+    fn balance<const SIDES: usize, const ENTRIES: usize>(
+        &self,
+        cell: &Cell<R, I, SIDES, ENTRIES>,
+        source: R,
+        change: &Change<R>,
+        tau: &[R],
+    ) -> Option<Balance<R>> {
+        let StoredCell { content, keep, .. } = self.stored_in(cell.number.at());
+        let wanted = source - content * change.mean;
+        let lacking = cell.outward(tau)?.iter().fold(-wanted, |rest, &flux| rest - flux);
+        let load = match self.kept {
+            _ if content == R::ZERO => wanted,
+            Kept::All => wanted + lacking,
+            Kept::Part => wanted + keep * lacking,
+        };
+        Some(Balance { source, wanted, load })
+    }
+}
+
+impl<R: Real> Stored<R> {
+    fn nothing() -> Self {
+        let zero = R::ZERO;
+        Self { mean: zero, rest: zero, shed: zero, terms: zero, size: zero }
+    }
+
+    /// Adds a cell with these fluxes out of it, and gives its ‖R̄‖²/k.
+    fn add(
+        &mut self,
+        of: StoredCell<R>,
+        (balance, change): (&Balance<R>, &Change<R>),
+        out: &[R],
+        share: &mut CellTerms<R>,
+    ) -> R {
+        let StoredCell { content, spread, skew, shed, .. } = of;
+        let of_change = content * change.size;
+        share.terms += balance.source * balance.source + of_change * of_change;
+        if content == R::ZERO {
+            self.terms = R::INFINITY;
+            return R::ZERO;
+        }
+        let lacking = balance.wanted - balance.load;
+        // ∇·τ goes with the inverse of the area element, and what s changes does not.
+        let of_mean = lacking * lacking / content * (R::ONE + skew);
+        let apart = (spread * change.variance).rounded_sqrt();
+        let apart = apart + change.mean.magnitude() * skew.rounded_sqrt();
+        let rest = content * apart * apart;
+        let terms = balance.source.magnitude() + of_change;
+        let terms = out.iter().fold(terms, |sum, flux| sum + flux.magnitude());
+        self.mean += of_mean;
+        self.rest += rest;
+        self.shed += shed * rest;
+        self.terms += terms * terms / content;
+        self.size += of_change * change.size;
+        of_mean
+    }
+}
