@@ -2,6 +2,7 @@
 
 use super::super::operation::{Binary, Unary};
 use super::super::program::Numbers;
+use super::derivatives::two_by_root_pi;
 use super::form::Form;
 use super::interval::Interval;
 use super::numbers::Forms;
@@ -76,6 +77,12 @@ impl Slopes {
             Unary::Cosh => self.of(Unary::Sinh, a),
             Unary::Tanh => over(1.0, square(self.of(Unary::Cosh, a))),
             Unary::Exp => value,
+            Unary::Erf | Unary::Erfc => {
+                let bell = self.of(Unary::Exp, square(a).scaled(-1.0));
+                let factor = Form::flat(a.shape(), two_by_root_pi(), true);
+                let way = if operation == Unary::Erf { 1.0 } else { -1.0 };
+                self.join(Binary::Multiply, bell, factor).scaled(way)
+            }
             Unary::Ln => over(1.0, a),
             Unary::Sqrt => over(0.5, value),
             Unary::Abs => self.chosen(self.number(1.0), self.number(-1.0), a),
