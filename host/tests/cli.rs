@@ -161,7 +161,8 @@ fn help_lists_every_function_of_expressions() {
     let help = run(&["solve", "--help"]).stdout;
     let words: Vec<_> = help.split(|c: char| !c.is_ascii_alphanumeric()).collect();
     for name in
-        "sin cos tan asin acos atan atan2 sinh cosh tanh exp ln sqrt abs min max sign pi".split(' ')
+        "sin cos tan asin acos atan atan2 sinh cosh tanh exp erf erfc ln sqrt abs min max sign pi"
+            .split(' ')
     {
         assert!(words.contains(&name), "{name}: {help}");
     }

@@ -24,10 +24,10 @@ pub enum Arithmetic {
 }
 
 impl Unary {
-    /// The function that a device calls for it, if it calls one.
+    /// The function that a device calls for it, if it calls one of micromath's: that has no erf.
     pub fn elementary(self) -> Option<Elementary> {
         match self {
-            Self::Negate | Self::Abs | Self::Sign => None,
+            Self::Negate | Self::Abs | Self::Sign | Self::Erf | Self::Erfc => None,
             Self::Sin => Some(Elementary::Sin),
             Self::Cos => Some(Elementary::Cos),
             Self::Tan => Some(Elementary::Tan),
@@ -57,7 +57,7 @@ impl Unary {
             Self::Ln => ln(a),
             Self::Sqrt => a.sqrt(),
             Self::Abs => a.abs(),
-            Self::Sign => F32(self.apply(f64::from(a.0)) as f32),
+            Self::Sign | Self::Erf | Self::Erfc => F32(self.apply(f64::from(a.0)) as f32),
         }
     }
 }

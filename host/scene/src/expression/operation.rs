@@ -1,5 +1,7 @@
 //! Operations: their values, and their derivatives with respect to each operand.
 
+use std::f64::consts::FRAC_2_SQRT_PI;
+
 /// Operations on one operand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Unary {
@@ -14,6 +16,8 @@ pub(super) enum Unary {
     Cosh,
     Tanh,
     Exp,
+    Erf,
+    Erfc,
     Ln,
     Sqrt,
     Abs,
@@ -51,7 +55,7 @@ pub(super) enum Function {
 }
 
 /// The functions by name.
-pub(super) const FUNCTIONS: [(&str, Function); 17] = [
+pub(super) const FUNCTIONS: [(&str, Function); 19] = [
     ("sin", Function::One(Unary::Sin)),
     ("cos", Function::One(Unary::Cos)),
     ("tan", Function::One(Unary::Tan)),
@@ -63,6 +67,8 @@ pub(super) const FUNCTIONS: [(&str, Function); 17] = [
     ("cosh", Function::One(Unary::Cosh)),
     ("tanh", Function::One(Unary::Tanh)),
     ("exp", Function::One(Unary::Exp)),
+    ("erf", Function::One(Unary::Erf)),
+    ("erfc", Function::One(Unary::Erfc)),
     ("ln", Function::One(Unary::Ln)),
     ("sqrt", Function::One(Unary::Sqrt)),
     ("abs", Function::One(Unary::Abs)),
@@ -82,7 +88,9 @@ impl Unary {
             | Self::Sinh
             | Self::Cosh
             | Self::Tanh
-            | Self::Exp => true,
+            | Self::Exp
+            | Self::Erf
+            | Self::Erfc => true,
             Self::Tan
             | Self::Asin
             | Self::Acos
@@ -107,6 +115,8 @@ impl Unary {
             Self::Cosh => a.cosh(),
             Self::Tanh => a.tanh(),
             Self::Exp => a.exp(),
+            Self::Erf => libm::erf(a),
+            Self::Erfc => libm::erfc(a),
             Self::Ln => a.ln(),
             Self::Sqrt => a.sqrt(),
             Self::Abs => a.abs(),
@@ -128,6 +138,8 @@ impl Unary {
             Self::Cosh => a.sinh(),
             Self::Tanh => 1.0 / a.cosh().powi(2),
             Self::Exp => a.exp(),
+            Self::Erf => FRAC_2_SQRT_PI * (-a * a).exp(),
+            Self::Erfc => -FRAC_2_SQRT_PI * (-a * a).exp(),
             Self::Ln => 1.0 / a,
             Self::Sqrt => 0.5 / a.sqrt(),
             Self::Abs => sign(a),
@@ -184,4 +196,30 @@ impl Binary {
 /// −1, 0 or 1; NaN stays NaN.
 fn sign(a: f64) -> f64 {
     if a == 0.0 { 0.0 } else { a.signum() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Unary::{Erf, Erfc};
+
+    #[test]
+    fn error_functions_are_symmetric_and_sum_up_to_one() {
+        for x in (0..400).map(|k| 0.02 * f64::from(k)) {
+            assert_eq!(Erf.apply(-x), -Erf.apply(x), "{x}");
+            for x in [-x, x] {
+                let sums = [Erf.apply(x) + Erfc.apply(x), 0.5 * (Erfc.apply(-x) + Erfc.apply(x))];
+                assert!(sums.into_iter().all(|sum| (sum - 1.0).abs() < 1e-15), "{x}: {sums:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn error_functions_have_their_limits() {
+        for far in [30.0, f64::MAX, f64::INFINITY] {
+            assert_eq!([-far, far].map(|x| Erf.apply(x)), [-1.0, 1.0]);
+            assert_eq!([-far, far].map(|x| Erfc.apply(x)), [2.0, 0.0]);
+            assert_eq!([Erf, Erfc].map(|of| of.derivative(far)), [0.0; 2]);
+        }
+        assert!([Erf, Erfc].into_iter().all(|of| of.apply(f64::NAN).is_nan()));
+    }
 }

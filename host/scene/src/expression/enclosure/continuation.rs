@@ -11,6 +11,7 @@
 use super::super::operation::{Binary, Unary};
 use super::super::program::Numbers;
 use super::function::ULP;
+use std::f64::consts::FRAC_2_SQRT_PI;
 
 /// All complex numbers within `radius` of a real one; all of them where it is infinite. What is linear in the reference coordinates is
 /// kept beside: along a thin cell that lies aslant, x and y vary by much, and their combination across it by little.
@@ -99,6 +100,18 @@ impl Disc {
         Self::new(self.centre * other.centre, radius)
     }
 
+    /// erf or erfc around its value at c. Of |exp(−z²)| = exp(v² − u²), z = u + iv, with v² ≤ r² − (u − c)² the
+    /// largest is at u = c/2 where the disc reaches as far, else at its end next to 0.
+    fn bell(self, value: f64) -> Self {
+        let (c, r, slack) = (self.centre.abs(), self.radius, 8.0 * ULP);
+        let exponent = match c <= 2.0 * r {
+            true => (1.0 + slack) * (r * r) - (1.0 - slack) * (0.5 * c * c),
+            false => -(1.0 - slack) * (c - r).powi(2),
+        };
+        // Where erfc underflows it is not 0.
+        Self::new(value, FRAC_2_SQRT_PI * r * exponent.exp() + f64::MIN_POSITIVE)
+    }
+
     /// Around f(c), with a bound of |f′| in the disc.
     fn steep(self, centre: f64, slope: f64) -> Self {
         Self::new(centre, self.radius * slope)
@@ -132,6 +145,7 @@ impl Numbers for Discs {
             // No pole within ½π of the real axis.
             Unary::Tanh if r < 1.5 => a.steep(value, r.cos().powi(-2)),
             Unary::Exp => Disc::new(value, value * r.exp_m1()),
+            Unary::Erf | Unary::Erfc => a.bell(value),
             Unary::Ln if c > r => Disc::new(value, -(-a.share()).ln_1p()),
             Unary::Sqrt if c > r => a.power(0.5),
             Unary::Asin | Unary::Acos if c.abs() + r < 1.0 => a.steep(value, off(1.0).powf(-0.5)),

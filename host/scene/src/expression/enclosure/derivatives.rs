@@ -3,6 +3,7 @@
 use super::super::operation::Unary;
 use super::function::{power, unary};
 use super::interval::Interval;
+use std::f64::consts::FRAC_2_SQRT_PI;
 
 /// Coefficients of degree 0 to 3.
 pub(super) type Series = [Interval; 4];
@@ -47,6 +48,8 @@ pub(super) fn series(operation: Unary, a: Interval) -> Option<Series> {
             [t, s, -(t * s), third]
         }
         Unary::Exp => growing(of(Unary::Exp), of(Unary::Exp)),
+        Unary::Erf => bell(a, of(Unary::Erf), 1.0),
+        Unary::Erfc => bell(a, of(Unary::Erfc), -1.0),
         Unary::Ln => [of(Unary::Ln), to(a, -1.0), -0.5 * to(a, -2.0), third_part() * to(a, -3.0)],
         Unary::Sqrt => {
             let [_, slope, second, third] = of_power(a, 0.5);
@@ -76,6 +79,18 @@ fn arcsine(a: Interval, value: Interval, way: f64) -> Series {
     let q = (number(1.0) - a) * (number(1.0) + a);
     let third = (number(1.0) + 2.0 * a.square()) * to(q, -2.5) * number(1.0).over(number(6.0));
     [value, way * to(q, -0.5), 0.5 * way * (a * to(q, -1.5)), way * third]
+}
+
+/// ±g, ∓ag, ±⅓(2a² − 1)g with g = 2/√π exp(−a²)
+fn bell(a: Interval, value: Interval, way: f64) -> Series {
+    let slope = way * (two_by_root_pi() * unary(Unary::Exp, -a.square()).0);
+    let third = (2.0 * a.square() - number(1.0)) * third_part();
+    [value, slope, -(a * slope), third * slope]
+}
+
+/// 2/√π as an interval.
+pub(super) fn two_by_root_pi() -> Interval {
+    Interval { low: FRAC_2_SQRT_PI.next_down(), high: FRAC_2_SQRT_PI.next_up() }
 }
 
 /// aᵖ: binomials times aᵖ⁻ᵏ.

@@ -2,6 +2,7 @@
 
 use super::super::operation::{Binary, Unary};
 use super::super::program::Numbers;
+use super::derivatives::two_by_root_pi;
 use super::form::Form;
 use super::interval::Interval;
 use super::numbers::Forms;
@@ -76,9 +77,14 @@ impl Slopes {
             Unary::Cosh => self.of(Unary::Sinh, a),
             Unary::Tanh => over(1.0, square(self.of(Unary::Cosh, a))),
             Unary::Exp => value,
+            Unary::Erf | Unary::Erfc => {
+                let bell = self.of(Unary::Exp, square(a).scaled(-1.0));
+                let factor = Form::flat(a.shape(), two_by_root_pi(), true);
+                let way = if operation == Unary::Erf { 1.0 } else { -1.0 };
+                self.join(Binary::Multiply, bell, factor).scaled(way)
+            }
             Unary::Ln => over(1.0, a),
             Unary::Sqrt => over(0.5, value),
-            // Where a is 0 on more than a line it does not change: the side of it does not matter.
             Unary::Abs => self.chosen(self.number(1.0), self.number(-1.0), a),
             Unary::Sign if a.range().low < 0.0 && a.range().high > 0.0 => {
                 Form::flat(a.shape(), Interval::ALL, a.is_defined())
@@ -129,11 +135,12 @@ impl Slopes {
         left.combined(1.0, &right, 1.0)
     }
 
-    /// `a` where `first` is positive, `b` where it is negative, the hull of both where it may be either.
+    /// `a` where `first` is positive, `b` where it is negative, the hull of both where it may be either: it may be 0 all along a segment,
+    /// and change across it.
     fn chosen(&self, a: Form, b: Form, first: Form) -> Form {
         match first.range() {
-            Interval { low, .. } if low >= 0.0 => a,
-            Interval { high, .. } if high <= 0.0 => b,
+            Interval { low, high } if low >= 0.0 && high > 0.0 => a,
+            Interval { low, high } if high <= 0.0 && low < 0.0 => b,
             _ => Form::flat(a.shape(), a.range().join(b.range()), a.is_defined() && b.is_defined()),
         }
     }

@@ -19,7 +19,7 @@ fn expression(text: &str) -> Expression {
 }
 
 /// Computed by Python at (1.25, −0.75), t = 0.5, `^` written as `**`.
-const VALUES: [(&str, f64); 51] = [
+const VALUES: [(&str, f64); 55] = [
     ("1", 1.0),
     (".5", 0.5),
     ("1.", 1.0),
@@ -57,6 +57,10 @@ const VALUES: [(&str, f64); 51] = [
     ("cosh(y)", 1.2946832846768448),
     ("tanh(x)", 0.8482836399575129),
     ("exp(y)", 0.4723665527410147),
+    ("erf(x)", 0.9229001282564582),
+    ("erf(t)", 0.5204998778130465),
+    ("erfc(y)", 1.7111556336535152),
+    ("erfc(3)", 2.209049699858544e-5),
     ("ln(x)", 0.22314355131420976),
     ("sqrt(x)", 1.118033988749895),
     ("abs(y)", 0.75),
@@ -231,7 +235,9 @@ fn many_points_have_the_values_that_each_has_alone() {
 #[test]
 fn smooth_is_what_has_all_derivatives() {
     let is_smooth = |text| expression(text).is_smooth();
-    for text in ["1", "x^2*y - 3*t", "exp(-x)*sin(2*y)/4", "tanh(60*x)", "-(x + 1)^3"] {
+    for text in
+        ["1", "x^2*y - 3*t", "exp(-x)*sin(2*y)/4", "tanh(60*x)", "erf(x) + erfc(y)", "-(x + 1)^3"]
+    {
         assert!(is_smooth(text), "{text}");
     }
     let kinks = ["abs(x)", "sign(x - 0.5)", "max(x, y)"];

@@ -22,6 +22,8 @@ fn remainders_fall_with_the_third_power() {
         "sqrt(1 + x^2 + y^2)",
         "atan2(y + 2, x - 1)",
         "tanh(x - y)",
+        "erf(x - y)",
+        "erfc(x*y)",
         "x^y",
     ] {
         let expression = parse(text);
@@ -79,6 +81,32 @@ fn kinks_and_ends_of_domains_on_a_side_are_exact() {
 fn a_kink_near_a_side_is_narrow() {
     let form = parse("abs(x - 0.01)").enclose(&square(0.0, 0.0, 1.0), T);
     assert!(form.remainder.width() < 0.02 && form.remainder.width() > 0.0198, "{form:?}");
+}
+
+/// Where erfc underflows it is less than any number and more than 0; without an end the range is that of the limits.
+#[test]
+fn error_functions_far_out_keep_their_promise() {
+    let far = square(1.0, 0.0, 1.0);
+    for (text, low, high) in [
+        ("erf(1e200*x)", 1.0 - 1e-15, 1.0),
+        ("erf(-30*x)", -1.0, 1e-15 - 1.0),
+        ("erfc(30*x)", 0.0, 1e-307),
+        ("erfc(1e200*x)", 0.0, 1e-307),
+        ("erfc(-30*x)", 2.0 - 6e-15, 2.0),
+        ("erfc(1/(x - 1.5))", 0.0, 2.0),
+        ("erf(1e300*x*1e300)", 1.0 - 1e-15, 1.0),
+    ] {
+        let form = parse(text).enclose(&far, T);
+        let range = form.range();
+        assert!(
+            range.low >= low && range.high <= high && range.low < range.high,
+            "{text}: {form:?}"
+        );
+    }
+    for text in ["erf(30*x)", "erfc(30*x)", "erfc(-1e200*x)"] {
+        let modulus = parse(text).modulus(&far, 1.5, T);
+        assert!(modulus > 0.0 && modulus < 2.0 + 1e-13, "{text}: {modulus}");
+    }
 }
 
 #[test]

@@ -1,8 +1,12 @@
 //! Errors of Gauss rules, and how much continuations allow for.
 
+use super::super::super::operation::Unary;
+use super::super::super::program::Numbers;
+use super::super::continuation::{Disc, Discs};
 use super::exact::{parse, square};
 use super::random::Random;
 use super::{T, TREES};
+use std::f64::consts::{FRAC_2_SQRT_PI, TAU};
 
 /// Of integrals by Gauss points no more is missed than discs say, and of smooth data nearly nothing.
 #[test]
@@ -62,4 +66,36 @@ fn rules_miss_no_more_than_continuations_allow() {
     let beside = square(0.25, 0.375, 0.125);
     assert!(beside.missed(8, 16.0, branch.modulus(&beside, 16.0, T)) < 1e-13 * beside.measure());
     assert_eq!(branch.modulus(&square(0.125, 0.375, 0.125), 16.0, T), f64::INFINITY);
+}
+
+/// erf z = 2/√π Σ (−1)ⁿz²ⁿ⁺¹/(n!(2n + 1))
+fn erf([u, v]: [f64; 2]) -> [f64; 2] {
+    let times = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a * c - b * d, a * d + b * c];
+    let square = times([u, v], [-u, -v]);
+    let (mut power, mut sum) = ([u, v].map(|part| FRAC_2_SQRT_PI * part), [0.0; 2]);
+    for n in (0..100).map(f64::from) {
+        sum = [0, 1].map(|k| sum[k] + power[k] / (2.0 * n + 1.0));
+        power = times(power, square).map(|part| part / (n + 1.0));
+    }
+    sum
+}
+
+/// On the edge of each disc, where the modulus is largest; and small discs are as steep as the real function.
+#[test]
+fn discs_hold_the_error_function_of_complex_numbers() {
+    let mut random = Random(0xe4f);
+    for _ in 0..TREES {
+        let (centre, radius) = (random.between(-2.0, 2.0), random.between(0.0, 2.0));
+        let [of, rest] = [Unary::Erf, Unary::Erfc]
+            .map(|operation| Discs(1.0).unary(operation, Disc::new(centre, radius)));
+        let angle = random.between(0.0, TAU);
+        let [real, imaginary] = erf([centre + radius * angle.cos(), radius * angle.sin()]);
+        let off = (real - of.centre).hypot(imaginary);
+        assert!(off <= of.radius + 1e-12, "{centre}, {radius}: {off}, {of:?}");
+        let off = (1.0 - real - rest.centre).hypot(imaginary);
+        assert!(off <= rest.radius + 1e-12, "{centre}, {radius}: {off}, {rest:?}");
+        let steep = 1e-6 * Unary::Erf.derivative(centre);
+        let small = Discs(1.0).unary(Unary::Erf, Disc::new(centre, 1e-6)).radius;
+        assert!((small - steep).abs() < 1e-5 * steep, "{centre}: {small}, {steep}");
+    }
 }
