@@ -26,6 +26,8 @@ use signorini_scene::scene::units::Units;
 pub struct Step<R = f64> {
     /// m_T of the triangles, and of the quads.
     masses: [Vec<R>; 2],
+    /// dt
+    pub length: f64,
     /// Mean of u at the end of the step before, one per edge.
     old: Vec<R>,
     /// s at its end: at the vertices, and the bubbles of edges.
@@ -79,6 +81,7 @@ impl Step {
         let all = |numbers: &[f64]| numbers.iter().map(|&x| R::narrow(x)).collect();
         Step {
             masses: self.masses.each_ref().map(|masses| all(masses)),
+            length: self.length,
             old: all(&self.old),
             conforming: self.conforming.each_ref().map(|values| all(values)),
             diagonal: all(&self.diagonal),
@@ -122,7 +125,8 @@ impl Problem {
         let (triangles, quads) = masses.split_at(self.mesh.triangles.len().min(masses.len()));
         let masses = [triangles.to_vec(), quads.to_vec()];
         let conforming = conforming.map(<[f64]>::to_vec);
-        let step = Step { masses, old: u.to_vec(), conforming, diagonal: Vec::new() };
+        let (old, diagonal) = (u.to_vec(), Vec::new());
+        let step = Step { masses, length: dt, old, conforming, diagonal };
         problem.loads = std::mem::take(&mut problem.loads).in_step(self, Some(step))?;
         Ok(problem)
     }

@@ -22,6 +22,7 @@ pub mod record;
 mod residual;
 pub mod row;
 mod spot;
+pub mod step;
 #[cfg(test)]
 mod tests;
 mod verdict;

@@ -27,7 +27,8 @@ pub struct MeshSolution<'a> {
 /// The distance of two answers.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Apart {
-    /// (‖A^½∇(s′ − s)‖² + ‖A^{−½}(τ′ − τ)‖² + ∫_R h(s′ − s)² + ∫_R ((τ′ − τ)·n)²/h)^½
+    /// (‖A^½∇(s′ − s)‖² + ‖A^{−½}(τ′ − τ)‖² + ∫_R h(s′ − s)² + ∫_R ((τ′ − τ)·n)²/h)^½, and in a step of time ∫k(s′ − s)² under
+    /// the root
     pub combined: f64,
     /// ‖A^½∇_h(s′ − u_h)‖
     pub of_u: f64,
@@ -168,18 +169,24 @@ impl NestedPair<'_> {
         rule: &[[f64; 2]],
         squares: &mut Apart,
     ) -> Result<()> {
-        let conductivity = Conductivity::of(self.fine.side.problem, at);
+        let problem = self.fine.side.problem;
+        let conductivity = Conductivity::of(problem, at);
+        let step = problem.loads.step.as_ref();
+        let area: f64 = own.cell.points(rule).iter().map(|point| point.weight).sum();
+        let k = step.and_then(|step| step.contents().nth(at)).map_or(0.0, |of| of / area);
         for point in own.cell.points(rule) {
             let reference = self.in_parent(at, own, parent, point.reference)?;
             let there = Point { reference, ..point };
-            let (s, of_parent) = (own.s(point.reference)?.gradient, parent.s(there.reference)?);
+            let (of_own, of_parent) = (own.s(point.reference)?, parent.s(there.reference)?);
+            let s = of_own.gradient;
             let (tau, other) = (own.tau.sample(&point).flux, parent.tau.sample(&there).flux);
             let a = conductivity.at(point.x);
             let broken = minus(s, parent.u.sample(&there).gradient);
             let (error, flux_error) = (minus(s, of_parent.gradient), minus(tau, other));
             let of_s = product(&a, error, error);
             let of_tau = product(&inverse(&a), flux_error, flux_error);
-            squares.combined += point.weight * (of_s + of_tau);
+            let stored = of_own.value - of_parent.value;
+            squares.combined += point.weight * (of_s + of_tau + k * stored * stored);
             squares.of_u += point.weight * product(&a, broken, broken);
             squares.energy += point.weight * product(&a, s, s);
         }

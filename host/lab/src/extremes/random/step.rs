@@ -1,0 +1,184 @@
+//! The judge of one step in time: the same step on finer meshes, from the same s_old.
+
+use signorini_certify::admissible::{Admissible, Following};
+use signorini_certify::cell::Cell;
+use signorini_certify::curved::followed;
+use signorini_problem::Problem;
+use signorini_problem::quadrature::gauss;
+use signorini_problem::search::{LocatedPoint, Search};
+use signorini_scene::error::{Error, Result};
+use signorini_scene::mesh::refine::refined;
+use signorini_solve::{Options, Solution, SolverKind, solve};
+
+use super::nested::{MeshSolution, Nesting, apart};
+
+/// How a bound of a step stands against the finer answer.
+#[derive(Debug, Clone, Copy)]
+pub struct JudgedStep {
+    /// The distance of the two answers in the norm of the bound.
+    pub apart: f64,
+    /// The bound of the answer.
+    pub total: f64,
+    /// The bound of the finer one.
+    pub finer: f64,
+}
+
+impl JudgedStep {
+    /// How much the answer's error is above its bound at least; not positive where the bound holds.
+    pub fn above(&self) -> f64 {
+        self.apart - self.finer - self.total
+    }
+
+    /// The bound over the distance to the finer answer.
+    pub fn ratio(&self) -> f64 {
+        self.total / self.apart
+    }
+}
+
+/// Judges the answer of the step `problem` by that on a mesh refined `levels` times.
+///
+/// # Errors
+/// An answer without a bound; a finer step that cannot be solved.
+pub fn judge(problem: &Problem, answer: &Solution, levels: u32) -> Result<JudgedStep> {
+    let bound = |of: &Solution| {
+        let reason = of.no_bound.as_ref().map_or_else(String::new, ToString::to_string);
+        of.bound.map(|bound| bound.total).ok_or_else(|| Error::Check(format!("no bound: {reason}")))
+    };
+    let finer = finer(problem, levels)?;
+    let options = Options { solver: SolverKind::Factor, averages: true, ..Options::default() };
+    let truth = solve(&finer, &options)?;
+    let nesting = Nesting { levels, cut: None };
+    let apart = apart(&side(problem, answer), &side(&finer, &truth), &nesting, &gauss(4))?;
+    Ok(JudgedStep { apart: apart.combined, total: bound(answer)?, finer: bound(&truth)? })
+}
+
+fn side<'a>(problem: &'a Problem, solution: &'a Solution) -> MeshSolution<'a> {
+    let Solution { u, certified, .. } = solution;
+    MeshSolution { problem, admissible: certified.admissible(), u }
+}
+
+/// The step of `problem` on a finer mesh: from its s_old, which every finer mesh holds exactly.
+fn finer(problem: &Problem, levels: u32) -> Result<Problem> {
+    let Some(step) = &problem.loads.step else {
+        return Err(Error::Check("no step in time".to_owned()));
+    };
+    let mut mesh = (*problem.mesh).clone();
+    for _ in 0..levels {
+        mesh = refined(&mesh)?;
+    }
+    let mut finer = Problem::new(&problem.scene, mesh)?;
+    finer.set_time(problem.time)?;
+    let [vertices, bubbles] = step.conforming();
+    let tau = vec![0.0; problem.ends.len()];
+    let following = Following::default();
+    let old = Admissible { vertices, bubbles, tau: &tau, following: &following };
+    let (search, deviations) = (Search::new(problem), followed(problem, &old)?);
+    let at = |point: [f64; 2]| {
+        let Some(LocatedPoint { cell, reference }) = search.find(point) else {
+            return Err(Error::Check(format!("{point:?} is in no cell")));
+        };
+        let local = Cell::of(problem, cell as usize).local(reference);
+        Ok(old.on_cell(problem, cell as usize, &deviations).at(&local)?.value)
+    };
+    let vertices = finer.mesh.vertices.iter().map(|&vertex| at(vertex));
+    let vertices: Vec<f64> = vertices.collect::<Result<_>>()?;
+    let chord = |edge: usize| {
+        let [a, b] = finer.ends[edge].map(|vertex| vertices[vertex as usize]);
+        0.5 * (a + b)
+    };
+    // Along an edge s_old is quadratic.
+    let bubble = |edge: usize| Ok(at(finer.along(edge, 0.5))? - chord(edge));
+    let bubbles: Vec<f64> = (0..finer.ends.len()).map(bubble).collect::<Result<_>>()?;
+    let means = bubbles.iter().enumerate().map(|(edge, bubble)| chord(edge) + bubble / 1.5);
+    let means: Vec<f64> = means.collect();
+    finer.stepping(step.length, &means, [&vertices, &bubbles])
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use signorini_scene::mesh::structured::{Cells, grid};
+    use signorini_scene::scene::Scene;
+    use signorini_session::tick::{Budget, ScheduledTick, play};
+
+    use super::*;
+
+    fn scene(dt: f64, material: &str, contact: &str, dirichlet: &str) -> Scene {
+        let text = format!(
+            "mesh = \"grid\"\n[material.default]\n{material}\n[source]\nf = \"10*sign(1.5 - t/{dt})\"\n\
+             [boundary.dirichlet]\n{dirichlet}\n[boundary.contact]\nkind = \"contact\"\n{contact}\n\
+             [time]\nstep = {dt}\ninitial = 0\n"
+        );
+        Scene::parse(&text, Path::new("step.toml")).unwrap()
+    }
+
+    const HELD: &str = "kind = \"dirichlet\"\nvalue = 0";
+    const ROBIN: &str = "kind = \"robin\"\ncoefficient = 3\nambient = -0.1";
+    const PLAIN: &str = "conductivity = 1\ncapacity = 1";
+
+    /// The second step, in which f has another sign, after so many sweeps.
+    fn judged(scene: &Scene, (n, cells): (u32, Cells), sweeps: Option<u32>) -> JudgedStep {
+        let problem = Problem::new(scene, grid(n, cells)).unwrap();
+        let dt = scene.time.as_ref().unwrap().step;
+        let own = Budget::of(scene);
+        let budget = Budget { sweeps: sweeps.unwrap_or(own.sweeps), intervals: false, ..own };
+        let moments = [1.0, 2.0].map(|at| ScheduledTick { time: at * dt, inputs: Vec::new() });
+        let mut solutions = Vec::new();
+        play(&problem, None, &moments, &budget, |_, solution| {
+            solutions.extend(solution.cloned());
+            Ok(())
+        })
+        .unwrap();
+        let [_, before, last] = &solutions[..] else { panic!("a start and two steps") };
+        let mut step = problem.clone();
+        step.set_time(2.0 * dt).unwrap();
+        let step = step.stepping(dt, &before.u, before.certified.conforming()).unwrap();
+        judge(&step, last, 2).unwrap()
+    }
+
+    #[test]
+    fn bounds_of_steps_hold_and_are_near_at_every_step_length() {
+        for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
+            for n in [4, 8] {
+                for exponent in -6..=6 {
+                    let dt = 10_f64.powi(exponent);
+                    let found = judged(&scene(dt, PLAIN, "", HELD), (n, cells), None);
+                    println!("{cells:?} n {n} dt {dt:e}: {found:?} ratio {:.3}", found.ratio());
+                    assert!(found.above() <= 0.0, "{cells:?}, n = {n}, dt = {dt}: {found:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn bounds_of_steps_hold_with_robin_limits_layers_and_few_sweeps() {
+        let layers = "conductivity = \"1 - 0.9*(1 + sign(y - 0.5))/2\"\ncapacity = \"1 + 19*(1 + sign(y - 0.5))/2\"";
+        let none_below = "conductivity = 1\ncapacity = \"(1 + sign(y - 0.5))/2\"";
+        for (name, material, contact, outside) in [
+            ("robin", PLAIN, "", ROBIN),
+            ("limits", PLAIN, "limit = 0.8", HELD),
+            ("both", PLAIN, "flux = -0.4\nlimit = 0.4", ROBIN),
+            ("layers", layers, "", HELD),
+            ("none below", none_below, "", HELD),
+            ("none below", none_below, "limit = 0.8", ROBIN),
+        ] {
+            for cells in [Cells::Triangles, Cells::Quads] {
+                for dt in [1e-4, 1e-2, 1.0, 1e4] {
+                    for sweeps in [None, Some(1), Some(3), Some(10)] {
+                        let scene = scene(dt, material, contact, outside);
+                        let found = judged(&scene, (8, cells), sweeps);
+                        println!(
+                            "{name} {cells:?} dt {dt:e} {sweeps:?}: {found:?} ratio {:.3}",
+                            found.ratio()
+                        );
+                        assert!(
+                            found.above() <= 0.0,
+                            "{name}, {cells:?}, {dt}, {sweeps:?}: {found:?}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
