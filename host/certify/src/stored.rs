@@ -5,7 +5,9 @@ use std::f64::consts::PI;
 use signorini_bound::certificate::StoredCell;
 
 use super::cell::Cell;
-use super::oscillation::alpha;
+use super::conductivity::{Conductivity, product, smallest_eigenvalue};
+use super::weighed::minus;
+use signorini_kernel::Tensor;
 use signorini_problem::quadrature::gauss;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Problem, Step};
@@ -29,8 +31,8 @@ pub fn stored_cells<R: Scalar>(
 fn stored<R: Scalar>(problem: &Problem, at: usize, content: R, keep: f64) -> StoredCell<R> {
     let cell = Cell::of(problem, at);
     let (area, [spread, skew], tilt) = shape(&cell);
-    let (k, h) = (content.wide() / area, cell.diameter());
-    let stiffness = PI * PI * alpha(problem, at) / (h * h);
+    let k = content.wide() / area;
+    let stiffness = stiffness(problem, at, (&cell, tilt == [0.0; 2]));
     // Rounded up: a narrowed number may be the smaller one.
     let up = |x: f64| R::narrow(x * (1.0 + 4.0 * R::EPSILON.wide()));
     StoredCell {
@@ -41,6 +43,39 @@ fn stored<R: Scalar>(problem: &Problem, at: usize, content: R, keep: f64) -> Sto
         shed: up(k / (k + stiffness)),
         keep: R::narrow(keep),
     }
+}
+
+/// μ such that μ‖e − ē‖² ≤ ‖A^½∇e‖² on a cell, ē the mean of e: Poincaré's inequality on a convex cell, μ = π²α/h² with its diameter h;
+/// or that of the unit square and of half of it, for both of which μ = π², in the coordinates x̂ of a parallelogram or a triangle:
+/// ```text
+///   x = a + F x̂,     μ = π² λ_min(F⁻¹AF⁻ᵀ)
+/// ```
+/// Each corner of a triangle may be a.
+fn stiffness(problem: &Problem, at: usize, (cell, is_affine): (&Cell, bool)) -> f64 {
+    let h = cell.diameter();
+    let floors = Conductivity::of(problem, at).floors();
+    let least =
+        |of: &dyn Fn(&Tensor<f64>) -> f64| floors.iter().map(of).fold(f64::INFINITY, f64::min);
+    let by_diameter = least(&smallest_eigenvalue) / (h * h);
+    let in_coordinates = |[a, b, c]: [[f64; 2]; 3]| {
+        let [p, q] = [minus(b, a), minus(c, a)];
+        let determinant = p[0] * q[1] - p[1] * q[0];
+        // The rows of F⁻¹.
+        let [m, n] = [[q[1], -q[0]], [-p[1], p[0]]].map(|row| row.map(|x| x / determinant));
+        least(&|floor: &Tensor<f64>| {
+            let [xx, xy, yy] = [product(floor, m, m), product(floor, m, n), product(floor, n, n)];
+            smallest_eigenvalue(&Tensor { xx, xy, yy })
+        })
+    };
+    let best = match *cell {
+        Cell::Triangle([a, b, c]) => {
+            let corners = [[a, b, c], [b, c, a], [c, a, b]];
+            corners.map(in_coordinates).into_iter().fold(by_diameter, f64::max)
+        }
+        Cell::Quad([a, b, _, d]) if is_affine => by_diameter.max(in_coordinates([a, b, d])),
+        Cell::Quad(_) => by_diameter,
+    };
+    PI * PI * best
 }
 
 /// The area, [spread, skew] and tilt of a cell.

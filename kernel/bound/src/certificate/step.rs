@@ -6,8 +6,9 @@
 //!   gap² + Σ‖R̄‖²/k + Σ‖R′‖²/k ≥ combined² + 2∫_C […],
 //!   combined² = ‖A^½∇(u − s)‖² + ∫k(u − s)² + ‖A^{−½}(σ − τ)‖² + ∫_R […],
 //! ```
-//! with gap and the terms of C and R as in the steady problem ([`super`]). R′ may go to the oscillation instead, where each cell pays
-//! ‖R′‖²/(k + π²α/h²): the lesser total of both is taken. What f varies by in a cell is the caller's oscillation, as ever.
+//! with gap and the terms of C and R as in the steady problem ([`super`]). Any part of R′ may go to the oscillation instead, where each
+//! cell pays (‖R′‖²/(k + π²α/h²))^½: the least total of some such parts is taken. What f varies by in a cell is the caller's oscillation,
+//! as ever.
 //!
 //! A cell may keep what it lacks of balance: that is R̄. Or it hands it on along the forest, as in the steady problem, of which a
 //! cell that stores nothing has to hand on all. [`Kept`] says which; the caller takes the lesser total of both.
@@ -110,7 +111,7 @@ pub fn certify_step<R: Real, I: Index>(
     Ok(conclude(discretization, given.oscillation, parts, stored))
 }
 
-/// The lesser total of R′ in the storage and R′ in the oscillation.
+/// The least total of those where no, some or all quarters of R′ are in the storage, and the rest in the oscillation.
 fn conclude<R: Real, I: Index>(
     discretization: &Discretization<R, I>,
     oscillation: R,
@@ -127,16 +128,17 @@ fn conclude<R: Real, I: Index>(
     // What rounding leaves of a cell's balance may leave along the forest, or stay.
     let staying = R::from_count(8) * R::EPSILON * root(stored.terms);
     let unbalanced = parts.unbalanced(cells, stability).or_smaller(staying);
-    let mut inside = parts;
-    inside.gap.add(stored.rest);
-    let inside = inside.conclude_with(cells, (stability, missed), oscillation, unbalanced);
-    let outside = oscillation + root(stored.shed);
-    let outside = parts.conclude_with(cells, (stability, missed), outside, unbalanced);
-    match (inside.certificate(), outside.certificate()) {
-        (Some(a), Some(b)) if b.total < a.total => outside,
-        (None, Some(_)) => outside,
-        _ => inside,
-    }
+    let shed = root(stored.shed);
+    let with = |quarters: u32| {
+        let inside = R::QUARTER * R::from_count(quarters);
+        let mut parts = parts;
+        parts.gap.add(inside * inside * stored.rest);
+        let oscillation = oscillation + (R::ONE - inside) * shed;
+        parts.conclude_with(cells, (stability, missed), oscillation, unbalanced)
+    };
+    let total = |of: &Verdict<R>| of.certificate().map_or(R::INFINITY, |of| of.total);
+    let lesser = |a, b| if total(&b) < total(&a) { b } else { a };
+    (1..=4).map(with).fold(with(0), lesser)
 }
 
 /// Adds to the means of fluxes on edges what the cells store by their sides.
