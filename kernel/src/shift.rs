@@ -62,7 +62,10 @@ fn best<R: Real, I: Index>(
             continue;
         }
         let own = read(u, i);
-        force += load;
+        // What an edge stores cancels most of its load: their difference is summed.
+        let stored = read(shifts.diagonal.of_step(), i);
+        force += if features::STORAGE { load - stored * own } else { load };
+        stiffness += stored;
         for (j, value) in row.entries().skip(1) {
             if !moves(system, shifts, part, u, j) {
                 force -= value * (read(u, j) - own);
@@ -81,7 +84,7 @@ fn best<R: Real, I: Index>(
             }
         }
     }
-    for (i, term) in shifts.diagonal.entries() {
+    for (i, term) in shifts.diagonal.of_laws() {
         if moves(system, shifts, part, u, i) {
             force -= term * read(u, i);
             stiffness += term;

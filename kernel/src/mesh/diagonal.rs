@@ -34,11 +34,19 @@ impl<'a, R: Real, I: Index> DiagonalTerms<'a, R, I> {
 
     /// (i, c_i) in the order of the edges, each edge once at most; one that is left out has c_i = 0.
     pub fn entries(self) -> impl Iterator<Item = (usize, R)> {
+        self.of_laws().chain(self.of_step().iter().copied().enumerate())
+    }
+
+    /// The entries of a steady problem; none in a step of time.
+    pub fn of_laws(self) -> impl Iterator<Item = (usize, R)> {
         // A build without transfer laws shall hold no loop over them.
         let robin = if features::ROBIN { self.robin } else { &[] };
-        let all = if features::STORAGE { self.all } else { &[] };
-        let robin = robin.iter().map(|record| (record.edge.at(), record.coefficient));
-        robin.chain(all.iter().copied().enumerate())
+        robin.iter().map(|record| (record.edge.at(), record.coefficient))
+    }
+
+    /// c_i of each unknown in a step of time; nothing in a steady problem.
+    pub fn of_step(self) -> &'a [R] {
+        if features::STORAGE { self.all } else { &[] }
     }
 
     /// (i, c_i u_i), the share of c in Ku, for `u` with one entry an edge: a defect b − Ku is less by it.
