@@ -234,7 +234,8 @@ fn other_units_change_no_digit() {
         let played = |units: Units| {
             let scene = units.inverse().scene(&scene);
             let problem = Problem::new(&scene, mesh.clone()).expect("a problem");
-            let budget = Budget { scalar, sweeps: 20_000, error: 0.0, intervals: false };
+            let budget =
+                Budget { scalar, sweeps: 20_000, error: 0.0, intervals: false, shows_start: false };
             play(&problem, None, &moments, &budget, |_, _| Ok(())).expect("ticks")
         };
         let (near, far) = (played(Units::default()), played(units));
@@ -455,8 +456,13 @@ fn a_coarser_mesh_saves_sweeps_at_the_first_tick() {
         let on = |n| Problem::new(&scene, grid(n, cells)).expect("a problem");
         let (fine, coarse) = (on(24), on(12));
         let moments = [ScheduledTick { time: 0.3, inputs: Vec::new() }];
-        let budget =
-            Budget { scalar: ScalarKind::F64, sweeps: 10_000, error: 0.0, intervals: false };
+        let budget = Budget {
+            scalar: ScalarKind::F64,
+            sweeps: 10_000,
+            error: 0.0,
+            intervals: false,
+            shows_start: false,
+        };
         let first = |coarse: Option<&Problem>| {
             let ticks = play(&fine, coarse, &moments, &budget, |_, _| Ok(())).expect("a tick");
             (ticks[0].sweeps, ticks[0].bound.expect("a bound").total)

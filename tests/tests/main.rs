@@ -17,4 +17,5 @@ mod mesh;
 mod replay;
 mod scene_data;
 mod standard;
+mod time;
 mod twins;

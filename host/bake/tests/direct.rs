@@ -115,6 +115,12 @@ pub fn played(problem: &Problem, steps: &[Vec<f64>]) -> Result<Vec<TickRecord>> 
     let moment = |(at, values)| ScheduledTick { time: at as f64, inputs: inputs(values) };
     let moments: Vec<_> = steps.iter().enumerate().map(moment).collect();
     let sweeps = Options::default().max_sweeps;
-    let budget = Budget { scalar: ScalarKind::F64, sweeps, error: 0.0, intervals: false };
+    let budget = Budget {
+        scalar: ScalarKind::F64,
+        sweeps,
+        error: 0.0,
+        intervals: false,
+        shows_start: false,
+    };
     play(problem, None, &moments, &budget, |_, _| Ok(()))
 }

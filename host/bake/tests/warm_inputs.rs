@@ -19,7 +19,13 @@ input.rain = { of = "source", field = "f", pattern = "-x^2", default = 0.0 }
 fn a_bound_is_that_of_the_inputs_of_its_tick() -> Result<()> {
     let (_, problem) = on_grid(HELD_BY_CONTACT, grid(4, Cells::Triangles))?;
     let moment = |time, rain| ScheduledTick { time, inputs: vec![(0, rain)] };
-    let budget = Budget { scalar: ScalarKind::F64, sweeps: 10_000, error: 0.0, intervals: false };
+    let budget = Budget {
+        scalar: ScalarKind::F64,
+        sweeps: 10_000,
+        error: 0.0,
+        intervals: false,
+        shows_start: false,
+    };
     let ticks =
         play(&problem, None, &[moment(0.0, 0.0), moment(1.0, 1.0)], &budget, |_, _| Ok(()))?;
     let [dry, wet] = [0, 1].map(|at| ticks[at].bound.expect("a bound").oscillation);

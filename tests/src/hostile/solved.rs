@@ -75,8 +75,13 @@ fn judged(problem: &Problem, solution: &Solution) {
 /// The first ticks of its schedule.
 fn played(problem: &Problem) -> Result<Vec<TickRecord>> {
     let moments = schedule::moments(&problem.scene, problem.scene.time.is_none().then_some(2))?;
-    let budget =
-        Budget { scalar: ScalarKind::F64, sweeps: SWEEPS / 2, error: 0.0, intervals: false };
+    let budget = Budget {
+        scalar: ScalarKind::F64,
+        sweeps: SWEEPS / 2,
+        error: 0.0,
+        intervals: false,
+        shows_start: false,
+    };
     play(problem, None, &moments[..moments.len().min(3)], &budget, |_, _| Ok(()))
 }
 
