@@ -8,6 +8,7 @@ use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
 use signorini_session::with_session;
 use signorini_solve::norms::errors;
+use signorini_tolerances::twins::FLUX_CONTINUITY;
 
 /// An exact solution u of c = A = 1 with u ≥ 0 and a flux ≥ 0 on y = 0, and its source.
 struct Exact {
@@ -80,6 +81,34 @@ fn largest_error(exact: &Exact, (n, cells): (u32, Cells), dt: f64, end: f64) -> 
         Ok(())
     })?;
     Ok(largest)
+}
+
+/// The fluxes out of a cell add up to what it stores less ∫f.
+#[test]
+fn every_cell_is_in_balance() {
+    for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
+        let text = "mesh = \"grid\"\n[material.default]\nconductivity = [2, 0.5, 1]\ncapacity = \"1 + x^2\"\n[source]\nf = \"x - t\"\n\
+             [boundary.dirichlet]\nkind = \"robin\"\ncoefficient = 2\nambient = \"y\"\n[boundary.contact]\nkind = \"contact\"\n\
+             [setting]\ncertificate = false\nmodel = \"full\"\n";
+        let scene = Scene::parse(text, Path::new("balance.toml")).unwrap();
+        let problem = Problem::new(&scene, grid(4, cells)).unwrap();
+        let start = vec![0.25; problem.ends.len()];
+        let mut problem = problem.stepping(0.01, &start, [&[], &[]]).unwrap();
+        let posed = problem.clone();
+        with_session(&posed, |session| {
+            for step in 1..=5 {
+                problem.set_time(0.01 * f64::from(step))?;
+                session.play(&problem)?;
+                let solution = session.answer(&problem)?;
+                let stored: f64 = problem.stored(0, &solution.u).iter().sum();
+                let defect = solution.conservation_defect(&problem) * solution.largest_flux();
+                FLUX_CONTINUITY.check("balance", defect / stored.abs().max(1.0));
+                problem.advance(&solution.u, [&[], &[]]);
+            }
+            Ok(())
+        })
+        .unwrap();
+    }
 }
 
 fn rate([coarse, fine]: [f64; 2]) -> f64 {

@@ -14,7 +14,7 @@ use signorini_problem::Problem;
 use signorini_problem::progress::{say, steps, warn};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::mesh;
-use signorini_scene::scene::{Output, Quantity, Scene};
+use signorini_scene::scene::{Output, Quantity, Scene, Time};
 use signorini_scene::setting::{Method, ModelKind, Precision, Setting};
 use signorini_session::tick::columns::{bounds_csv, ticks_csv};
 use signorini_session::tick::{Budget, TickRecord, log, play, replay, schedule};
@@ -38,6 +38,9 @@ the same one, bit for bit, its model, solver, scalar and [setting] chosen as the
 
 Without --budget-sweeps the first tick on a large mesh starts from the answer of a factor.
 
+Where a material has a capacity, each tick is a step of length time.step that begins from the one before, and the first \
+row is the start: error_bound is about the one step then, not about the evolution.
+
 A tick that its budget cuts off is normal: its status says so, and the exit status is 0.";
 
 /// Arguments of `tick`.
@@ -50,6 +53,9 @@ pub struct Arguments {
     /// end of the scene]
     #[arg(long, value_name = "N", conflicts_with = "log", value_parser = clap::value_parser!(u32).range(1..=i64::from(schedule::MOST)))]
     ticks: Option<u32>,
+    /// Another length of a tick than the scene's time.step, in seconds
+    #[arg(long, value_name = "DT", value_parser = length_of_step, allow_negative_numbers = true)]
+    step: Option<f64>,
     /// Most sweeps of one tick [default: 1 000 000]
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..))]
     budget_sweeps: Option<u32>,
@@ -78,12 +84,24 @@ pub struct Arguments {
     vtu: bool,
 }
 
+fn length_of_step(text: &str) -> std::result::Result<f64, String> {
+    match super::solve::tolerance(text) {
+        Ok(step) if step > 0.0 => Ok(step),
+        _ => Err("expected a finite number > 0, such as 0.1".to_owned()),
+    }
+}
+
 /// Unknowns times ticks up to which intervals of outputs are worked out: some seconds.
 const MOST_INTERVALS: usize = 300_000;
 
 impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
-        let scene = self.place.scene()?;
+        let mut scene = self.place.scene()?;
+        if let Some(step) = self.step {
+            let time = scene.time.take();
+            let (end, initial) = time.map_or((None, None), |time| (time.end, time.initial));
+            scene.time = Some(Time { step, end, initial });
+        }
         if !self.baked {
             check_ticks(&scene, self.scalar.is_some())?;
         }

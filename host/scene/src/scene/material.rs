@@ -55,12 +55,10 @@ pub(super) fn read_material(table: &Table) -> Result<Material> {
         _ => (scalar(read(&entry)?), true),
     };
     let capacity = table.expression_or_zero("capacity", Variables::Space)?;
-    if let (Some(entry), Some(c)) = (table.get("capacity"), capacity.value.is_constant()) {
-        if c < 0.0 {
-            let error =
-                entry.error(format_args!("{c} is negative, expected a capacity of at least 0"));
-            return Err(error.hint(ABOUT_CAPACITIES).into());
-        }
+    let negative = capacity.value.is_constant().filter(|c| *c < 0.0);
+    if let (Some(entry), Some(c)) = (table.get("capacity"), negative) {
+        let error = entry.error(format_args!("{c} is negative, expected a capacity of at least 0"));
+        return Err(error.hint(ABOUT_CAPACITIES).into());
     }
     Ok(Material { name: table.name.clone(), conductivity, is_scalar, capacity })
 }

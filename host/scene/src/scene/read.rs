@@ -17,7 +17,7 @@ use super::entry::Entry;
 use super::material::read_material;
 use super::setting::read_setting;
 use super::table::Table;
-use super::{Exact, Located, Scene, Target, Time};
+use super::{Exact, Located, Material, Scene, Target, Time};
 use crate::error::{Error, Result};
 use crate::expression::{Expression, Variables};
 
@@ -85,30 +85,24 @@ fn read_fragment(root: &Table, extends: &Entry) -> Result<Scene> {
 fn read_scene(root: &Table) -> Result<Scene> {
     root.only("the scene", SECTIONS)?;
     let boundaries = at_least_one(root, "boundary", read_boundary)?;
-    let scene = Scene {
+    let materials = at_least_one(root, "material", read_material)?;
+    let stores = materials.iter().any(Material::stores);
+    Ok(Scene {
         title: read_title(root)?,
         mesh: read_mesh(root)?,
-        materials: at_least_one(root, "material", read_material)?,
+        materials,
         source: read_source(root)?,
         inputs: each(root, "input", |table| read_input(table, &boundaries))?,
         outputs: each(root, "output", |table| read_output(table, &boundaries))?,
         boundaries,
         target: section(root, "target", read_target)?,
-        time: section(root, "time", read_time)?,
+        time: root.table("time")?.map(|table| read_time(&table, stores)).transpose()?,
         exact: section(root, "exact", read_exact)?,
         setting: section(root, "setting", read_setting)?,
         fragment: None,
         path: root.document.path.clone(),
         text: root.document.text.clone(),
-    };
-    let stated = scene.time.as_ref().and_then(|time| time.initial.as_ref());
-    match stated {
-        Some(initial) if !scene.stores() => {
-            let error = scene.error(initial, "no material stores u, so that nothing has a start");
-            Err(error.hint("give a material a `capacity`, or remove `initial`").into())
-        }
-        _ => Ok(scene),
-    }
+    })
 }
 
 /// The table `[key]`, read, if there is one.
@@ -181,18 +175,25 @@ fn read_target(table: &Table) -> Result<Target> {
     })
 }
 
-fn read_time(table: &Table) -> Result<Time> {
+/// `stores`: whether a material does, so that ticks are steps in time, of which a command may be asked for any number.
+fn read_time(table: &Table, stores: bool) -> Result<Time> {
     table.only("the time", "step, end, initial")?;
     let step = table.require("step")?.positive("seconds")?;
-    let end = table.get("end").map(|entry| match entry.positive("seconds")? {
+    let end = if stores { table.get("end") } else { Some(table.require("end")?) };
+    let end = end.map(|entry| match entry.positive("seconds")? {
         end if end >= step => Ok(end),
         end => {
             let message = format!("{end} comes before the first step, {step}");
             Err(Error::from(entry.error(message)))
         }
     });
-    let initial =
-        table.get("initial").filter(|entry| !entry.text().is_ok_and(|text| text.value == "steady"));
+    let initial = table.get("initial");
+    if let Some(entry) = initial.as_ref().filter(|_| !stores) {
+        let error = entry.error("no material stores u, so that nothing has a start");
+        return Err(error.hint("give a material a `capacity`, or remove `initial`").into());
+    }
+    let is_steady = |entry: &Entry| entry.text().is_ok_and(|text| text.value == "steady");
+    let initial = initial.filter(|entry| !is_steady(entry));
     let initial = initial.map(|entry| entry.expression(Variables::Space));
     Ok(Time { step, end: end.transpose()?, initial: initial.transpose()? })
 }

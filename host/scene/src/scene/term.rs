@@ -54,11 +54,19 @@ pub fn each_load(scene: &mut Scene, mut each: impl FnMut(&mut Datum)) {
 
 /// The sentence for whoever takes a scene that changes with t at rest.
 pub fn at_rest_warning(scene: &Scene) -> Option<String> {
-    let load = first_in_time(scene)?;
-    let Located { key, value, .. } = load;
-    Some(format!(
-        "{key} = \"{value}\" depends on t: all data are those of t = 0 (`signorini tick` plays the scene over time)"
-    ))
+    let stores = scene.materials.iter().find(|material| material.stores()).map(|material| {
+        format!(
+            "{} = \"{}\" has no part in the steady state, which this is (`signorini tick` steps in time)",
+            material.capacity.key, material.capacity.value
+        )
+    });
+    let moves = first_in_time(scene).map(|Located { key, value, .. }| {
+        format!(
+            "{key} = \"{value}\" depends on t: all data are those of t = 0 (`signorini tick` plays the scene over time)"
+        )
+    });
+    let both: Vec<String> = moves.into_iter().chain(stores).collect();
+    (!both.is_empty()).then(|| both.join("; "))
 }
 
 /// The first load that depends on t.

@@ -11,7 +11,7 @@ use std::path::Path;
 
 use csv::{Reader, ReaderBuilder, StringRecord, Trim};
 
-use super::{ScheduledTick, schedule::MOST};
+use super::{ScheduledTick, schedule::MOST, start::step_of};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::scene::Scene;
 
@@ -42,10 +42,31 @@ pub fn read(path: &Path, scene: &Scene) -> Result<Vec<ScheduledTick>> {
         }
         moments.push(moment);
     }
+    check_steps(path, scene, &moments)?;
     if moments.is_empty() {
         return Err(InputError::new("no tick in the log").file(path).line(1).hint(SHAPE).into());
     }
     Ok(moments)
+}
+
+/// Refuses moments of steps in time that do not follow each other by the scene's step, which the matrix is made for.
+fn check_steps(path: &Path, scene: &Scene, moments: &[ScheduledTick]) -> Result<()> {
+    if !scene.stores() {
+        return Ok(());
+    }
+    let step = step_of(scene)?;
+    let follows = |pair: &[ScheduledTick]| {
+        let slack = 1e-6 * step + 4.0 * f64::EPSILON * pair[1].time.abs();
+        (pair[1].time - pair[0].time - step).abs() <= slack
+    };
+    let Some(pair) = moments.windows(2).find(|pair| !follows(pair)) else { return Ok(()) };
+    let [before, time] = [0, 1].map(|at| pair[at].time);
+    let message =
+        format!("t: {time} comes {} after {before}, expected the step {step}", time - before);
+    let error = InputError::new(message).file(path).line(line_of(path, time).unwrap_or(0));
+    Err(error
+        .hint("a material has a capacity: lines follow each other by time.step, or by --step")
+        .into())
 }
 
 /// Reports an error at time t as an error of the line of the log whose inputs made it so.

@@ -20,7 +20,7 @@ pub(super) struct Start {
 ///
 /// # Errors
 /// A scene that does not say it.
-pub(crate) fn step_of(scene: &Scene) -> Result<f64> {
+pub(super) fn step_of(scene: &Scene) -> Result<f64> {
     match &scene.time {
         Some(time) => Ok(time.step),
         None => {

@@ -176,6 +176,32 @@ j = { of = 'face', field = 'flux', pattern = 1 }
 }
 
 #[test]
+fn a_material_that_stores_has_a_start() {
+    let with = |capacity: &str, time: &str| {
+        parse(&format!(
+            "{SMALL}material.default.capacity = {capacity}\n[time]\nstep = 0.5\n{time}\n"
+        ))
+    };
+    let scene = with("'1 + x^2'", "initial = '20 - y'").unwrap();
+    let time = scene.time.clone().unwrap();
+    assert!(scene.stores() && (time.step, time.end) == (0.5, None));
+    assert_eq!(time.initial.map(|u| u.value.eval(0.0, 2.0, 0.0)), Some(18.0));
+    let steady = with("1e6", "initial = 'steady'").unwrap();
+    assert_eq!(steady.time.and_then(|time| time.initial), None);
+    assert!(!with("0", "end = 1").unwrap().stores());
+    assert!(with("0", "").expect_err("no end").to_string().contains("time.end: missing"));
+    for (capacity, time, culprit) in [
+        ("-1", "", "capacity: -1 is negative"),
+        ("'t'", "", "capacity"),
+        ("0", "end = 1\ninitial = 3", "time.initial: no material stores u"),
+        ("1", "initial = 't'", "time.initial"),
+    ] {
+        let message = with(capacity, time).expect_err("refused").to_string();
+        assert!(message.contains(culprit), "{message}");
+    }
+}
+
+#[test]
 fn an_output_may_be_over_a_list() {
     let listed = LEVEE.replace("of = \"face\"", "of = [\"face\", 'base', \"air\"]");
     let seepage = &scene(&listed).outputs[0];
