@@ -17,7 +17,7 @@ use super::no_bound::NoBound;
 use super::relaxed::relaxed;
 use super::stored::stored_cells;
 use signorini_problem::scalar::Scalar;
-use signorini_problem::{Assembled, Parts, Problem, Step};
+use signorini_problem::{Assembled, EdgeKind, Parts, Problem, Step};
 
 /// A certificate in the making: one for each problem and scalar.
 #[derive(Debug)]
@@ -120,9 +120,17 @@ impl<R: Scalar> Certifier<R> {
             certifier.seek(assembled, |_| false)?;
         }
         if assembled.step().is_some() && !certifier.found_ways {
-            // Cells keep what they lack: no way has to end where a flux may change.
+            // Cells that store keep what they lack: a way may end in any of them.
             certifier.hands_on = false;
-            certifier.seek(assembled, |_| true)?;
+            let edges = assembled.edges();
+            let stores = |half: u32| {
+                let cell = edges.cell_of(half as usize);
+                cell.is_some_and(|cell| problem.capacities.get(cell).is_some_and(|&c| c > 0.0))
+            };
+            let kinds = &problem.kinds;
+            certifier.seek(assembled, |edge| {
+                kinds[edge] == EdgeKind::Contact || stores(edges.half_edges()[edge][0])
+            })?;
         }
         Ok(certifier)
     }

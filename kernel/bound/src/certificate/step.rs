@@ -17,7 +17,7 @@
 
 use super::change::{Change, minus, of_quad, of_triangle};
 use super::parts::{CellTerms, Parts};
-use super::walk::{of_quad_cell, of_triangle_cell};
+use super::walk::{share_of_quad, share_of_triangle};
 use super::{
     Buffers, Continuous, Discretization, LoadCase, Verdict, admissible, boundary, quad, triangle,
 };
@@ -206,11 +206,10 @@ impl<R: Real, I: Index> OverCells<'_, R, I> {
         let source = read(self.given.loads.triangles, number);
         let [now, old] = [self.s.vertices, self.step.vertices];
         let change = of_triangle(pick(&cell.vertices, now)?, pick(&cell.vertices, old)?);
-        let balance = self.balance(cell, source, &change, tau)?;
-        let mut share = of_triangle_cell(metric, cell, self.s, self.u, balance.load, tau)?;
+        let (balance, out) = self.balanced(cell, source, &change, tau)?;
+        let mut share = share_of_triangle(metric, cell, self.s, self.u, (balance.load, out))?;
         let own = on_triangle(&cell.k, &pick(&cell.edges, self.u)?, source);
         let kept = self.step.storage.in_triangle(number, &cell.edges, self.u);
-        let out = cell.outward(tau)?;
         share.algebraic =
             triangle::energy(cell, metric.varying(number), minus(minus(out, own), kept));
         let of_mean = stored.add(self.stored_in(number), (&balance, &change), &out, &mut share);
@@ -236,12 +235,11 @@ impl<R: Real, I: Index> OverCells<'_, R, I> {
             in_mesh(self.step.vertices, self.step.bubbles)?,
         ];
         let change = of_quad(now, old, self.stored_in(number).tilt);
-        let balance = self.balance(cell, source, &change, tau)?;
-        let load = balance.load;
-        let mut share = of_quad_cell(metric, (cell, quad), self.s, self.u, load, tau)?;
+        let (balance, out) = self.balanced(cell, source, &change, tau)?;
+        let by_sides = (balance.load, out);
+        let mut share = share_of_quad(metric, (cell, quad), self.s, self.u, by_sides)?;
         let own = on_quad(&cell.k, &pick(&cell.edges, self.u)?, source);
         let kept = self.step.storage.in_quad(quad, &cell.edges, self.u);
-        let out = cell.outward(tau)?;
         share.algebraic = quad::energy(cell, metric.varying(number), minus(minus(out, own), kept));
         let of_mean = stored.add(self.stored_in(number), (&balance, &change), &out, &mut share);
         Some((share, of_mean))
@@ -251,22 +249,24 @@ impl<R: Real, I: Index> OverCells<'_, R, I> {
         read(self.step.cells, cell)
     }
 
-    fn balance<const SIDES: usize, const ENTRIES: usize>(
+    /// Balances a cell as far as it does not keep what it lacks, and gives the fluxes out of it. A cell that keeps all changes no flux,
+    /// so that its way out may end on an edge whose flux is given.
+    fn balanced<const SIDES: usize, const ENTRIES: usize>(
         &self,
         cell: &Cell<R, I, SIDES, ENTRIES>,
         source: R,
         change: &Change<R>,
-        tau: &[R],
-    ) -> Option<Balance<R>> {
+        tau: &mut [R],
+    ) -> Option<(Balance<R>, [R; SIDES])> {
         let StoredCell { content, keep, .. } = self.stored_in(cell.number.at());
         let wanted = source - content * change.mean;
-        let lacking = cell.outward(tau)?.iter().fold(-wanted, |rest, &flux| rest - flux);
-        let load = match self.kept {
-            _ if content == R::ZERO => wanted,
-            Kept::All => wanted + lacking,
-            Kept::Part => wanted + keep * lacking,
-        };
-        Some(Balance { source, wanted, load })
+        let out = cell.outward(tau)?;
+        let lacking = out.iter().fold(-wanted, |rest, &flux| rest - flux);
+        if content > R::ZERO && self.kept == Kept::All {
+            return Some((Balance { source, wanted, load: wanted + lacking }, out));
+        }
+        let load = if content > R::ZERO { wanted + keep * lacking } else { wanted };
+        Some((Balance { source, wanted, load }, cell.settle(load, tau)?))
     }
 }
 
@@ -297,6 +297,8 @@ impl<R: Real> Stored<R> {
         let apart = (spread * change.variance).rounded_sqrt();
         let apart = apart + change.mean.magnitude() * skew.rounded_sqrt();
         let rest = content * apart * apart;
+        // Both are orthogonal but for what the area element makes of R̄.
+        let of_mean = of_mean + R::TWO * (lacking * lacking / content * skew * rest).rounded_sqrt();
         let terms = balance.source.magnitude() + of_change;
         let terms = out.iter().fold(terms, |sum, flux| sum + flux.magnitude());
         self.mean += of_mean;

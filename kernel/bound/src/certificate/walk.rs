@@ -69,7 +69,7 @@ fn over_triangles<R: Real, I: Index>(
     parts
 }
 
-pub(super) fn of_triangle_cell<R: Real, I: Index>(
+fn of_triangle_cell<R: Real, I: Index>(
     metric: Metric<R>,
     cell: &Triangle<R, I>,
     s: Continuous<R>,
@@ -81,6 +81,18 @@ pub(super) fn of_triangle_cell<R: Real, I: Index>(
         return None;
     }
     let out = cell.settle(load, tau)?;
+    share_of_triangle(metric, cell, s, u, (load, out))
+}
+
+/// A triangle's share for the fluxes `out` that balance `load`.
+#[inline(always)]
+pub(super) fn share_of_triangle<R: Real, I: Index>(
+    metric: Metric<R>,
+    cell: &Triangle<R, I>,
+    s: Continuous<R>,
+    u: &[R],
+    (load, out): (R, [R; 3]),
+) -> Option<CellTerms<R>> {
     let (s, u) = (pick(&cell.vertices, s.vertices)?, pick(&cell.edges, u)?);
     let Some(varying) = metric.varying(cell.number.at()) else {
         return Some(triangle::share(cell, s, out, u, load));
@@ -100,7 +112,7 @@ pub(super) fn of_triangle_cell<R: Real, I: Index>(
     })
 }
 
-pub(super) fn of_quad_cell<R: Real, I: Index>(
+fn of_quad_cell<R: Real, I: Index>(
     metric: Metric<R>,
     (cell, number): (&Quad<R, I>, usize),
     s: Continuous<R>,
@@ -112,6 +124,18 @@ pub(super) fn of_quad_cell<R: Real, I: Index>(
         return None;
     }
     let out = cell.settle(load, tau)?;
+    share_of_quad(metric, (cell, number), s, u, (load, out))
+}
+
+/// A quad's share for the fluxes `out` that balance `load`.
+#[inline(always)]
+pub(super) fn share_of_quad<R: Real, I: Index>(
+    metric: Metric<R>,
+    (cell, number): (&Quad<R, I>, usize),
+    s: Continuous<R>,
+    u: &[R],
+    (load, out): (R, [R; 4]),
+) -> Option<CellTerms<R>> {
     let (corners, u) = (pick(&cell.vertices, s.vertices)?, pick(&cell.edges, u)?);
     let bubbles = pick(&cell.edges, s.bubbles)?;
     let Some(varying) = metric.varying(cell.number.at()) else {

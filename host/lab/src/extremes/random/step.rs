@@ -98,7 +98,8 @@ fn finer(problem: &Problem, levels: u32) -> Result<Problem> {
 mod tests {
     use std::path::Path;
 
-    use signorini_scene::mesh::structured::{Cells, grid};
+    use signorini_scene::mesh::Mesh;
+    use signorini_scene::mesh::structured::{Cells, Trapezoids, grid, trapezoids};
     use signorini_scene::scene::Scene;
     use signorini_session::tick::{Budget, ScheduledTick, play};
     use signorini_solve::ScalarKind;
@@ -119,13 +120,8 @@ mod tests {
     const PLAIN: &str = "conductivity = 1\ncapacity = 1";
 
     /// The second step, in which f has another sign, after so many sweeps.
-    fn judged(
-        scene: &Scene,
-        (n, cells): (u32, Cells),
-        scalar: ScalarKind,
-        sweeps: Option<u32>,
-    ) -> JudgedStep {
-        let problem = Problem::new(scene, grid(n, cells)).unwrap();
+    fn judged(scene: &Scene, mesh: Mesh, scalar: ScalarKind, sweeps: Option<u32>) -> JudgedStep {
+        let problem = Problem::new(scene, mesh).unwrap();
         let dt = scene.time.as_ref().unwrap().step;
         let own = Budget::of(scene);
         let sweeps = sweeps.unwrap_or(own.sweeps);
@@ -153,10 +149,28 @@ mod tests {
             {
                 let dt = 10_f64.powi(exponent);
                 let scene = scene(dt, PLAIN, "", HELD);
-                let found = judged(&scene, (8, cells), *scalar, None);
+                let found = judged(&scene, grid(8, cells), *scalar, None);
                 println!("{cells:?} {scalar:?} dt {dt:e}: {found:?} ratio {:.3}", found.ratio());
                 assert!(found.above() <= 0.0, "{cells:?}, dt = {dt}: {found:?}");
                 assert!(found.ratio() < 1.75, "{cells:?}, dt = {dt}: {found:?}");
+            }
+        }
+    }
+
+    /// Area elements of trapezoids vary, and where contact alone holds the domain, or nothing, no flux may leave it.
+    #[test]
+    fn bounds_of_steps_hold_on_trapezoids_and_where_nothing_else_holds() {
+        let insulated = "kind = \"neumann\"\nflux = 0";
+        let meshes = [trapezoids(4, Trapezoids::Everywhere), grid(4, Cells::Mixed)];
+        for (mesh, outside) in meshes.iter().flat_map(|mesh| [HELD, insulated].map(|of| (mesh, of)))
+        {
+            for (contact, dt) in
+                ["", "limit = 0"].iter().flat_map(|of| [1e-4, 1e-2, 1.0].map(|dt| (of, dt)))
+            {
+                let scene = scene(dt, PLAIN, contact, outside);
+                let found = judged(&scene, mesh.clone(), ScalarKind::F64, Some(40));
+                println!("{outside} {contact} dt {dt:e}: {found:?}");
+                assert!(found.above() <= 0.0, "{outside}, {contact}, {dt}: {found:?}");
             }
         }
     }
@@ -179,7 +193,7 @@ mod tests {
                     [(1e-4, Some(1)), (1e-2, None), (1e-2, Some(3)), (1.0, Some(10))]
                 {
                     let scene = scene(dt, material, contact, outside);
-                    let found = judged(&scene, (8, cells), ScalarKind::F64, sweeps);
+                    let found = judged(&scene, grid(8, cells), ScalarKind::F64, sweeps);
                     println!("{name} {cells:?} dt {dt:e} {sweeps:?}: {found:?}");
                     assert!(found.above() <= 0.0, "{name}, {cells:?}, {dt}, {sweeps:?}: {found:?}");
                 }
