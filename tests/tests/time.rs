@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use signorini_problem::Problem;
+use signorini_problem::{Problem, State};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
@@ -67,7 +67,7 @@ fn largest_error(exact: &Exact, (n, cells): (u32, Cells), dt: f64, end: f64) -> 
         points.iter().map(of).sum::<f64>()
     };
     let start: Vec<f64> = (0..problem.ends.len()).map(mean).collect();
-    problem = problem.stepping(dt, &start, [&[], &[]])?;
+    problem = problem.stepping(dt, State { u: start, ..State::default() })?;
     let mut largest = 0.0_f64;
     let posed = problem.clone();
     with_session(&posed, |session| {
@@ -76,7 +76,7 @@ fn largest_error(exact: &Exact, (n, cells): (u32, Cells), dt: f64, end: f64) -> 
             session.play(&problem)?;
             let solution = session.answer(&problem)?;
             largest = largest.max(errors(&exact, &problem, &solution.u, &solution.flux)?.l2);
-            problem.advance(&solution.u, [&[], &[]]);
+            problem.advance(solution.state());
         }
         Ok(())
     })?;
@@ -93,7 +93,7 @@ fn every_cell_is_in_balance() {
         let scene = Scene::parse(text, Path::new("balance.toml")).unwrap();
         let problem = Problem::new(&scene, grid(4, cells)).unwrap();
         let start = vec![0.25; problem.ends.len()];
-        let mut problem = problem.stepping(0.01, &start, [&[], &[]]).unwrap();
+        let mut problem = problem.stepping(0.01, State { u: start, ..State::default() }).unwrap();
         let posed = problem.clone();
         with_session(&posed, |session| {
             for step in 1..=5 {
@@ -103,7 +103,7 @@ fn every_cell_is_in_balance() {
                 let stored: f64 = problem.stored(0, &solution.u).iter().sum();
                 let defect = solution.conservation_defect(&problem) * solution.largest_flux();
                 FLUX_CONTINUITY.check("balance", defect / stored.abs().max(1.0));
-                problem.advance(&solution.u, [&[], &[]]);
+                problem.advance(solution.state());
             }
             Ok(())
         })

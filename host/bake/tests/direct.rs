@@ -106,7 +106,14 @@ pub fn certified<R: Scalar, const WIDTH: usize>(
         bubbles => wide(bubbles),
     };
     let (vertices, indicators) = (wide(controller.vertices()), Vec::new());
-    CertifiedFields { vertices, bubbles, tau, indicators, following: Following::WhereNeeded }
+    CertifiedFields {
+        vertices,
+        bubbles,
+        tau,
+        indicators,
+        following: Following::WhereNeeded,
+        ..CertifiedFields::default()
+    }
 }
 
 /// Ticks on the desk, in f64 and to the end.

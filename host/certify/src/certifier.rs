@@ -2,7 +2,7 @@
 
 use signorini_bound::averages;
 use signorini_bound::certificate::{
-    self, Buffers, Certificate, Discretization, Kept, Verdict, certify_step,
+    self, Certificate, Discretization, Kept, Verdict, certify_step,
 };
 use signorini_bound::conforming;
 use signorini_bound::equilibrium::Iterate;
@@ -11,13 +11,15 @@ use signorini_kernel::mesh::components::Support;
 
 use super::admissible::{Admissible, Following};
 use super::data::Data;
+use super::evolution::StepTerms;
+use super::fields::Fields;
 use super::forest::EquilibrationForest;
 use super::metric::Metric;
 use super::no_bound::NoBound;
 use super::relaxed::relaxed;
 use super::stored::stored_cells;
 use signorini_problem::scalar::Scalar;
-use signorini_problem::{Assembled, EdgeKind, Parts, Problem, Step};
+use signorini_problem::{Assembled, EdgeKind, Parts, Problem, State, Step};
 
 /// A certificate in the making: one for each problem and scalar.
 #[derive(Debug)]
@@ -28,39 +30,13 @@ pub struct Certifier<R: Scalar> {
     follows_contact: bool,
     /// Whether the last search has found ways.
     found_ways: bool,
+    /// See [`CertifiedFields::evolution`].
+    evolution: Vec<StepTerms>,
     /// Whether steps in time may hand on along the ways found.
     hands_on: bool,
     fields: Fields<R>,
     /// Why the last iterate has no bound, apart from its data.
     refusal: Option<NoBound>,
-}
-
-/// Memory of a certificate: s at the vertices and its bubbles, τ, and each cell's part.
-#[derive(Debug, Clone)]
-struct Fields<R> {
-    vertices: Vec<R>,
-    bubbles: Vec<R>,
-    tau: Vec<R>,
-    indicators: Vec<R>,
-}
-
-impl<R: Scalar> Fields<R> {
-    fn new(problem: &Problem) -> Self {
-        let zeros = |length| vec![R::ZERO; length];
-        let edges = problem.topology.counts.edges();
-        let (vertices, cells) = (problem.mesh.vertices.len(), problem.cells());
-        Self {
-            vertices: zeros(vertices),
-            bubbles: zeros(edges),
-            tau: zeros(edges),
-            indicators: zeros(cells),
-        }
-    }
-
-    fn buffers(&mut self) -> Buffers<'_, R> {
-        let Self { vertices, bubbles, tau, indicators } = self;
-        Buffers { vertices, bubbles, tau, indicators }
-    }
 }
 
 /// The admissible pair of a certificate, in f64.
@@ -74,16 +50,15 @@ pub struct CertifiedFields {
     pub tau: Vec<f64>,
     /// Each cell's part of gap², triangles first.
     pub indicators: Vec<f64>,
+    /// The means of (s − ψ)⁺ and (ψ − s)⁺ along each contact edge, where materials store u.
+    pub openings: Vec<[f64; 2]>,
+    /// The terms of a step in the bound of the evolution, one for each way to balance its cells.
+    pub evolution: Vec<StepTerms>,
     /// Where s has extensions.
     pub following: Following,
 }
 
 impl CertifiedFields {
-    /// s at the vertices, and its bubbles: a step in time begins from it.
-    pub fn conforming(&self) -> [&[f64]; 2] {
-        [&self.vertices, &self.bubbles]
-    }
-
     /// S and τ as the exact norms take them.
     pub fn admissible(&self) -> Admissible<'_> {
         let Self { vertices, bubbles, tau, following, .. } = self;
@@ -112,6 +87,7 @@ impl<R: Scalar> Certifier<R> {
             ways: EquilibrationForest::new(problem),
             follows_contact: parts.counts.contact > 0,
             found_ways: false,
+            evolution: Vec::new(),
             hands_on: true,
             fields: Fields::new(problem),
             refusal: None,
@@ -205,7 +181,11 @@ impl<R: Scalar> Certifier<R> {
         let forms = data.forms();
         let given = data.given(assembled, forms.as_slice())?;
         let iterate = Iterate { u, law: assembled.law() };
-        certificate::certify_with(&discretization, &given, iterate, self.fields.buffers(), moved)
+        let fields = &mut self.fields;
+        let verdict =
+            certificate::certify_with(&discretization, &given, iterate, fields.buffers(), moved)?;
+        fields.open(&discretization, &given, iterate.law)?;
+        Ok(verdict)
     }
 
     /// The lesser bound of a step in time: where cells keep what they lack of balance, and where they hand on most of it.
@@ -218,15 +198,32 @@ impl<R: Scalar> Certifier<R> {
         let forms = data.forms();
         let given = data.given(assembled, forms.as_slice())?;
         let discretization = self.ways.discretization(assembled, &self.metric)?;
-        let [vertices, bubbles] = step.conforming();
+        let State { vertices, bubbles, .. } = &step.begin;
+        let law = assembled.law();
         let contents: Vec<f64> = step.contents().map(|content| content.wide()).collect();
         let keep = self.ways.kept(assembled.edges(), &self.metric, &contents);
         let cells = stored_cells(assembled.problem(), step, &keep);
         let storage = step.storage(assembled.edges())?;
-        let step = certificate::Step { storage, cells: &cells, vertices, bubbles };
-        let iterate = Iterate { u, law: assembled.law() };
-        let of = |kept: Kept, fields: &mut Fields<R>| {
-            certify_step(&discretization, (&given, &step), iterate, kept, fields.buffers())
+        let of_kernel = certificate::Step { storage, cells: &cells, vertices, bubbles };
+        let iterate = Iterate { u, law };
+        let mut evolution = Vec::new();
+        let mut of = |kept: Kept, fields: &mut Fields<R>| {
+            let (verdict, residual) = certify_step(
+                &discretization,
+                (&given, &of_kernel),
+                iterate,
+                kept,
+                fields.buffers(),
+            )?;
+            fields.open(&discretization, &given, law)?;
+            if let Some(certificate) = verdict.certificate() {
+                let begin = &step.begin;
+                let distance = fields.distances(&discretization, &given, law, begin)?;
+                let contact = fields.contacts(&discretization, &given, law, begin);
+                let left = (&residual, data.oscillation() + certificate.rounding);
+                evolution.push(StepTerms::new(step.length, left, distance, contact));
+            }
+            Ok::<_, KernelError>(verdict)
         };
         let kept = of(Kept::All, &mut self.fields)?;
         let total = |of: &Verdict<R>| of.certificate().map_or(R::INFINITY, |of| of.total);
@@ -235,9 +232,11 @@ impl<R: Scalar> Certifier<R> {
             let handed = of(Kept::Part, &mut fields)?;
             if total(&handed) < total(&kept) {
                 self.fields = fields;
+                self.evolution = evolution;
                 return Ok(handed);
             }
         }
+        self.evolution = evolution;
         Ok(kept)
     }
 
@@ -254,6 +253,8 @@ impl<R: Scalar> Certifier<R> {
             bubbles: wide(&self.fields.bubbles),
             tau: wide(&self.fields.tau),
             indicators: wide(&self.fields.indicators),
+            openings: self.fields.openings.iter().map(|pair| pair.map(|x| x.wide())).collect(),
+            evolution: self.evolution.clone(),
             following: Following::WhereNeeded,
         }
     }
@@ -325,7 +326,7 @@ impl<R: Scalar> Certifier<R> {
         let (law, given) = (assembled.law(), data.given(assembled, &[])?);
         let distortions = discretization.metric.distortions;
         averages::fill(&discretization.cells, assembled.cells(), distortions, u, s, tau)?;
-        conforming::impose(&discretization.mesh, &discretization.edges, u, law, given.ends, s)
-            .map(|_| ())
+        conforming::impose(&discretization.mesh, &discretization.edges, u, law, given.ends, s)?;
+        self.fields.open(&discretization, &given, law)
     }
 }

@@ -41,6 +41,7 @@ fn stored<R: Scalar>(problem: &Problem, at: usize, content: R, keep: f64) -> Sto
         tilt: tilt.map(R::narrow),
         skew: up(skew),
         shed: up(k / (k + stiffness)),
+        loose: up(k / stiffness),
         keep: R::narrow(keep),
     }
 }

@@ -74,6 +74,7 @@ impl Recovery {
             tau: edges.map(|edge| at(fluxes.row(edge), &mended)).collect(),
             indicators: Vec::new(),
             following: Following::Except(self.left_out(problem)),
+            ..CertifiedFields::default()
         })
     }
 
@@ -102,6 +103,7 @@ impl Recovery {
                 tau: edges.clone().map(of_fluxes).collect(),
                 indicators: Vec::new(),
                 following: following.clone(),
+                ..CertifiedFields::default()
             };
             let by_law = |law: &Robin<f64, u32>| {
                 let mean = of_fluxes(edges.end + law.edge as usize);

@@ -21,17 +21,50 @@ use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 
-/// Masses and old values of a step, in the scalar `R`.
+/// What one step hands on to the next, in the scalar `R`.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct State<R = f64> {
+    /// Mean of u over each edge.
+    pub u: Vec<R>,
+    /// s at the vertices.
+    pub vertices: Vec<R>,
+    /// The bubbles of s, one per edge.
+    pub bubbles: Vec<R>,
+    /// The means of (s − ψ)⁺ and (ψ − s)⁺ along each contact edge.
+    pub openings: Vec<[R; 2]>,
+}
+
+impl State {
+    fn in_units(self, units: &Units) -> Self {
+        let of_u = |all: Vec<f64>| all.into_iter().map(|u| (u - units.zero) / units.u).collect();
+        Self {
+            u: of_u(self.u),
+            vertices: of_u(self.vertices),
+            bubbles: self.bubbles.into_iter().map(|x| x / units.u).collect(),
+            openings: self.openings.into_iter().map(|pair| pair.map(|x| x / units.u)).collect(),
+        }
+    }
+
+    fn narrowed<R: Scalar>(&self) -> State<R> {
+        let all = |numbers: &[f64]| numbers.iter().map(|&x| R::narrow(x)).collect();
+        State {
+            u: all(&self.u),
+            vertices: all(&self.vertices),
+            bubbles: all(&self.bubbles),
+            openings: self.openings.iter().map(|pair| pair.map(R::narrow)).collect(),
+        }
+    }
+}
+
+/// Masses of a step and the state that it begins from, in the scalar `R`.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Step<R = f64> {
     /// m_T of the triangles, and of the quads.
     masses: [Vec<R>; 2],
     /// dt
     pub length: f64,
-    /// Mean of u at the end of the step before, one per edge.
-    old: Vec<R>,
-    /// s at its end: at the vertices, and the bubbles of edges.
-    conforming: [Vec<R>; 2],
+    /// What the step before has left.
+    pub begin: State<R>,
     /// What K_ii has beyond the element matrices, one per unknown: M_E, and ∫h of a transfer law.
     pub(super) diagonal: Vec<R>,
 }
@@ -44,11 +77,6 @@ impl<R: Scalar> Step<R> {
         triangles.iter().map(of(3)).chain(quads.iter().map(of(4)))
     }
 
-    /// s at the end of the step before: at the vertices, and the bubbles of edges.
-    pub fn conforming(&self) -> [&[R]; 2] {
-        self.conforming.each_ref().map(Vec::as_slice)
-    }
-
     /// As the kernel takes it.
     ///
     /// # Errors
@@ -58,22 +86,15 @@ impl<R: Scalar> Step<R> {
         edges: &Edges<u32>,
     ) -> std::result::Result<Storage<'a, R>, KernelError> {
         let [triangles, quads] = &self.masses;
-        Storage::new(edges, [triangles, quads], &self.old)
+        Storage::new(edges, [triangles, quads], &self.begin.u)
     }
 }
 
 impl Step {
     /// In `units`.
     pub(super) fn in_units(self, units: &Units) -> Self {
-        let of_u = |all: Vec<f64>| all.into_iter().map(|u| (u - units.zero) / units.u).collect();
-        let divided = |all: Vec<f64>, by: f64| all.into_iter().map(|x| x / by).collect();
-        let [vertices, bubbles] = self.conforming;
-        Self {
-            masses: self.masses.map(|masses| divided(masses, units.conductivity)),
-            old: of_u(self.old),
-            conforming: [of_u(vertices), divided(bubbles, units.u)],
-            ..self
-        }
+        let divided = |all: Vec<f64>| all.into_iter().map(|x| x / units.conductivity).collect();
+        Self { masses: self.masses.map(divided), begin: self.begin.in_units(units), ..self }
     }
 
     /// This step in another scalar.
@@ -82,8 +103,7 @@ impl Step {
         Step {
             masses: self.masses.each_ref().map(|masses| all(masses)),
             length: self.length,
-            old: all(&self.old),
-            conforming: self.conforming.each_ref().map(|values| all(values)),
+            begin: self.begin.narrowed(),
             diagonal: all(&self.diagonal),
         }
     }
@@ -93,7 +113,7 @@ impl Step {
         let [triangles, quads] = &self.masses;
         let mass = triangles.iter().chain(quads).nth(cell).copied().unwrap_or(0.0);
         let sides = problem.topology.edges_of(cell).iter().map(|&edge| edge as usize);
-        sides.map(|edge| mass * (u[edge] - self.old[edge])).collect()
+        sides.map(|edge| mass * (u[edge] - self.begin.u[edge])).collect()
     }
 }
 
@@ -114,19 +134,16 @@ impl Loads {
 }
 
 impl Problem {
-    /// This problem as a step of length `dt` that begins from the means `u`, one per edge, and from s with these values at the
-    /// vertices and these bubbles.
+    /// This problem as a step of length `dt`.
     ///
     /// # Errors
     /// Masses that are not finite.
-    pub fn stepping(&self, dt: f64, u: &[f64], conforming: [&[f64]; 2]) -> Result<Self> {
+    pub fn stepping(&self, dt: f64, begin: State) -> Result<Self> {
         let mut problem = self.clone();
         let masses: Vec<f64> = self.capacities.iter().map(|share| share / dt).collect();
         let (triangles, quads) = masses.split_at(self.mesh.triangles.len().min(masses.len()));
         let masses = [triangles.to_vec(), quads.to_vec()];
-        let conforming = conforming.map(<[f64]>::to_vec);
-        let (old, diagonal) = (u.to_vec(), Vec::new());
-        let step = Step { masses, length: dt, old, conforming, diagonal };
+        let step = Step { masses, length: dt, begin, diagonal: Vec::new() };
         problem.loads = std::mem::take(&mut problem.loads).in_step(self, Some(step))?;
         Ok(problem)
     }
@@ -137,11 +154,10 @@ impl Problem {
         self.loads.step.as_ref().map_or_else(Vec::new, |step| step.stored(self, cell, u))
     }
 
-    /// The next step begins from the means `u` and from this s.
-    pub fn advance(&mut self, u: &[f64], conforming: [&[f64]; 2]) {
+    /// The next step begins from `state`.
+    pub fn advance(&mut self, state: State) {
         if let Some(step) = &mut self.loads.step {
-            step.old = u.to_vec();
-            step.conforming = conforming.map(<[f64]>::to_vec);
+            step.begin = state;
         }
     }
 }

@@ -45,6 +45,7 @@ pub(crate) fn answer<R: Scalar>(report: &Report<R>, arrays: &Arrays<R>, units: &
             tau,
             indicators: Vec::new(),
             following: Following::WhereNeeded,
+            ..CertifiedFields::default()
         },
         u,
         ..Solution::default()

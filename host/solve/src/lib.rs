@@ -11,6 +11,7 @@ pub mod adaptive;
 mod auto;
 pub mod by_factor;
 mod conclude;
+pub mod decay;
 mod direct;
 mod ending;
 pub mod energy_norm;

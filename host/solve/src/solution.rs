@@ -11,7 +11,7 @@ use signorini_kernel::mesh::geometry::{quad_area, triangle_area};
 use super::{Ending, Factored, Ran, ScalarKind};
 use signorini_certify::{CertifiedFields, ErrorBound, NoBound};
 use signorini_problem::field::CellField;
-use signorini_problem::{Parts, Problem};
+use signorini_problem::{Parts, Problem, State};
 use signorini_scene::scene::units::Units;
 
 /// The answer of a solve or of a tick; numbers of an f32 one are held exactly in f64.
@@ -88,6 +88,17 @@ impl Solution {
     pub fn in_its_units(&self) -> Option<(&Problem, &Self)> {
         let (problem, solution) = self.own.as_deref()?;
         Some((problem, solution))
+    }
+
+    /// What a step in time hands on to the next one.
+    pub fn state(&self) -> State {
+        let CertifiedFields { vertices, bubbles, openings, .. } = &self.certified;
+        State {
+            u: self.u.clone(),
+            vertices: vertices.clone(),
+            bubbles: bubbles.clone(),
+            openings: openings.clone(),
+        }
     }
 
     /// With these contact edges active, one flag each.

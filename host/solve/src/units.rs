@@ -186,6 +186,7 @@ pub fn times(units: &Units, mut solution: Solution) -> Solution {
     let certified = &mut solution.certified;
     values(&mut certified.vertices);
     times(&mut certified.bubbles, units.u);
+    times(certified.openings.as_flattened_mut(), units.u);
     times(&mut certified.tau, units.flux());
     times(&mut certified.indicators, units.energy() * units.energy());
     solution

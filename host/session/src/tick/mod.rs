@@ -23,6 +23,7 @@ pub use record::{TickInterval, TickRecord};
 
 use std::sync::Arc;
 
+use signorini_certify::evolution::Evolution;
 use signorini_device::tick::Limits;
 use signorini_intervals::Lasting;
 use signorini_kernel::Error as KernelError;
@@ -131,10 +132,13 @@ fn play_in<R: Scalar>(
     let mut problem = problem.clone();
     let mut ticks = Vec::new();
     let first = moments.first().map_or(0.0, |moment| moment.time);
-    if let Some((dt, Start { problem: at_start, solution })) = Start::of(given, first)? {
-        problem = given.stepping(dt, &solution.u, solution.certified.conforming())?;
+    let mut evolution = None;
+    if let Some(start) = Start::of(given, first)? {
+        let Start { problem: at_start, solution, step, .. } = start;
+        problem = given.stepping(step, solution.state())?;
+        evolution = start.evolution;
         if budget.shows_start {
-            let start = TickRecord::of(&at_start, &solution)?;
+            let start = TickRecord::of(&at_start, &solution)?.with_window(evolution.as_ref());
             done(&start, Some(&solution))?;
             ticks.push(start);
         }
@@ -170,8 +174,9 @@ fn play_in<R: Scalar>(
         true => Intervals::Anew(Lasting::default()),
         false => Intervals::Unasked,
     };
-    ticks
-        .extend(Play { session: &mut *session, intervals, units }.through(problem, moments, done)?);
+    let evolution = evolution.map(|of| of.in_unit(units.energy()));
+    let play = Play { session: &mut *session, intervals, units, evolution };
+    ticks.extend(play.through(problem, moments, done)?);
     Ok(ticks)
 }
 
@@ -188,7 +193,7 @@ pub fn replay(
 ) -> Result<(String, Vec<TickRecord>)> {
     with_module(problem, asked, |session, module| {
         let intervals = Intervals::Weighed(module);
-        let play = Play { session, intervals, units: Units::default() };
+        let play = Play { session, intervals, units: Units::default(), evolution: None };
         Ok((module.name.clone(), play.through(problem, moments, done)?))
     })
 }
@@ -241,6 +246,8 @@ struct Play<'s> {
     intervals: Intervals<'s>,
     /// Units of the session; records are in the scene's.
     units: Units,
+    /// The bound of the evolution, of steps in time that have one.
+    evolution: Option<Evolution>,
 }
 
 impl Play<'_> {
@@ -282,9 +289,13 @@ impl Play<'_> {
         let solution = answer.map_err(|error| error.at_time(problem.time))?;
         let mut tick = TickRecord::of(problem, &solution)?;
         tick.intervals = self.intervals.of(problem, (&*self.session, &solution))?;
+        if let Some(evolution) = &mut self.evolution {
+            evolution.advance(&solution.certified.evolution);
+        }
+        let mut tick = tick.with_window(self.evolution.as_ref());
         let is_plain = self.units == Units::default();
         let posed = (!is_plain).then(|| Arc::new(problem.clone()));
-        problem.advance(&solution.u, solution.certified.conforming());
+        problem.advance(solution.state());
         let Some(posed) = posed else { return Ok((tick, Some(solution))) };
         tick.rescale(&problem.scene, &self.units);
         Ok((tick, Some(in_scene(&posed, &self.units, solution))))

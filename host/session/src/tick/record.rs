@@ -1,6 +1,7 @@
 //! One tick as `ticks.csv` has it.
 
 use signorini_certify::ErrorBound;
+use signorini_certify::evolution::Evolution;
 use signorini_certify::exact::distance;
 use signorini_problem::Problem;
 use signorini_scene::error::{Error, Result};
@@ -27,6 +28,8 @@ pub struct TickRecord {
     pub contact_length: Option<f64>,
     /// The bound on the error.
     pub bound: Option<ErrorBound>,
+    /// The bound over time of steps: the root of the fading mean of the energy error's square, and how far back it reaches.
+    pub window: Option<[f64; 2]>,
     /// The error that it bounds, where the exact solution is known.
     pub combined: Option<f64>,
     /// The declared outputs, in the order of the scene.
@@ -62,10 +65,17 @@ impl TickRecord {
             contact_force: finite(force),
             contact_length: finite(length),
             bound,
+            window: None,
             combined: combined.and_then(finite),
             outputs: outputs(problem, solution, bound)?,
             intervals: Vec::new(),
         })
+    }
+
+    /// With what is known of the evolution until then.
+    pub(super) fn with_window(self, evolution: Option<&Evolution>) -> Self {
+        let window = evolution.map(|of| [of.energy(), of.seconds()]);
+        Self { window: window.filter(|[energy, _]| energy.is_finite()), ..self }
     }
 
     /// A tick that was refused with this error.
@@ -78,6 +88,7 @@ impl TickRecord {
             contact_force: None,
             contact_length: None,
             bound: None,
+            window: None,
             combined: None,
             outputs: vec![None; outputs],
             intervals: vec![Err("the tick was refused".to_owned()); outputs],
@@ -107,6 +118,7 @@ impl TickRecord {
         times(&mut self.contact_force, units.flux());
         times(&mut self.combined, units.energy());
         self.bound = self.bound.map(|bound| bound.times(units.energy()));
+        self.window = self.window.map(|[energy, seconds]| [energy * units.energy(), seconds]);
         for (output, of) in self.outputs.iter_mut().zip(&scene.outputs) {
             *output = output.map(|x| units.output(of.quantity, x)).filter(|x| x.is_finite());
         }

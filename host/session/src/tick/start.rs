@@ -1,11 +1,16 @@
 //! The start of steps in time: the steady state at the inputs' own defaults, or a stated u.
 
+use signorini_certify::cell::Cell;
+use signorini_certify::curved::followed;
+use signorini_certify::evolution::Evolution;
 use signorini_certify::{Certified, Data, NoBound};
 use signorini_kernel::solver::{Outcome, Status};
 use signorini_kernel::system::Residual;
-use signorini_problem::{Assembled, EdgeKind, Parts, Problem, Sum};
+use signorini_problem::quadrature::gauss;
+use signorini_problem::{Assembled, EdgeKind, Parts, Problem, State, Sum};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::scene::{Datum, Scene};
+use signorini_solve::decay::decay_rate;
 use signorini_solve::{Ending, Options, Solution, read_off, solve, unfit};
 
 /// A problem at the start of its steps, and u there.
@@ -14,6 +19,10 @@ pub(super) struct Start {
     pub problem: Problem,
     /// The answer that the first step begins from.
     pub solution: Solution,
+    /// dt
+    pub step: f64,
+    /// What the bound of the evolution begins with; nothing where it has none.
+    pub evolution: Option<Evolution>,
 }
 
 /// The length of a step of `scene`.
@@ -38,23 +47,34 @@ impl Start {
     ///
     /// # Errors
     /// A scene that does not say how long a step is; no steady solution, where the start is one; data that are not admissible.
-    pub fn of(problem: &Problem, first: f64) -> Result<Option<(f64, Self)>> {
+    pub fn of(problem: &Problem, first: f64) -> Result<Option<Self>> {
         if problem.capacities.is_empty() {
             return Ok(None);
         }
-        let dt = step_of(&problem.scene)?;
+        let step = step_of(&problem.scene)?;
         // What the command line and a log say of inputs acts from the first step on.
         let own = Scene::parse(&problem.scene.text, &problem.scene.path)?;
         let inputs: Vec<_> = own.inputs.iter().map(|input| input.default).enumerate().collect();
         let mut at_start = problem.clone();
-        at_start.set(&inputs, first - dt)?;
+        at_start.set(&inputs, first - step)?;
         let stated = problem.scene.time.as_ref().and_then(|time| time.initial.as_ref());
         let solution = match stated {
-            Some(initial) => stated_start(&at_start, dt, initial)?,
+            Some(initial) => stated_start(&at_start, step, initial)?,
             None => steady(&at_start)?,
         };
         let solution = Solution { status: Ending::Start, sweeps: 0, ..solution };
-        Ok(Some((dt, Self { problem: at_start, solution })))
+        let rate = decay_rate(&at_start)?;
+        let evolution = match stated {
+            Some(initial) => {
+                let error = stated_error(&at_start, &solution, initial)?;
+                Evolution::begin(rate, None, error)
+            }
+            None => {
+                let total = solution.bound.map(|bound| bound.total);
+                total.and_then(|total| Evolution::begin(rate, Some(total), 0.0))
+            }
+        };
+        Ok(Some(Self { problem: at_start, solution, step, evolution }))
     }
 }
 
@@ -91,7 +111,7 @@ fn stated_start(problem: &Problem, dt: f64, initial: &Datum) -> Result<Solution>
     // Its fluxes are those that no storage balances.
     let unfit = unfit::<f64>(&problem.scene);
     let assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
-    let parts = Parts::examine(&problem.stepping(dt, &u, [&[], &[]])?)?;
+    let parts = Parts::examine(&problem.stepping(dt, State { u: u.clone(), ..State::default() })?)?;
     let outcome = Outcome {
         status: Status::Converged,
         sweeps: 0,
@@ -104,4 +124,28 @@ fn stated_start(problem: &Problem, dt: f64, initial: &Datum) -> Result<Solution>
     let no_bound = Some(NoBound::new("a stated start has no error bound"));
     let stated = Certified { bound: None, no_bound, ..s };
     read_off(problem, &parts, &assembled, &outcome, [&u, &[]], stated).map_err(unfit)
+}
+
+/// ‖c^½(u − s)‖ for the stated u, c its mean on each cell, and by how much rules of 8 and 4 points per direction differ in it.
+fn stated_error(problem: &Problem, start: &Solution, initial: &Datum) -> Result<f64> {
+    let stated = Sum::alone(&problem.scene, initial, 0.0);
+    let s = start.certified.admissible();
+    let deviations = followed(problem, &s)?;
+    let mut squares = [0.0; 2];
+    for at in 0..problem.cells() {
+        let (cell, on_cell) = (Cell::of(problem, at), s.on_cell(problem, at, &deviations));
+        for (square, points) in squares.iter_mut().zip([8, 4]) {
+            let (mut area, mut sum) = (0.0, 0.0);
+            for point in cell.points(&gauss(points)) {
+                let [x, y] = point.x;
+                let own = on_cell.at(&cell.local(point.reference))?.value;
+                let apart = stated.finite(stated.at(x, y), point.x)? - own;
+                area += point.weight;
+                sum += point.weight * apart * apart;
+            }
+            *square += problem.capacities[at] * cell.corners().len() as f64 * sum / area;
+        }
+    }
+    let [fine, coarse] = squares.map(f64::sqrt);
+    Ok(fine + (fine - coarse).abs())
 }

@@ -34,14 +34,9 @@ pub(super) fn add<R: Real, I: Index>(
         }
     };
     let gap = if features::CONTACT { given.ends.gap } else { &[] };
-    for (at, gap) in gap.iter().enumerate() {
-        let edge = counts.free + at;
-        let (tau, range) = (read(tau, edge), given.boundary.contact_flux(at));
-        let [a, b] = ends(discretization, s, edge);
-        let excess = Excess { ends: [a - gap[0], b - gap[1]], bubble: read(s.bubbles, edge) };
-        let means = if contact.is_limited() { excess.sides() } else { [excess.mean(), R::ZERO] };
-        let (term, terms) = charge(range, contact, tau, means);
-        take(parts, edge, term, terms);
+    for at in 0..gap.len() {
+        let (term, terms) = contact_term(discretization, given, contact, (s, tau), at);
+        take(parts, counts.free + at, term, terms);
     }
     let mut moved = R::ZERO;
     let laws = if features::ROBIN { given.boundary.robin() } else { &[] };
@@ -85,9 +80,43 @@ pub(super) fn add<R: Real, I: Index>(
     }
 }
 
+/// The term of contact edge `at`, counted from the first one, and the size of its terms.
+#[inline(always)]
+fn contact_term<R: Real, I: Index>(
+    discretization: &Discretization<R, I>,
+    given: &LoadCase<R, I>,
+    contact: Law<R>,
+    (s, tau): (Continuous<R>, &[R]),
+    at: usize,
+) -> (R, R) {
+    let edge = discretization.edges.counts().free + at;
+    let means = opening(discretization, given, contact, s, at);
+    charge(given.boundary.contact_flux(at), contact, read(tau, edge), means)
+}
+
+/// The means of (s − ψ)⁺ and (ψ − s)⁺ along contact edge `at`; without limits that of s − ψ, and 0.
+#[inline(always)]
+pub(super) fn opening<R: Real, I: Index>(
+    discretization: &Discretization<R, I>,
+    given: &LoadCase<R, I>,
+    contact: Law<R>,
+    s: Continuous<R>,
+    at: usize,
+) -> [R; 2] {
+    let edge = discretization.edges.counts().free + at;
+    let ([a, b], gap) = (ends(discretization, s, edge), read(given.ends.gap, at));
+    let excess = Excess { ends: [a - gap[0], b - gap[1]], bubble: read(s.bubbles, edge) };
+    if contact.is_limited() { excess.sides() } else { [excess.mean(), R::ZERO] }
+}
+
 /// 2∫(s − ψ)⁺(τ·n − lo) + (ψ − s)⁺(hi − τ·n) along an edge for these means of both parts of s − ψ, and the size of its terms.
 #[inline(always)]
-fn charge<R: Real>(range: FluxRange<R>, contact: Law<R>, tau: R, [above, below]: [R; 2]) -> (R, R) {
+pub(super) fn charge<R: Real>(
+    range: FluxRange<R>,
+    contact: Law<R>,
+    tau: R,
+    [above, below]: [R; 2],
+) -> (R, R) {
     if !contact.is_limited() {
         let (above, terms) = (R::TWO * above, tau.magnitude() + range.base().magnitude());
         return (range.multiplier(tau) * above, terms * above.magnitude());

@@ -42,6 +42,8 @@ pub struct StoredCell<R> {
     pub skew: R,
     /// k/(k + π²α/h²): the part of ‖R′‖²/k that remains of it in the oscillation.
     pub shed: R,
+    /// kh²/(π²α)
+    pub loose: R,
     /// The part of what it lacks of balance that it keeps where cells hand on the rest.
     pub keep: R,
 }
@@ -68,22 +70,24 @@ pub enum Kept {
     Part,
 }
 
-/// Sums over the cells beside [`Parts`].
+/// What is left of R = f − k(s − s_old) + ∇·τ over the cells.
 #[derive(Debug, Clone, Copy)]
-struct Stored<R> {
+pub struct Residual<R> {
     /// Σ‖R̄‖²/k
-    mean: R,
-    /// Σ‖R′‖²/k
-    rest: R,
-    /// Σ‖R′‖²/(k + π²α/h²)
-    shed: R,
+    pub mean: R,
+    /// Σ‖R′‖²/k, without what f varies by.
+    pub rest: R,
+    /// Σ‖R′‖²/(k + π²α/h²), without what f varies by.
+    pub shed: R,
+    /// Σ‖R′‖²/(π²α/h²), without what f varies by.
+    pub loose: R,
     /// Σ(terms of R̄|T|)²/(k|T|), infinite where a cell stores nothing.
     terms: R,
     /// Σ k|T| s²
     size: R,
 }
 
-/// Bounds the error of an iterate of `step`.
+/// Bounds the error of an iterate of `step`, and says what is left of its equation.
 ///
 /// # Errors
 /// Arrays of the wrong length.
@@ -93,7 +97,7 @@ pub fn certify_step<R: Real, I: Index>(
     iterate: Iterate<R>,
     kept: Kept,
     mut buffers: Buffers<R>,
-) -> Result<Verdict<R>, Error> {
+) -> Result<(Verdict<R>, Residual<R>), Error> {
     let Discretization { edges, cells, .. } = discretization;
     same_length(Array::Storage, step.cells.len(), edges.cells())?;
     same_length(Array::Vertices, step.vertices.len(), buffers.vertices.len())?;
@@ -105,10 +109,10 @@ pub fn certify_step<R: Real, I: Index>(
     let of_cells = OverCells { discretization, given, step, u: iterate.u, s, kept };
     let (mut parts, stored) = of_cells.sum(tau, indicators);
     if let Some(edge) = equilibrium::pulled(edges, &given.boundary, tau) {
-        return Ok(Verdict::Pulled { edge });
+        return Ok((Verdict::Pulled { edge }, stored));
     }
     boundary::add(discretization, given, iterate, s, tau, indicators, &mut parts);
-    Ok(conclude(discretization, given.oscillation, parts, stored))
+    Ok((conclude(discretization, given.oscillation, parts, stored), stored))
 }
 
 /// The least total of those where no, some or all quarters of R′ are in the storage, and the rest in the oscillation.
@@ -116,7 +120,7 @@ fn conclude<R: Real, I: Index>(
     discretization: &Discretization<R, I>,
     oscillation: R,
     mut parts: Parts<R>,
-    stored: Stored<R>,
+    stored: Residual<R>,
 ) -> Verdict<R> {
     let (cells, missed) = (discretization.cells.len(), discretization.metric.missed);
     let stability = discretization.stability;
@@ -181,8 +185,8 @@ struct OverCells<'a, R, I> {
 
 impl<R: Real, I: Index> OverCells<'_, R, I> {
     /// The walk over the cells from the leaves.
-    fn sum(&self, tau: &mut [R], indicators: &mut [R]) -> (Parts<R>, Stored<R>) {
-        let (mut parts, mut stored) = (Parts::default(), Stored::nothing());
+    fn sum(&self, tau: &mut [R], indicators: &mut [R]) -> (Parts<R>, Residual<R>) {
+        let (mut parts, mut stored) = (Parts::default(), Residual::nothing());
         for cell in self.discretization.cells.from_leaves() {
             let (number, found) = match cell {
                 Either::Triangle(cell) => (cell.number, self.of_triangle(cell, tau, &mut stored)),
@@ -200,7 +204,7 @@ impl<R: Real, I: Index> OverCells<'_, R, I> {
         &self,
         cell: &Triangle<R, I>,
         tau: &mut [R],
-        stored: &mut Stored<R>,
+        stored: &mut Residual<R>,
     ) -> Option<(CellTerms<R>, R)> {
         let (number, metric) = (cell.number.at(), self.discretization.metric);
         let source = read(self.given.loads.triangles, number);
@@ -221,7 +225,7 @@ impl<R: Real, I: Index> OverCells<'_, R, I> {
         &self,
         cell: &Quad<R, I>,
         tau: &mut [R],
-        stored: &mut Stored<R>,
+        stored: &mut Residual<R>,
     ) -> Option<(CellTerms<R>, R)> {
         let (number, metric) = (cell.number.at(), self.discretization.metric);
         let quad = number.wrapping_sub(self.discretization.cells.triangles.len());
@@ -270,10 +274,10 @@ impl<R: Real, I: Index> OverCells<'_, R, I> {
     }
 }
 
-impl<R: Real> Stored<R> {
+impl<R: Real> Residual<R> {
     fn nothing() -> Self {
         let zero = R::ZERO;
-        Self { mean: zero, rest: zero, shed: zero, terms: zero, size: zero }
+        Self { mean: zero, rest: zero, shed: zero, loose: zero, terms: zero, size: zero }
     }
 
     /// Adds a cell with these fluxes out of it, and gives its ‖R̄‖²/k.
@@ -284,7 +288,7 @@ impl<R: Real> Stored<R> {
         out: &[R],
         share: &mut CellTerms<R>,
     ) -> R {
-        let StoredCell { content, spread, skew, shed, .. } = of;
+        let StoredCell { content, spread, skew, shed, loose, .. } = of;
         let of_change = content * change.size;
         share.terms += balance.source * balance.source + of_change * of_change;
         if content == R::ZERO {
@@ -304,6 +308,7 @@ impl<R: Real> Stored<R> {
         self.mean += of_mean;
         self.rest += rest;
         self.shed += shed * rest;
+        self.loose += loose * rest;
         self.terms += terms * terms / content;
         self.size += of_change * change.size;
         of_mean

@@ -3,9 +3,9 @@
 use signorini_certify::admissible::{Admissible, Following};
 use signorini_certify::cell::Cell;
 use signorini_certify::curved::followed;
-use signorini_problem::Problem;
 use signorini_problem::quadrature::gauss;
 use signorini_problem::search::{LocatedPoint, Search};
+use signorini_problem::{Problem, State};
 use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh::refine::refined;
 use signorini_solve::{Options, Solution, SolverKind, solve};
@@ -68,7 +68,7 @@ fn finer(problem: &Problem, levels: u32) -> Result<Problem> {
     }
     let mut finer = Problem::new(&problem.scene, mesh)?;
     finer.set_time(problem.time)?;
-    let [vertices, bubbles] = step.conforming();
+    let State { vertices, bubbles, .. } = &step.begin;
     let tau = vec![0.0; problem.ends.len()];
     let following = Following::default();
     let old = Admissible { vertices, bubbles, tau: &tau, following: &following };
@@ -91,7 +91,8 @@ fn finer(problem: &Problem, levels: u32) -> Result<Problem> {
     let bubbles: Vec<f64> = (0..finer.ends.len()).map(bubble).collect::<Result<_>>()?;
     let means = bubbles.iter().enumerate().map(|(edge, bubble)| chord(edge) + bubble / 1.5);
     let means: Vec<f64> = means.collect();
-    finer.stepping(step.length, &means, [&vertices, &bubbles])
+    let openings = Vec::new();
+    finer.stepping(step.length, State { u: means, vertices, bubbles, openings })
 }
 
 #[cfg(test)]
@@ -136,7 +137,7 @@ mod tests {
         let [_, before, last] = &solutions[..] else { panic!("a start and two steps") };
         let mut step = problem.clone();
         step.set_time(2.0 * dt).unwrap();
-        let step = step.stepping(dt, &before.u, before.certified.conforming()).unwrap();
+        let step = step.stepping(dt, before.state()).unwrap();
         judge(&step, last, 2).unwrap()
     }
 

@@ -1,0 +1,229 @@
+//! The rate λ at which what is stored decays at least, guaranteed.
+//!
+//! ```text
+//!   ‖A^½∇v‖² + ∫_R h v² ≥ λ ‖c^½v‖²    for all v with v = 0 on D
+//! ```
+//! With the least eigenvalue λ_h of the Crouzeix–Raviart matrices (K, M) on triangles,
+//! ```text
+//!   λ = λ_h / (1 + max_T (κ² h² c/α) λ_h),      κ = 0.1893, h the longest side of T
+//! ```
+//! is a lower bound: the means over edges Iv have ∇Iv ⊥ ∇(v − Iv) in cells of constant A, and ‖v − Iv‖ ≤ κh‖∇(v − Iv)‖
+//! (Liu, Applied Mathematics and Computation 267, 2015). Quads are cut in two. Where A varies in a cell its least eigenvalue α stands
+//! for it, and where h varies along an edge its harmonic mean. Contact counts as free. λ_h is rounded down: K − μM with a smaller μ
+//! has a Cholesky factor.
+
+use std::sync::Arc;
+
+use signorini_kernel::Tensor;
+use signorini_kernel::assembly;
+use signorini_kernel::mesh::Mesh as KernelMesh;
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
+use signorini_kernel::stiffness::{Coefficient, Stiffness, fill};
+
+use signorini_certify::cell::Cell;
+use signorini_certify::conductivity::{Conductivity, smallest_eigenvalue};
+use signorini_problem::quadrature::gauss;
+use signorini_problem::{Problem, Sum};
+use signorini_reference::Linear;
+use signorini_scene::error::{Error, Result};
+use signorini_scene::mesh::adapted::adapted;
+use signorini_scene::setting::CellKind;
+
+/// ‖v − Iv‖ ≤ κ h ‖∇(v − Iv)‖ on a triangle.
+const KAPPA: f64 = 0.1893;
+
+/// Rounds of inverse iteration: the guess is proved afterwards.
+const ROUNDS: u32 = 16;
+
+/// By which part the guess is lowered for its proof, at first: more than rounding of matrices and factor.
+const LOWERED: f64 = 1e-6;
+
+/// λ of `problem`, whose materials store something; 0 where neither D nor R holds some part.
+///
+/// # Errors
+/// A mesh that cannot be cut into triangles; data that are not finite.
+pub fn decay_rate(problem: &Problem) -> Result<f64> {
+    let mut least = problem.at_least_transfer()?;
+    if !least.mesh.quads.is_empty() {
+        let mesh = adapted((*least.mesh).clone(), Some(CellKind::Triangles), 0)?;
+        least = Problem::new(&least.scene, Arc::new(mesh))?;
+    }
+    let pencil = Pencil::of(&least)?;
+    let Some(guess) = pencil.guess() else { return Ok(0.0) };
+    let mut lowered = LOWERED;
+    let of_mesh = loop {
+        let least = guess * (1.0 - lowered);
+        if least <= 0.0 || pencil.exceeds(least) {
+            break least.max(0.0);
+        }
+        lowered *= 4.0;
+    };
+    Ok(of_mesh / (1.0 + pencil.coarseness * of_mesh) * (1.0 - LOWERED))
+}
+
+/// K, M and max κ²h²c/α.
+struct Pencil {
+    row_ptr: Vec<u32>,
+    col_idx: Vec<u32>,
+    values: Vec<f64>,
+    /// Diagonal of M.
+    mass: Vec<f64>,
+    coarseness: f64,
+}
+
+impl Pencil {
+    fn of(problem: &Problem) -> Result<Self> {
+        let refused = |error: signorini_kernel::Error| {
+            Error::from(problem.scene.error(&problem.scene.mesh, error))
+        };
+        let mesh = &problem.mesh;
+        let edges = problem.topology.edges().map_err(refused)?;
+        let unknowns = edges.counts().unknowns();
+        let (mut tensors, mut mass, mut coarseness) =
+            (Vec::new(), vec![0.0; edges.counts().edges()], 0.0_f64);
+        for at in 0..problem.cells() {
+            let (tensor, alpha) = tensor_below(problem, at);
+            tensors.push(tensor);
+            let (cell, share) = (Cell::of(problem, at), problem.capacities[at]);
+            let area = 0.5 * cell.local([1.0 / 3.0; 3]).determinant;
+            coarseness =
+                coarseness.max((KAPPA * cell.diameter()).powi(2) * 3.0 * share / (area * alpha));
+            problem.topology.edges_of(at).iter().for_each(|&edge| mass[edge as usize] += share);
+        }
+        mass.truncate(unknowns);
+        let kernel_mesh =
+            KernelMesh::new(&mesh.vertices, &mesh.triangles, &mesh.quads).map_err(refused)?;
+        let (mut triangles, mut quads) = (vec![[0.0; 3]; mesh.triangles.len()], Vec::new());
+        fill(&kernel_mesh, Coefficient::PerCell(&tensors), 1, &mut triangles, &mut quads)
+            .map_err(refused)?;
+        let mut diagonal = vec![0.0; unknowns];
+        for law in &problem.loads.robin {
+            diagonal[law.edge as usize] = transfer(problem, law.edge as usize, law.coefficient);
+        }
+        let (mut row_ptr, mut col_idx) = (vec![0; unknowns + 1], vec![0; edges.nonzeros()]);
+        let mut values = vec![0.0; edges.nonzeros()];
+        assembly::pattern(&edges, &mut row_ptr, &mut col_idx).map_err(refused)?;
+        let stiffness = Stiffness { triangles: &triangles, quads: &quads };
+        let terms = DiagonalTerms::in_step(&diagonal);
+        assembly::values(&edges, stiffness, terms, &row_ptr, &mut values).map_err(refused)?;
+        Ok(Self { row_ptr, col_idx, values, mass, coarseness }.without_columns_from(unknowns))
+    }
+
+    /// The same with unknowns alone for columns.
+    fn without_columns_from(self, unknowns: usize) -> Self {
+        let Self { row_ptr, col_idx, values, mass, coarseness } = self;
+        let mut kept =
+            Self { row_ptr: vec![0], col_idx: Vec::new(), values: Vec::new(), mass, coarseness };
+        for row in row_ptr.windows(2) {
+            for at in row[0] as usize..row[1] as usize {
+                if (col_idx[at] as usize) < unknowns {
+                    kept.col_idx.push(col_idx[at]);
+                    kept.values.push(values[at]);
+                }
+            }
+            kept.row_ptr.push(kept.col_idx.len() as u32);
+        }
+        kept
+    }
+
+    /// (K − μM)⁻¹ applied to `load`; nothing where K − μM is not proved to be positive definite.
+    fn solve(&self, mu: f64, load: &[f64]) -> Option<Vec<f64>> {
+        let mut values = self.values.clone();
+        // The diagonal comes first in every row.
+        for (&start, mass) in self.row_ptr.iter().zip(&self.mass) {
+            values[start as usize] -= mu * mass;
+        }
+        let (row_ptr, col_idx) = (&self.row_ptr, &self.col_idx);
+        Linear { row_ptr, col_idx, values: &values }.solve(load).ok()
+    }
+
+    /// λ_h nearly, by inverse iteration; nothing where K is singular.
+    fn guess(&self) -> Option<f64> {
+        let mut v: Vec<f64> =
+            (0..self.mass.len()).map(|at| 1.0 + 0.1 * (at as f64).sin()).collect();
+        let mut least = f64::INFINITY;
+        for _ in 0..ROUNDS {
+            let load: Vec<f64> = v.iter().zip(&self.mass).map(|(v, mass)| v * mass).collect();
+            let next = self.solve(0.0, &load)?;
+            let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            // xᵀKx/xᵀMx with x = K⁻¹Mv.
+            let weighed: Vec<f64> = next.iter().zip(&self.mass).map(|(x, mass)| x * mass).collect();
+            let size = dot(&next, &weighed);
+            least = dot(&next, &load) / size;
+            v = next.into_iter().map(|x| x / size.sqrt()).collect();
+        }
+        least.is_finite().then_some(least)
+    }
+
+    /// Whether λ_h > μ.
+    fn exceeds(&self, mu: f64) -> bool {
+        self.solve(mu, &vec![1.0; self.mass.len()]).is_some()
+    }
+}
+
+/// A of a cell where it is constant, else its least eigenvalue there; and that.
+fn tensor_below(problem: &Problem, at: usize) -> (Tensor<f64>, f64) {
+    let floors = Conductivity::of(problem, at).floors();
+    let alpha = floors.iter().map(smallest_eigenvalue).fold(f64::INFINITY, f64::min);
+    match &floors[..] {
+        [tensor] => (*tensor, alpha),
+        _ => (Tensor { xx: alpha, xy: 0.0, yy: alpha }, alpha),
+    }
+}
+
+/// |E| times the harmonic mean of h, at most ∫h = `coefficient`.
+fn transfer(problem: &Problem, edge: usize, coefficient: f64) -> f64 {
+    let h = Sum::transfer(problem, edge, problem.time);
+    let Some(h) = h.filter(|h| h.constant().is_none()) else { return coefficient };
+    let inverse: f64 = gauss(16)
+        .iter()
+        .map(|&[t, weight]| {
+            let [x, y] = problem.along(edge, t);
+            weight / h.at(x, y)
+        })
+        .sum();
+    if inverse > 0.0 { coefficient.min(problem.lengths[edge] / inverse) } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+    use std::path::Path;
+
+    use signorini_scene::mesh::structured::{Cells, grid};
+    use signorini_scene::scene::Scene;
+
+    use super::*;
+
+    fn rate(n: u32, cells: Cells, outside: &str) -> f64 {
+        let text = format!(
+            "mesh = \"grid\"\n[material.default]\nconductivity = 2\ncapacity = 4\n[boundary.contact]\nkind = \"contact\"\n\
+             [boundary.dirichlet]\n{outside}\n"
+        );
+        let scene = Scene::parse(&text, Path::new("decay.toml")).unwrap();
+        decay_rate(&Problem::new(&scene, grid(n, cells)).unwrap()).unwrap()
+    }
+
+    /// On (−1, 1) × (0, 1) with D on three sides λ = (A/c)(π²/4 + π²/4).
+    #[test]
+    fn it_is_below_the_exact_rate_and_near_it() {
+        let exact = 0.25 * PI * PI;
+        for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
+            let found = [4, 8, 16].map(|n| rate(n, cells, "kind = \"dirichlet\"\nvalue = 0"));
+            assert!(found.iter().all(|&found| found < exact), "{found:?}");
+            assert!(
+                found[0] > 0.95 * exact && found[2] > 0.996 * exact,
+                "{cells:?}: {found:?} {exact}"
+            );
+        }
+    }
+
+    /// tan μ = κ/μ on an interval with Robin ends, and nothing where contact alone holds.
+    #[test]
+    fn transfer_laws_hold_and_contact_does_not() {
+        let robin = rate(8, Cells::Triangles, "kind = \"robin\"\ncoefficient = 0.2\nambient = 0");
+        // For a small h nearly the mean of h over what is stored: 0.2 · 4/(4 · 2).
+        assert!(robin < 0.1 && robin > 0.093, "{robin}");
+        assert_eq!(rate(4, Cells::Mixed, "kind = \"neumann\"\nflux = 0"), 0.0);
+    }
+}
