@@ -8,7 +8,7 @@ use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
 use signorini_session::with_session;
 use signorini_solve::norms::errors;
-use signorini_tolerances::twins::FLUX_CONTINUITY;
+use signorini_tolerances::twins::STORED;
 
 /// An exact solution u of c = A = 1 with u ≥ 0 and a flux ≥ 0 on y = 0, and its source.
 struct Exact {
@@ -102,7 +102,7 @@ fn every_cell_is_in_balance() {
                 let solution = session.answer(&problem)?;
                 let stored: f64 = problem.stored(0, &solution.u).iter().sum();
                 let defect = solution.conservation_defect(&problem) * solution.largest_flux();
-                FLUX_CONTINUITY.check("balance", defect / stored.abs().max(1.0));
+                STORED.check("balance", defect / stored.abs().max(1.0));
                 problem.advance(solution.state());
             }
             Ok(())

@@ -5,6 +5,8 @@ table! {
         "measured in f64 on 64 × 128 cells, the rounding of the solve";
     CONSERVATION: "sum of an element's fluxes plus its source, over the terms they are sums of", 7e-15,
         "holds for any u, so only the rounding of one element enters";
+    STORED: "fluxes out of a cell in a step of time less what it stores, over what it stores or 1", 1e-12,
+        "means of the fluxes from both sides of an edge: as good as the solve";
     BOUNDARY_FLUX: "mean flux on Neumann and Robin edges, over the terms it is the sum of", 1e-14,
         "measured in f64 on 64 × 128 cells";
     CONTACT_SIGN: "violation of u ≥ ψ, σ·n ≥ q or of their product, over the largest values", 1e-12,
