@@ -30,6 +30,8 @@ pub struct Apart {
     /// (‖A^½∇(s′ − s)‖² + ‖A^{−½}(τ′ − τ)‖² + ∫_R h(s′ − s)² + ∫_R ((τ′ − τ)·n)²/h)^½, and in a step of time ∫k(s′ − s)² under
     /// the root
     pub combined: f64,
+    /// ‖A^½∇(s′ − s)‖
+    pub of_s: f64,
     /// ‖A^½∇_h(s′ − u_h)‖
     pub of_u: f64,
     /// ‖A^½∇s′‖
@@ -94,8 +96,9 @@ pub fn apart(
     for edge in 0..fine.problem.kinds.len() {
         squares.combined += study.robin(edge)?;
     }
-    let Apart { combined, of_u, energy } = squares;
-    Ok(Apart { combined: combined.sqrt(), of_u: of_u.sqrt(), energy: energy.sqrt() })
+    let Apart { combined, of_s, of_u, energy } = squares;
+    let [combined, of_s, of_u, energy] = [combined, of_s, of_u, energy].map(f64::sqrt);
+    Ok(Apart { combined, of_s, of_u, energy })
 }
 
 impl<'a> Part<'a> {
@@ -187,6 +190,7 @@ impl NestedPair<'_> {
             let of_tau = product(&inverse(&a), flux_error, flux_error);
             let stored = of_own.value - of_parent.value;
             squares.combined += point.weight * (of_s + of_tau + k * stored * stored);
+            squares.of_s += point.weight * of_s;
             squares.of_u += point.weight * product(&a, broken, broken);
             squares.energy += point.weight * product(&a, s, s);
         }
