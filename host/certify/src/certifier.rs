@@ -2,7 +2,7 @@
 
 use signorini_bound::averages;
 use signorini_bound::certificate::{
-    self, Buffers, Certificate, Discretization, Kept, Verdict, certify_step,
+    self, Certificate, Discretization, Kept, Verdict, certify_step,
 };
 use signorini_bound::conforming;
 use signorini_bound::equilibrium::Iterate;
@@ -11,6 +11,7 @@ use signorini_kernel::mesh::components::Support;
 
 use super::admissible::{Admissible, Following};
 use super::data::Data;
+use super::fields::Fields;
 use super::forest::EquilibrationForest;
 use super::metric::Metric;
 use super::no_bound::NoBound;
@@ -33,34 +34,6 @@ pub struct Certifier<R: Scalar> {
     fields: Fields<R>,
     /// Why the last iterate has no bound, apart from its data.
     refusal: Option<NoBound>,
-}
-
-/// Memory of a certificate: s at the vertices and its bubbles, τ, and each cell's part.
-#[derive(Debug, Clone)]
-struct Fields<R> {
-    vertices: Vec<R>,
-    bubbles: Vec<R>,
-    tau: Vec<R>,
-    indicators: Vec<R>,
-}
-
-impl<R: Scalar> Fields<R> {
-    fn new(problem: &Problem) -> Self {
-        let zeros = |length| vec![R::ZERO; length];
-        let edges = problem.topology.counts.edges();
-        let (vertices, cells) = (problem.mesh.vertices.len(), problem.cells());
-        Self {
-            vertices: zeros(vertices),
-            bubbles: zeros(edges),
-            tau: zeros(edges),
-            indicators: zeros(cells),
-        }
-    }
-
-    fn buffers(&mut self) -> Buffers<'_, R> {
-        let Self { vertices, bubbles, tau, indicators } = self;
-        Buffers { vertices, bubbles, tau, indicators }
-    }
 }
 
 /// The admissible pair of a certificate, in f64.

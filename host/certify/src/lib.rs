@@ -26,6 +26,7 @@ pub mod ends;
 pub mod energy;
 pub mod exact;
 pub mod factor;
+mod fields;
 pub mod forest;
 mod imbalance;
 mod legendre;

@@ -48,6 +48,7 @@ mod parts;
 mod quad;
 mod stability;
 mod step;
+mod stored;
 mod transfer;
 mod triangle;
 mod walk;
