@@ -60,6 +60,8 @@ fn by_hand(problem: &Problem, amount: f64) -> Result<CertifiedFields> {
         tau,
         following: Following::WhereNeeded,
         indicators: Vec::new(),
+        openings: Vec::new(),
+        evolution: Vec::new(),
     })
 }
 

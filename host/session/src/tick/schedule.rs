@@ -21,6 +21,11 @@ pub fn moments(scene: &Scene, count: Option<u32>) -> Result<Vec<ScheduledTick>> 
     let first = u32::from(scene.stores());
     let count = match (count, end) {
         (Some(count), _) => count,
+        (None, Some(end)) if end < step => {
+            let message = format!("time.end: {end} comes before the end of the first step, {step}");
+            let error = InputError::new(message).file(&scene.path);
+            return Err(error.hint("take a shorter --step, or give --ticks N").into());
+        }
         (None, Some(end)) => up_to_end(scene, [step, end])? - first,
         (None, None) => {
             let hint = "add [time] with step and end to the scene, or give --ticks N or --log FILE";
@@ -53,6 +58,23 @@ fn time_of(tick: u32, step: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Steps in time end at their moments, so that the start is none; an end before the first step is no schedule.
+    #[test]
+    fn steps_in_time_begin_after_the_start() {
+        let of = |capacity: f64, step: f64| {
+            let text = format!(
+                "mesh = \"m\"\n[material.default]\nconductivity = 1\ncapacity = {capacity}\n\
+                 [boundary.default]\nkind = \"contact\"\n[time]\nstep = 0.5\nend = 1\n"
+            );
+            let mut scene = Scene::parse(&text, std::path::Path::new("s.toml")).unwrap();
+            scene.time.as_mut().unwrap().step = step;
+            moments(&scene, None).map(|all| all.iter().map(|of| of.time).collect::<Vec<_>>())
+        };
+        assert_eq!(of(0.0, 0.5).unwrap(), [0.0, 0.5, 1.0]);
+        assert_eq!(of(2.0, 0.5).unwrap(), [0.5, 1.0]);
+        assert!(of(2.0, 3.0).unwrap_err().to_string().contains("time.end: 1 comes before"));
+    }
 
     #[test]
     fn times_are_as_one_would_write_them() {

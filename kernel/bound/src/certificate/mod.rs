@@ -49,6 +49,7 @@ mod parts;
 mod quad;
 mod stability;
 mod step;
+mod stored;
 mod transfer;
 mod triangle;
 mod walk;
@@ -59,7 +60,8 @@ pub use metric::{Metric, POINTS, of_quad, of_triangle};
 pub use pair::Pair;
 pub use signorini_kernel::verdict::{Certificate, Verdict};
 pub use stability::stability;
-pub use step::{Kept, Residual, Step, StoredCell, certify_step};
+pub use step::{Kept, Step, StoredCell, certify_step};
+pub use stored::Residual;
 pub use transfer::TransferForms;
 
 use crate::averages;

@@ -17,6 +17,7 @@
 
 use super::change::{Change, minus, of_quad, of_triangle};
 use super::parts::{CellTerms, Parts};
+use super::stored::{Balance, Residual};
 use super::walk::{share_of_quad, share_of_triangle};
 use super::{
     Buffers, Continuous, Discretization, LoadCase, Verdict, admissible, boundary, quad, triangle,
@@ -68,23 +69,6 @@ pub enum Kept {
     All,
     /// It keeps its part ([`StoredCell::keep`]), and hands the rest on.
     Part,
-}
-
-/// What is left of R = f − k(s − s_old) + ∇·τ over the cells.
-#[derive(Debug, Clone, Copy)]
-pub struct Residual<R> {
-    /// Σ‖R̄‖²/k
-    pub mean: R,
-    /// Σ‖R′‖²/k, without what f varies by.
-    pub rest: R,
-    /// Σ‖R′‖²/(k + π²α/h²), without what f varies by.
-    pub shed: R,
-    /// Σ‖R′‖²/(π²α/h²), without what f varies by.
-    pub loose: R,
-    /// Σ(terms of R̄|T|)²/(k|T|), infinite where a cell stores nothing.
-    terms: R,
-    /// Σ k|T| s²
-    size: R,
 }
 
 /// Bounds the error of an iterate of `step`, and says what is left of its equation.
@@ -162,16 +146,6 @@ fn add_stored<R: Real, I: Index>(cells: &Cells<R, I>, storage: Storage<R>, u: &[
         let flux = cell.turned(stored.map(|flux| flux * cell.softness));
         cell.edges.iter().zip(flux).for_each(|(&edge, flux)| add(edge, flux));
     }
-}
-
-/// What a cell is to give up by its sides, and what it does.
-struct Balance<R> {
-    /// ∫f
-    source: R,
-    /// ∫f − k∫(s − s_old): with this for its load R̄ is 0.
-    wanted: R,
-    /// The load that τ balances.
-    load: R,
 }
 
 struct OverCells<'a, R, I> {
@@ -271,46 +245,5 @@ impl<R: Real, I: Index> OverCells<'_, R, I> {
         }
         let load = if content > R::ZERO { wanted + keep * lacking } else { wanted };
         Some((Balance { source, wanted, load }, cell.settle(load, tau)?))
-    }
-}
-
-impl<R: Real> Residual<R> {
-    fn nothing() -> Self {
-        let zero = R::ZERO;
-        Self { mean: zero, rest: zero, shed: zero, loose: zero, terms: zero, size: zero }
-    }
-
-    /// Adds a cell with these fluxes out of it, and gives its ‖R̄‖²/k.
-    fn add(
-        &mut self,
-        of: StoredCell<R>,
-        (balance, change): (&Balance<R>, &Change<R>),
-        out: &[R],
-        share: &mut CellTerms<R>,
-    ) -> R {
-        let StoredCell { content, spread, skew, shed, loose, .. } = of;
-        let of_change = content * change.size;
-        share.terms += balance.source * balance.source + of_change * of_change;
-        if content == R::ZERO {
-            self.terms = R::INFINITY;
-            return R::ZERO;
-        }
-        let lacking = balance.wanted - balance.load;
-        // ∇·τ goes with the inverse of the area element, and what s changes does not.
-        let of_mean = lacking * lacking / content * (R::ONE + skew);
-        let apart = (spread * change.variance).rounded_sqrt();
-        let apart = apart + change.mean.magnitude() * skew.rounded_sqrt();
-        let rest = content * apart * apart;
-        // Both are orthogonal but for what the area element makes of R̄.
-        let of_mean = of_mean + R::TWO * (lacking * lacking / content * skew * rest).rounded_sqrt();
-        let terms = balance.source.magnitude() + of_change;
-        let terms = out.iter().fold(terms, |sum, flux| sum + flux.magnitude());
-        self.mean += of_mean;
-        self.rest += rest;
-        self.shed += shed * rest;
-        self.loose += loose * rest;
-        self.terms += terms * terms / content;
-        self.size += of_change * change.size;
-        of_mean
     }
 }
