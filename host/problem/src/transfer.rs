@@ -16,16 +16,20 @@
 
 use signorini_kernel::Real;
 
-use super::lowest::Ranged;
+use super::lowest::{Ranged, lowest};
 use super::{EdgeKind, Problem, Sum};
 use crate::quadrature::{DATA_POINTS, mean_on_edge};
 use signorini_scene::error::Result;
 use signorini_scene::expression::Expression;
+use signorini_scene::expression::enclosure::Interval;
 use signorini_scene::scene::term::Term;
 use signorini_scene::scene::{Boundary, Field, Input, Located};
 
 /// The part of its terms below which a coefficient is 0. In f32 the rounding of three terms is less than this.
 const CANCELLED: f64 = 1e-6;
+
+/// Part of a least coefficient up to which it is known.
+const NEAR: f64 = 1e-3;
 
 /// Refuses a coefficient that is negative with the inputs as they are.
 ///
@@ -110,6 +114,23 @@ impl Problem {
             }
         }
         Ok(least)
+    }
+
+    /// A lower bound of h along a transfer edge, whatever inputs are in their ranges.
+    pub fn least_transfer(&self, edge: usize) -> f64 {
+        let Some(boundary) = self.transfers_at(edge) else { return 0.0 };
+        let Some(base) = boundary.condition.transfer() else { return 0.0 };
+        let alone = |of| Sum::alone(&self.scene, of, self.time);
+        let moved =
+            inputs(self, boundary).map(|input| Ranged::of(alone(&input.pattern), input.interval()));
+        let terms: Vec<_> = [Ranged::of(alone(base), [1.0; 2])].into_iter().chain(moved).collect();
+        let least = lowest(
+            self.segment(edge),
+            |at| terms.iter().map(|of| of.least(Interval::point(of.at(at)))).sum(),
+            |part| terms.iter().map(|of| of.least(of.within(part))).sum(),
+            |value, bound| value - bound <= NEAR * value.abs(),
+        );
+        least.bound.max(0.0)
     }
 
     /// The first input that can take all transfer from an edge.

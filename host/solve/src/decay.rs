@@ -9,7 +9,7 @@
 //! ```
 //! is a lower bound: the means over edges Iv have ∇Iv ⊥ ∇(v − Iv) in cells of constant A, and ‖v − Iv‖ ≤ κh‖∇(v − Iv)‖
 //! (Liu, Applied Mathematics and Computation 267, 2015). Quads are cut in two. Where A varies in a cell its least eigenvalue α stands
-//! for it, and where h varies along an edge its harmonic mean. Contact counts as free. λ_h is rounded down: K − μM with a smaller μ
+//! for it, and h stands for its least value along an edge, whatever inputs are in their ranges. Contact counts as free. λ_h is rounded down: K − μM with a smaller μ
 //! has a Cholesky factor.
 
 use std::sync::Arc;
@@ -22,8 +22,7 @@ use signorini_kernel::stiffness::{Coefficient, Stiffness, fill};
 
 use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::{Conductivity, smallest_eigenvalue};
-use signorini_problem::quadrature::gauss;
-use signorini_problem::{Problem, Sum};
+use signorini_problem::Problem;
 use signorini_reference::Linear;
 use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh::adapted::adapted;
@@ -43,12 +42,13 @@ const LOWERED: f64 = 1e-6;
 /// # Errors
 /// A mesh that cannot be cut into triangles; data that are not finite.
 pub fn decay_rate(problem: &Problem) -> Result<f64> {
-    let mut least = problem.at_least_transfer()?;
-    if !least.mesh.quads.is_empty() {
-        let mesh = adapted((*least.mesh).clone(), Some(CellKind::Triangles), 0)?;
-        least = Problem::new(&least.scene, Arc::new(mesh))?;
-    }
-    let pencil = Pencil::of(&least)?;
+    let pencil = match problem.mesh.quads.is_empty() {
+        true => Pencil::of(problem)?,
+        false => {
+            let mesh = adapted((*problem.mesh).clone(), Some(CellKind::Triangles), 0)?;
+            Pencil::of(&Problem::new(&problem.scene, Arc::new(mesh))?)?
+        }
+    };
     let Some(guess) = pencil.guess() else { return Ok(0.0) };
     let mut lowered = LOWERED;
     let of_mesh = loop {
@@ -98,7 +98,8 @@ impl Pencil {
             .map_err(refused)?;
         let mut diagonal = vec![0.0; unknowns];
         for law in &problem.loads.robin {
-            diagonal[law.edge as usize] = transfer(problem, law.edge as usize, law.coefficient);
+            let edge = law.edge as usize;
+            diagonal[edge] = problem.lengths[edge] * problem.least_transfer(edge);
         }
         let (mut row_ptr, mut col_idx) = (vec![0; unknowns + 1], vec![0; edges.nonzeros()]);
         let mut values = vec![0.0; edges.nonzeros()];
@@ -169,20 +170,6 @@ fn tensor_below(problem: &Problem, at: usize) -> (Tensor<f64>, f64) {
         [tensor] => (*tensor, alpha),
         _ => (Tensor { xx: alpha, xy: 0.0, yy: alpha }, alpha),
     }
-}
-
-/// |E| times the harmonic mean of h, at most ∫h = `coefficient`.
-fn transfer(problem: &Problem, edge: usize, coefficient: f64) -> f64 {
-    let h = Sum::transfer(problem, edge, problem.time);
-    let Some(h) = h.filter(|h| h.constant().is_none()) else { return coefficient };
-    let inverse: f64 = gauss(16)
-        .iter()
-        .map(|&[t, weight]| {
-            let [x, y] = problem.along(edge, t);
-            weight / h.at(x, y)
-        })
-        .sum();
-    if inverse > 0.0 { coefficient.min(problem.lengths[edge] / inverse) } else { 0.0 }
 }
 
 #[cfg(test)]

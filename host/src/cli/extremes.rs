@@ -9,6 +9,7 @@ use signorini_draw::extremes_page;
 use signorini_files::atomic::{writable, write_atomically};
 use signorini_lab::extremes::judge::Outcome;
 use signorini_lab::extremes::kept::Kept;
+use signorini_lab::extremes::random::in_time;
 use signorini_lab::extremes::random::record::Record;
 use signorini_lab::extremes::section::section;
 use signorini_lab::extremes::{cases, random, run, text};
@@ -21,6 +22,7 @@ Examples:
   signorini extremes --only contrast --out /tmp/contrast
   signorini extremes --random 20000 --seed 18            whole scenes; random.json
   signorini extremes --random 1 --seed 18 --case 7       one of them, with its files
+  signorini extremes --random 2000 --seed 5 --in-time    scenes over time; trajectories.json
 
 Scenes with exact solutions are posed at every scale, read, solved with the default options in f64 and f32, and \
 judged at scale 1: correct, certified-poor, typed-error or wrong, as extremes.json defines them. Leaves \
@@ -32,6 +34,10 @@ Odd ones have a feature that fixed rules miss, such as a narrow source or a step
 Each is measured against its exact solution or a finer solve that counts with its own bound. Leaves random.json (counts, \
 the largest ratios, all that is broken), random.csv (a line a case) and the scene and mesh of every case that breaks a \
 promise. 20 000 cases take about three hours; this too goes on where it was interrupted.
+
+With --in-time these scenes store u, and logs drive them: each is played again on a mesh twice finer with a quarter of the \
+step, which judges the bound over time at every tick, and the bound of the last step. Leaves trajectories.json and \
+trajectories.csv.
 
 Exit status 0 where nothing is worse than certified-poor or refused with a typed error, else 1.";
 
@@ -51,6 +57,9 @@ pub struct Arguments {
     /// This random scene alone, counted from 0
     #[arg(long, value_name = "K", requires = "random")]
     case: Option<u32>,
+    /// Scenes that store u instead, played by logs: their bounds of steps and over time
+    #[arg(long, requires = "random")]
+    in_time: bool,
     /// Where the files go
     #[arg(long, value_name = "DIR", default_value = "out/extremes")]
     out: PathBuf,
@@ -97,6 +106,21 @@ impl Arguments {
         let cases = self.case.map_or(0..=count - 1, |case| case..=case);
         let bar = steps(cases.clone().count());
         let kept = Kept::open(out)?;
+        if self.in_time {
+            let rows = in_time::run(seed, cases, &kept, || bar.inc(1));
+            bar.finish_and_clear();
+            let rows = rows?;
+            let record = in_time::Record::new(seed, &rows);
+            write_atomically(&out.join("trajectories.json"), record.json().as_bytes())?;
+            write_atomically(&out.join("trajectories.csv"), &in_time::csv(&rows)?)?;
+            for case in record.violations.keys().copied().chain(self.case) {
+                in_time::write(seed, case, &out.join(format!("trajectory-{case}")))?;
+            }
+            kept.close()?;
+            say(record.text());
+            say(format_args!("written to {}", out.display()));
+            return Ok(u8::from(!record.violations.is_empty()));
+        }
         let rows = random::run(seed, cases, &kept, || bar.inc(1));
         bar.finish_and_clear();
         let rows = rows?;

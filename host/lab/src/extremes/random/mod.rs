@@ -12,6 +12,7 @@ mod cut;
 mod data;
 pub mod feature;
 mod function;
+pub mod in_time;
 mod made;
 mod measure;
 mod mesh;
@@ -25,7 +26,9 @@ mod spot;
 pub mod step;
 #[cfg(test)]
 mod tests;
+pub mod trajectory;
 mod verdict;
+pub mod window;
 
 use std::ops::RangeInclusive;
 use std::path::Path;

@@ -32,6 +32,8 @@ pub struct Apart {
     pub combined: f64,
     /// ‖A^½∇(s′ − s)‖
     pub of_s: f64,
+    /// (‖A^½∇(s′ − s)‖² + ∫_R h(s′ − s)²)^½
+    pub with_robin: f64,
     /// ‖A^½∇_h(s′ − u_h)‖
     pub of_u: f64,
     /// ‖A^½∇s′‖
@@ -94,11 +96,15 @@ pub fn apart(
         last = Some((parent, of_parent));
     }
     for edge in 0..fine.problem.kinds.len() {
-        squares.combined += study.robin(edge)?;
+        let [of_s, of_tau] = study.robin(edge)?;
+        squares.with_robin += of_s;
+        squares.combined += of_s + of_tau;
     }
-    let Apart { combined, of_s, of_u, energy } = squares;
-    let [combined, of_s, of_u, energy] = [combined, of_s, of_u, energy].map(f64::sqrt);
-    Ok(Apart { combined, of_s, of_u, energy })
+    squares.with_robin += squares.of_s;
+    let Apart { combined, of_s, with_robin, of_u, energy } = squares;
+    let [combined, of_s, with_robin, of_u, energy] =
+        [combined, of_s, with_robin, of_u, energy].map(f64::sqrt);
+    Ok(Apart { combined, of_s, with_robin, of_u, energy })
 }
 
 impl<'a> Part<'a> {
@@ -197,10 +203,12 @@ impl NestedPair<'_> {
         Ok(())
     }
 
-    /// ∫[h(s′ − s)² + ((τ′ − τ)·n)²/h] over an edge of R, 0 on others.
-    fn robin(&self, edge: usize) -> Result<f64> {
+    /// ∫h(s′ − s)² and ∫((τ′ − τ)·n)²/h over an edge of R, 0 on others.
+    fn robin(&self, edge: usize) -> Result<[f64; 2]> {
         let (fine, coarse) = (self.fine.side, self.coarse.side);
-        let Some(h) = Sum::transfer(fine.problem, edge, fine.problem.time) else { return Ok(0.0) };
+        let Some(h) = Sum::transfer(fine.problem, edge, fine.problem.time) else {
+            return Ok([0.0; 2]);
+        };
         let (at, side) = fine.problem.topology.first_side(edge);
         let parent = self.parent(at);
         let (own, of_parent) = (self.fine.on_cell(at), self.coarse.on_cell(parent));
@@ -211,16 +219,18 @@ impl NestedPair<'_> {
         };
         let flux = density(fine, edge) - density(coarse, whole);
         let [a, b] = fine.problem.segment(edge);
-        let mut sum = 0.0;
+        let mut sums = [0.0; 2];
         for [t, weight] in gauss(8) {
             let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
             let reference = own.cell.side_point(side, t, 0.0);
             let there = self.in_parent(at, &own, &of_parent, reference)?;
             let error = own.s(reference)?.value - of_parent.s(there)?.value;
             let h = h.finite(h.at(x, y), [x, y])?;
-            sum += weight * fine.problem.lengths[edge] * on_robin(h, error, flux);
+            let weight = weight * fine.problem.lengths[edge];
+            sums[0] += weight * on_robin(h, error, 0.0);
+            sums[1] += weight * on_robin(h, 0.0, flux);
         }
-        Ok(sum)
+        Ok(sums)
     }
 }
 

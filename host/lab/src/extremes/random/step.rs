@@ -105,6 +105,10 @@ mod tests {
     use signorini_session::tick::{Budget, ScheduledTick, play};
     use signorini_solve::ScalarKind;
 
+    use super::super::mesh::Kind;
+    use super::super::posed::Hold;
+    use super::super::trajectory::Trajectory;
+    use super::super::window::judged as judged_over_time;
     use super::*;
 
     fn scene(dt: f64, material: &str, contact: &str, dirichlet: &str) -> Scene {
@@ -204,70 +208,29 @@ mod tests {
 
     /// The bound over time, over the same mean of what a mesh twice finer with a quarter of the step finds: at every tick.
     fn windows(cells: Cells, dt: f64, ticks: u32, sweeps: Option<u32>) -> Vec<f64> {
-        let n = 6;
-        let held = |step: f64| {
-            let text = format!(
-                "mesh = \"grid\"\n[material.default]\n{PLAIN}\n[source]\nf = \"10*sign(sin(0.7*t/{dt}))\"\n\
-                 [boundary.dirichlet]\n{HELD}\n[boundary.contact]\nkind = \"contact\"\n[time]\nstep = {step}\ninitial = 0\n"
-            );
-            Scene::parse(&text, Path::new("window.toml")).unwrap()
+        let text = format!(
+            "mesh = \"grid\"\n[material.default]\n{PLAIN}\n[source]\nf = 0\n[boundary.dirichlet]\n{HELD}\n\
+             [boundary.contact]\nkind = \"contact\"\n[input.f]\nof = \"source\"\nfield = \"f\"\npattern = 10\ndefault = 0\n"
+        );
+        let of_tick = |tick: u32| vec![(0.7 * f64::from(tick)).sin().signum()];
+        let trajectory = Trajectory {
+            hold: Hold::Dirichlet,
+            kind: Kind::Both,
+            scalar: ScalarKind::F64,
+            sweeps,
+            text,
+            step: dt,
+            initial: Some("0".to_owned()),
+            mesh: grid(6, cells),
+            log: (1..=ticks).map(of_tick).collect(),
+            on_line: vec![false],
         };
-        let played = |scene: &Scene, mesh: Mesh, parts: u32, sweeps: Option<u32>| {
-            let problem = Problem::new(scene, mesh).unwrap();
-            let own = Budget::of(scene);
-            let sweeps = sweeps.unwrap_or(own.sweeps);
-            let budget = Budget { sweeps, intervals: false, ..own };
-            // Data are held at their value at the end of the coarse tick.
-            let moments = (1..=ticks).flat_map(|tick| (0..parts).map(move |_| tick));
-            let moments: Vec<_> = moments
-                .map(|tick| ScheduledTick { time: f64::from(tick) * dt, inputs: Vec::new() })
-                .collect();
-            let mut solutions = Vec::new();
-            let records = play(&problem, None, &moments, &budget, |_, solution| {
-                solutions.extend(solution.cloned());
-                Ok(())
-            });
-            (problem, solutions, records.unwrap())
-        };
-        let mesh = grid(n, cells);
-        let (coarse, answers, records) = played(&held(dt), mesh.clone(), 1, sweeps);
-        let (fine, truths, finer) = played(&held(0.25 * dt), refined(&mesh).unwrap(), 4, None);
-        let nesting = Nesting { levels: 1, cut: None };
-        // G² at the ends of fine steps.
-        let square = |at: usize| {
-            let (tick, part) = (at / 4, 0.25 * (at % 4) as f64);
-            let [from, to] = [tick, (tick + 1).min(answers.len() - 1)].map(|at| &answers[at]);
-            let mix = |a: &[f64], b: &[f64]| -> Vec<f64> {
-                a.iter().zip(b).map(|(a, b)| (1.0 - part) * a + part * b).collect()
-            };
-            let [a, b] = [&from.certified, &to.certified];
-            let (vertices, bubbles) = (mix(&a.vertices, &b.vertices), mix(&a.bubbles, &b.bubbles));
-            let admissible = Admissible {
-                vertices: &vertices,
-                bubbles: &bubbles,
-                tau: &a.tau,
-                following: &a.following,
-            };
-            let own = MeshSolution { problem: &coarse, admissible, u: &from.u };
-            let of_s = apart(&own, &side(&fine, &truths[at]), &nesting, &gauss(3)).unwrap().of_s;
-            of_s * of_s
-        };
-        let squares: Vec<f64> = (0..truths.len()).map(square).collect();
-        let seconds = records[1].window.unwrap()[1];
-        let (mut integral, mut weights, mut ratios) = (0.0, 0.0, Vec::new());
-        let fading = (-0.25 * dt / seconds).exp();
-        for at in 1..squares.len() {
-            integral = fading * integral + 0.125 * dt * (fading * squares[at - 1] + squares[at]);
-            weights = fading * weights + 0.125 * dt * (fading + 1.0);
-            if at % 4 == 0 {
-                let truth = (integral / weights).sqrt();
-                let [own, _] = records[at / 4].window.unwrap();
-                let [its, _] = finer[at].window.unwrap();
-                assert!(truth - its <= own, "tick {}: {truth} {its} {own}", at / 4);
-                ratios.push(own / truth);
-            }
+        let found = judged_over_time(&trajectory).unwrap().windows;
+        assert_eq!(found.len(), ticks as usize);
+        for window in &found {
+            assert!(window.least_over_bound() <= 1.0, "{window:?}");
         }
-        ratios
+        found.iter().map(|of| of.window / of.apart).collect()
     }
 
     #[test]

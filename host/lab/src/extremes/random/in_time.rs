@@ -1,0 +1,231 @@
+//! `signorini extremes --random N --in-time`: scenes that store u, driven by logs, each judged by a finer play of the same data.
+
+use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
+use std::path::Path;
+use std::time::Duration;
+
+use serde::{Deserialize, Serialize};
+
+use super::mesh::Kind;
+use super::posed::Hold;
+use super::trajectory::Trajectory;
+use super::window::{JudgedTrajectory, JudgedWindow, judged};
+use crate::extremes::judge::INTEGRATED;
+use crate::extremes::kept::Kept;
+use crate::extremes::watch::watched;
+use crate::record_file;
+use signorini_files::atomic::write_atomically;
+use signorini_problem::threads::on_two_threads;
+use signorini_scene::error::{Error, Result};
+use signorini_scene::mesh::gmsh::write as msh;
+use signorini_solve::ScalarKind;
+
+/// A trajectory without an answer by then hangs.
+const LIMIT: Duration = Duration::from_secs(1800);
+
+/// A line of `trajectories.csv`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Row {
+    /// Its number.
+    pub case: u32,
+    /// The condition that holds it.
+    pub hold: Hold,
+    /// Its cells.
+    pub cells: Kind,
+    /// Its scalar.
+    pub scalar: ScalarKind,
+    /// Whether it starts from a steady state.
+    pub was_steady: bool,
+    /// A limit on the sweeps of each step.
+    pub limit: Option<u32>,
+    /// λ dt
+    pub rate: Option<f64>,
+    /// Ticks whose bound over time was judged.
+    pub ticks: usize,
+    /// The largest part of a bound over time that the finer answer proves to be error.
+    pub error_over_window: Option<f64>,
+    /// The bound over time over the error, at its largest of all ticks and at the last one.
+    pub window_over_error: Option<f64>,
+    /// See `window_over_error`.
+    pub at_last: Option<f64>,
+    /// The part of the last step's bound that the finer answer proves to be error.
+    pub error_over_step: Option<f64>,
+    /// The bound of the last step over its error.
+    pub step_over_error: Option<f64>,
+    /// Why the last tick has no bound, or what went wrong.
+    pub note: String,
+    /// What is broken.
+    pub broken: String,
+}
+
+/// The findings of a run, as `trajectories.json` holds them.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Record {
+    /// Its seed.
+    pub seed: u64,
+    /// How many trajectories it drew.
+    pub cases: usize,
+    /// How many of them have a bound over time, and in how many ticks in all.
+    pub with_window: usize,
+    /// See `with_window`.
+    pub ticks: usize,
+    /// How many steps have a bound and were judged.
+    pub steps: usize,
+    /// Least, median and largest of what is judged, by its kind.
+    pub spreads: BTreeMap<String, [f64; 3]>,
+    /// What stands in the way of a bound, and how often.
+    pub without: BTreeMap<String, usize>,
+    /// Cases that break a bound or fail, with their numbers.
+    pub violations: BTreeMap<u32, String>,
+}
+
+/// Draws these trajectories of a seed and runs in two threads those that are not yet `kept`; calls `done` after each.
+///
+/// # Errors
+/// Finished cases cannot be kept.
+pub fn run(
+    seed: u64,
+    cases: RangeInclusive<u32>,
+    kept: &Kept,
+    done: impl Fn() + Sync,
+) -> Result<Vec<Row>> {
+    let key = |number: u32| format!("trajectory {number} of {seed}");
+    let work = |&number: &u32| kept.row(&key(number), || Ok(row(seed, number)));
+    let mut rows = on_two_threads(&cases.collect::<Vec<_>>(), work, done)?;
+    rows.sort_by_key(|row| row.case);
+    Ok(rows)
+}
+
+/// Writes scene, mesh and log of a trajectory into `folder`: `signorini tick scene.toml --log log.csv` plays it.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write(seed: u64, number: u32, folder: &Path) -> Result<()> {
+    let case = Trajectory::draw(seed, number);
+    std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
+    let names: String = (0..case.on_line.len()).map(|at| format!(",p{at}")).collect();
+    let lines = case.log.iter().zip(1..).map(|(values, tick)| {
+        let values: String = values.iter().map(|value| format!(",{value:?}")).collect();
+        format!("{:?}{values}\n", f64::from(tick) * case.step)
+    });
+    let log = format!("t{names}\n") + &lines.collect::<String>();
+    write_atomically(&folder.join("scene.toml"), case.scene_text(1).as_bytes())?;
+    write_atomically(&folder.join("log.csv"), log.as_bytes())?;
+    write_atomically(&folder.join("mesh.msh"), msh::text(&case.mesh).as_bytes())
+}
+
+fn row(seed: u64, number: u32) -> Row {
+    let case = Trajectory::draw(seed, number);
+    let Trajectory { hold, kind: cells, scalar, sweeps: limit, .. } = case;
+    let was_steady = case.initial.is_none();
+    let row = Row { case: number, hold, cells, scalar, was_steady, limit, ..Row::default() };
+    match watched(LIMIT, move || judged(&case)) {
+        Ok(Ok(found)) => row.with(&found),
+        Ok(Err(error)) => Row { broken: format!("refused: {}", error.reason()), ..row },
+        Err(_) => Row { broken: "no answer".to_owned(), ..row },
+    }
+}
+
+impl Row {
+    fn with(self, found: &JudgedTrajectory) -> Self {
+        let over = |of: &JudgedWindow| of.window / of.apart;
+        let largest = |of: &dyn Fn(&JudgedWindow) -> f64| {
+            found.windows.iter().map(of).filter(|ratio| !ratio.is_nan()).reduce(f64::max)
+        };
+        let finite = |ratio: f64| ratio.is_finite().then_some(ratio);
+        let row = Self {
+            rate: found.rate,
+            ticks: found.windows.len(),
+            error_over_window: largest(&JudgedWindow::least_over_bound).and_then(finite),
+            window_over_error: largest(&over).and_then(finite),
+            at_last: found.windows.last().map(over).and_then(finite),
+            error_over_step: found.step.and_then(|of| finite((of.apart - of.finer) / of.total)),
+            step_over_error: found.step.and_then(|of| finite(of.ratio())),
+            note: found.no_bound.clone().unwrap_or_default(),
+            ..self
+        };
+        let most = 1.0 + INTEGRATED;
+        let above = |ratio: Option<f64>| ratio.is_some_and(|ratio| ratio > most);
+        let broken = [
+            (above(row.error_over_window), "the bound over time"),
+            (above(row.error_over_step), "the bound of a step"),
+        ];
+        let broken = broken.into_iter().filter(|(is, _)| *is).map(|(_, what)| what);
+        Self { broken: broken.collect::<Vec<_>>().join(", "), ..row }
+    }
+}
+
+impl Record {
+    /// Sums up `rows`.
+    pub fn new(seed: u64, rows: &[Row]) -> Self {
+        let mut record = Self { seed, cases: rows.len(), ..Self::default() };
+        let mut all: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+        for row in rows {
+            record.with_window += usize::from(row.ticks > 0);
+            record.ticks += row.ticks;
+            record.steps += usize::from(row.step_over_error.is_some());
+            for (name, ratio) in row.ratios() {
+                all.entry(name).or_default().push(ratio);
+            }
+            if !row.note.is_empty() {
+                *record.without.entry(row.note.clone()).or_default() += 1;
+            }
+            if !row.broken.is_empty() {
+                record.violations.insert(row.case, row.broken.clone());
+            }
+        }
+        let spread = |mut all: Vec<f64>| {
+            all.sort_by(f64::total_cmp);
+            [all[0], all[all.len() / 2], all[all.len() - 1]]
+        };
+        record.spreads = all.into_iter().map(|(name, all)| (name, spread(all))).collect();
+        record
+    }
+
+    /// The text of `trajectories.json`.
+    pub fn json(&self) -> String {
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+
+    /// The text for the terminal.
+    pub fn text(&self) -> String {
+        let Self { cases, with_window, ticks, steps, .. } = self;
+        let mut lines = vec![format!(
+            "{cases} random trajectories: {with_window} have a bound over time, judged in {ticks} ticks; {steps} steps judged"
+        )];
+        for (name, [least, median, most]) in &self.spreads {
+            lines.push(format!("  {name}: {least:.3} to {most:.3}, median {median:.3}"));
+        }
+        for (reason, count) in &self.without {
+            lines.push(format!("  no bound in {count}: {reason}"));
+        }
+        for (case, what) in &self.violations {
+            lines.push(format!("  broken, case {case}: {what}"));
+        }
+        lines.join("\n")
+    }
+}
+
+impl Row {
+    /// What is judged, by its kind.
+    fn ratios(&self) -> Vec<(String, f64)> {
+        let start = if self.was_steady { "steady" } else { "stated" };
+        let end = if self.limit.is_some() { "cut off" } else { "to the end" };
+        let all = [
+            ("error over bound, over time".to_owned(), self.error_over_window),
+            ("error over bound, of a step".to_owned(), self.error_over_step),
+            (format!("bound over error, over time, {start} start, {end}"), self.at_last),
+            (format!("bound over error, of a step, {end}"), self.step_over_error),
+        ];
+        all.into_iter().filter_map(|(name, ratio)| Some((name, ratio?))).collect()
+    }
+}
+
+/// The text of `trajectories.csv`.
+///
+/// # Errors
+/// Never for plain data.
+pub fn csv(rows: &[Row]) -> Result<Vec<u8>> {
+    record_file::csv("trajectories.csv", rows)
+}

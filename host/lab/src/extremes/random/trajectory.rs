@@ -1,0 +1,265 @@
+//! A scene that stores u, and what its inputs do tick after tick, drawn at random.
+//!
+//! Each moving datum has an input of its own. A step holds f, fluxes, limits, coefficients and ambients at their last value; u_D and
+//! gaps go linearly ([`Trajectory::on_line`]): a finer step that plays the same data takes those between two ticks.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use super::function::{Frame, Function, Rough};
+use super::mesh::{self, Kind, MeshPlan, Outline, Regions};
+use super::posed::{Ends, Hold};
+use signorini_problem::random::Random;
+use signorini_scene::error::Result;
+use signorini_scene::mesh::Mesh;
+use signorini_scene::scene::Scene;
+use signorini_solve::ScalarKind;
+
+/// A scene over time.
+#[derive(Debug, Clone)]
+pub struct Trajectory {
+    /// The condition that holds it.
+    pub hold: Hold,
+    /// The kind of its cells.
+    pub kind: Kind,
+    /// In which scalar it is played.
+    pub scalar: ScalarKind,
+    /// A limit on the sweeps of each step.
+    pub sweeps: Option<u32>,
+    /// The scene without `[time]`.
+    pub text: String,
+    /// dt
+    pub step: f64,
+    /// u at the start; nothing for a steady one.
+    pub initial: Option<String>,
+    /// The mesh.
+    pub mesh: Mesh,
+    /// Values of the inputs at each tick.
+    pub log: Vec<Vec<f64>>,
+    /// Whether an input goes linearly in a step, or holds its value at the end of it.
+    pub on_line: Vec<bool>,
+}
+
+impl Trajectory {
+    /// Case `number` of the run with this seed.
+    pub fn draw(seed: u64, number: u32) -> Self {
+        let mut random = Random::of_case(seed, number);
+        let kind = random.pick(&[Kind::Triangles, Kind::Quads, Kind::Both]);
+        let plan = plan(&mut random, kind);
+        let drawn = mesh::draw(&mut random, &plan);
+        let frame = Frame { centre: [0.0; 2], length: 1.0 };
+        let (text, on_line) = (String::new(), Vec::new());
+        let mut drawing = Drawing { random, frame, text, on_line };
+        let time = drawing.materials(&drawn.mesh);
+        let names: Vec<&str> = drawn.mesh.curves.iter().map(|curve| curve.name.as_str()).collect();
+        let hold = drawing.boundaries(&names);
+        let Drawing { mut random, text, on_line, .. } = drawing;
+        let is_stated = hold == Hold::Contact || random.chance(0.5);
+        let initial = is_stated
+            .then(|| Function::draw(&mut random, frame, Rough::Kinked, 3.0).times(0.3).value());
+        Self {
+            hold,
+            kind,
+            scalar: random.pick(&[ScalarKind::F64, ScalarKind::F64, ScalarKind::F32]),
+            sweeps: random.chance(0.5).then(|| random.log(1.0, 40.0) as u32),
+            text,
+            step: time * random.log(1e-4, 10.0),
+            initial,
+            mesh: drawn.mesh,
+            log: log(&mut random, on_line.len()),
+            on_line,
+        }
+    }
+
+    /// The scene by steps of dt over `parts`.
+    ///
+    /// # Errors
+    /// Never for one that was drawn.
+    pub fn scene(&self, parts: u32) -> Result<Scene> {
+        Scene::parse(&self.scene_text(parts), Path::new("scene.toml"))
+    }
+
+    /// Its text.
+    pub fn scene_text(&self, parts: u32) -> String {
+        let initial = self.initial.as_ref().map(|of| format!("initial = \"{of}\"\n"));
+        let step = self.step / f64::from(parts);
+        format!("{}[time]\nstep = {step:e}\n{}", self.text, initial.unwrap_or_default())
+    }
+
+    /// Inputs of tick `tick`, counted from 0, at the end of part `part` of `parts` of its step.
+    pub fn inputs(&self, tick: usize, [part, parts]: [u32; 2], defaults: &[f64]) -> Vec<f64> {
+        let last = tick.checked_sub(1).map_or(defaults, |last| &self.log[last]);
+        let share = f64::from(part) / f64::from(parts);
+        let values = last.iter().zip(&self.log[tick]).zip(&self.on_line);
+        let value = |((&from, &to), &on_line): ((&f64, &f64), &bool)| match on_line {
+            true => from + share * (to - from),
+            false => to,
+        };
+        values.map(value).collect()
+    }
+}
+
+fn plan(random: &mut Random, kind: Kind) -> MeshPlan {
+    MeshPlan {
+        cells: random.log(4.0, 60.0) as u32,
+        kind,
+        outline: random.pick(&[Outline::Whole, Outline::Whole, Outline::Corner]),
+        regions: random.pick(&[Regions::Halves, Regions::Layers, Regions::Scattered]),
+        moved: if random.chance(0.5) { random.between(0.0, 0.25) } else { 0.0 },
+        graded: random.chance(0.2),
+        split: random.chance(0.3),
+        map: [[1.0, 0.0], [0.0, 1.0]],
+    }
+}
+
+/// Jumps, ramps and rests of each input.
+fn log(random: &mut Random, inputs: usize) -> Vec<Vec<f64>> {
+    let ticks = 4 + random.below(9) as usize;
+    let mut values = vec![0.0; inputs];
+    let mut slopes = vec![0.0; inputs];
+    let tick = |_| {
+        for (value, slope) in values.iter_mut().zip(&mut slopes) {
+            match random.below(4) {
+                0 => (*value, *slope) = (random.between(-1.0, 1.0), 0.0),
+                1 => *slope = random.between(-0.3, 0.3),
+                _ => *value = f64::clamp(*value + *slope, -1.0, 1.0),
+            }
+        }
+        values.clone()
+    };
+    (0..ticks).map(tick).collect()
+}
+
+struct Drawing {
+    random: Random,
+    frame: Frame,
+    text: String,
+    on_line: Vec<bool>,
+}
+
+impl Drawing {
+    /// A and c of each material; returns a time in which u spreads over the domain.
+    fn materials(&mut self, mesh: &Mesh) -> f64 {
+        let random = &mut self.random;
+        let (contrast, rare) = (random.pick(&[1.0, 10.0, 1e3]), random.below(4) == 0);
+        self.text += "title = \"random\"\nmesh = \"mesh.msh\"\n";
+        let mut time = 0.0_f64;
+        for (at, surface) in mesh.surfaces.iter().enumerate() {
+            let size = random.log(1.0 / contrast, contrast.max(1.000_001));
+            let ratio: f64 = if random.chance(0.3) { random.log(1.0, 30.0) } else { 1.0 };
+            let (sin, cos) = random.between(0.0, 3.0).sin_cos();
+            let [p, q] = [size * ratio.sqrt(), size / ratio.sqrt()];
+            let [xx, xy, yy] =
+                [p * cos * cos + q * sin * sin, (p - q) * sin * cos, p * sin * sin + q * cos * cos];
+            let own = random.log(1.0 / contrast, contrast.max(1.000_001));
+            let capacity = if rare && at > 0 { 0.0 } else { own };
+            time = time.max(capacity / size);
+            let _ = writeln!(
+                self.text,
+                "[material.{}]\nconductivity = [\"{xx:e}\", \"{xy:e}\", \"{yy:e}\"]\ncapacity = {capacity:e}",
+                surface.name
+            );
+        }
+        time
+    }
+
+    /// An input of its own for a datum, affine in the place and, where `rough` says so, another function of it.
+    fn input(&mut self, of: &str, field: &str, size: f64, rough: Option<Rough>) {
+        let [a, b] = [0.2; 2].map(|most| size * self.random.between(-most, most));
+        let pattern = match rough {
+            Some(rough) if self.random.chance(0.4) => {
+                Function::draw(&mut self.random, self.frame, rough, 5.0).times(size).value()
+            }
+            _ => format!("{:e}+{a:e}*x+{b:e}*y", 0.6 * size),
+        };
+        let _ = writeln!(
+            self.text,
+            "[input.p{}]\nof = \"{of}\"\nfield = \"{field}\"\npattern = \"{pattern}\"\ndefault = 0",
+            self.on_line.len()
+        );
+        self.on_line.push(matches!(field, "value" | "gap"));
+    }
+
+    /// The load and the conditions.
+    fn boundaries(&mut self, names: &[&str]) -> Hold {
+        let hold = match self.random.below(10) {
+            0..6 => Hold::Dirichlet,
+            6..9 => Hold::Robin,
+            _ => Hold::Contact,
+        };
+        let f = self.random.between(-3.0, 3.0);
+        let _ = writeln!(self.text, "[source]\nf = {f:e}");
+        if self.random.chance(0.8) {
+            self.input("source", "f", 10.0, Some(Rough::Jumping));
+        }
+        let holding = self.random.below(names.len() as u32) as usize;
+        for (at, name) in names.iter().enumerate() {
+            match (hold, self.random.below(6)) {
+                _ if at == (holding + 1) % names.len() => self.contact(name),
+                (Hold::Dirichlet, _) if at == holding => self.dirichlet(name),
+                (Hold::Robin, _) if at == holding => self.robin(name),
+                (Hold::Dirichlet | Hold::Robin, 1) => self.robin(name),
+                (_, 2) => self.neumann(name),
+                _ => self.contact(name),
+            }
+        }
+        hold
+    }
+
+    /// Between 0 and 1.6, above every gap that has no limit.
+    fn dirichlet(&mut self, name: &str) {
+        let _ = writeln!(self.text, "[boundary.{name}]\nkind = \"dirichlet\"\nvalue = \"0.8\"");
+        if self.random.chance(0.6) {
+            self.input(name, "value", 0.8, None);
+        }
+    }
+
+    fn robin(&mut self, name: &str) {
+        let (h, ambient) = (self.random.log(0.03, 30.0), self.random.between(-0.5, 0.5));
+        let _ = writeln!(
+            self.text,
+            "[boundary.{name}]\nkind = \"robin\"\ncoefficient = {h:e}\nambient = {ambient:e}"
+        );
+        match self.random.below(3) {
+            0 => self.input(name, "ambient", 1.0, Some(Rough::Kinked)),
+            1 => {
+                let (of, number) = (name, self.on_line.len());
+                // h stays above a tenth of itself.
+                let _ = writeln!(
+                    self.text,
+                    "[input.p{number}]\nof = \"{of}\"\nfield = \"coefficient\"\npattern = {:e}\ndefault = 0\nrange = [-1, 1]",
+                    0.9 * h
+                );
+                self.on_line.push(false);
+            }
+            _ => {}
+        }
+    }
+
+    fn neumann(&mut self, name: &str) {
+        let flux = self.random.between(-0.5, 0.5);
+        let _ = writeln!(self.text, "[boundary.{name}]\nkind = \"neumann\"\nflux = {flux:e}");
+        if self.random.chance(0.5) {
+            self.input(name, "flux", 1.0, Some(Rough::Jumping));
+        }
+    }
+
+    fn contact(&mut self, name: &str) {
+        let ends = match Ends::draw(&mut self.random) {
+            Ends::Below => Ends::Both,
+            ends => ends,
+        };
+        let limit = match ends {
+            Ends::Both => format!("flux = -0.3\nlimit = {:e}\n", self.random.log(0.1, 10.0)),
+            _ => String::new(),
+        };
+        let _ = writeln!(
+            self.text,
+            "[boundary.{name}]\nkind = \"contact\"\ngap = -0.3\n{}",
+            limit.trim_end()
+        );
+        if self.random.chance(0.5) {
+            self.input(name, "gap", 0.3, None);
+        }
+    }
+}

@@ -1,0 +1,211 @@
+//! The judge of a bound over time: the same data played on a mesh twice finer with a quarter of the step.
+//!
+//! ```text
+//!   window² ≥ mean of G²,   G² = ‖A^½∇(u − s)‖² + ∫_R h(u − s)²,   weights e^{−2θλ(t_n − t)}
+//! ```
+//! with u replaced by the finer s, whose own window counts. A steady start stands for all time before it.
+
+use signorini_certify::admissible::Admissible;
+use signorini_problem::quadrature::gauss;
+use signorini_problem::{Problem, State};
+use signorini_scene::error::{Error, Result};
+use signorini_scene::mesh::refine::refined;
+use signorini_session::tick::{Budget, ScheduledTick, TickRecord, play};
+use signorini_solve::{ScalarKind, Solution};
+
+use super::nested::{MeshSolution, Nesting, apart};
+use super::step::{JudgedStep, judge};
+use super::trajectory::Trajectory;
+
+/// Steps of the finer play in a tick.
+pub const PARTS: u32 = 4;
+
+/// The bound over time at a tick, and what it stands against.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JudgedWindow {
+    /// The bound.
+    pub window: f64,
+    /// The root of the mean of G² to the finer answer.
+    pub apart: f64,
+    /// The bound of the finer answer, in these weights.
+    pub finer: f64,
+}
+
+impl JudgedWindow {
+    /// Over 1 where the bound is broken.
+    pub fn least_over_bound(&self) -> f64 {
+        (self.apart - self.finer) / self.window
+    }
+}
+
+/// What a trajectory came to.
+#[derive(Debug, Clone)]
+pub struct JudgedTrajectory {
+    /// λ dt
+    pub rate: Option<f64>,
+    /// At each tick; empty where there is no bound over time.
+    pub windows: Vec<JudgedWindow>,
+    /// One of its steps.
+    pub step: Option<JudgedStep>,
+    /// Why the last tick has no bound.
+    pub no_bound: Option<String>,
+}
+
+/// One play: the start and all steps.
+struct Played {
+    problem: Problem,
+    defaults: Vec<f64>,
+    answers: Vec<Solution>,
+    records: Vec<TickRecord>,
+}
+
+/// Plays and judges.
+///
+/// # Errors
+/// A scene that is refused.
+pub fn judged(case: &Trajectory) -> Result<JudgedTrajectory> {
+    let own = played(case, 1)?;
+    let ticks = case.log.len();
+    let last = &own.answers[ticks];
+    let no_bound = last.no_bound.as_ref().map(ToString::to_string);
+    let step = (last.bound.is_some()).then(|| own.step(case, ticks)).transpose()?;
+    let dt = case.step;
+    let rate = own.records[1].window.map(|[_, seconds]| dt * 0.5 / (0.1 * seconds));
+    let windows = match own.records[1].window {
+        Some([_, seconds]) => own.windows(case, &played(case, PARTS)?, seconds)?,
+        None => Vec::new(),
+    };
+    Ok(JudgedTrajectory { rate, windows, step, no_bound })
+}
+
+fn played(case: &Trajectory, parts: u32) -> Result<Played> {
+    let scene = case.scene(parts)?;
+    let mesh = if parts == 1 { case.mesh.clone() } else { refined(&case.mesh)? };
+    let problem = Problem::new(&scene, mesh)?;
+    let own = Budget::of(&scene);
+    let budget = match parts {
+        1 => Budget {
+            scalar: case.scalar,
+            sweeps: case.sweeps.unwrap_or(own.sweeps),
+            intervals: false,
+            ..own
+        },
+        _ => Budget { scalar: ScalarKind::F64, intervals: false, ..own },
+    };
+    let defaults: Vec<f64> = scene.inputs.iter().map(|input| input.default).collect();
+    let moment = |tick: usize, part: u32| ScheduledTick {
+        time: (tick as f64 + f64::from(part) / f64::from(parts)) * case.step,
+        inputs: case.inputs(tick, [part, parts], &defaults).into_iter().enumerate().collect(),
+    };
+    let moments: Vec<_> = (0..case.log.len())
+        .flat_map(|tick| (1..=parts).map(move |part| (tick, part)))
+        .map(|(tick, part)| moment(tick, part))
+        .collect();
+    let mut answers = Vec::new();
+    let records = play(&problem, None, &moments, &budget, |_, solution| {
+        let answer = solution.ok_or_else(|| Error::Check("a tick was refused".to_owned()))?;
+        answers.push(answer.clone());
+        Ok(())
+    })?;
+    Ok(Played { problem, defaults, answers, records })
+}
+
+impl Played {
+    /// The problem as tick `tick`, counted from 1, has it.
+    fn at(&self, case: &Trajectory, tick: usize) -> Result<Problem> {
+        let mut problem = self.problem.clone();
+        let inputs: Vec<_> =
+            case.inputs(tick - 1, [1, 1], &self.defaults).into_iter().enumerate().collect();
+        problem.set(&inputs, tick as f64 * case.step)?;
+        Ok(problem)
+    }
+
+    fn step(&self, case: &Trajectory, tick: usize) -> Result<JudgedStep> {
+        let begin: State<f64> = self.answers[tick - 1].state();
+        let problem = self.at(case, tick)?.stepping(case.step, begin)?;
+        judge(&problem, &self.answers[tick], 1)
+    }
+
+    /// At every tick.
+    fn windows(&self, case: &Trajectory, finer: &Self, seconds: f64) -> Result<Vec<JudgedWindow>> {
+        let was_steady = case.initial.is_none();
+        let fading = |time: f64| (-time / seconds).exp();
+        let part = case.step / f64::from(PARTS);
+        let (mut integral, mut weights) = (0.0, 0.0);
+        let mut judged = Vec::new();
+        for tick in 0..case.log.len() {
+            let posed = [self.at(case, tick + 1)?, finer.at(case, tick + 1)?];
+            let square = |at: f64| self.square(finer, &posed, tick, at);
+            let mut begin = square(0.0)?;
+            if tick == 0 && was_steady {
+                (integral, weights) = (seconds * begin, seconds);
+            }
+            for number in 0..PARTS {
+                let at = f64::from(number);
+                let [middle, end] = [square(at + 0.5)?, square(at + 1.0)?];
+                let of = fading(part) * begin + 4.0 * fading(0.5 * part) * middle + end;
+                integral = fading(part) * integral + part / 6.0 * of;
+                weights = fading(part) * weights + seconds * (1.0 - fading(part));
+                begin = end;
+            }
+            let window = |records: &[TickRecord], at: usize| records[at].window;
+            let (Some([own, _]), Some([its, its_seconds])) = (
+                window(&self.records, tick + 1),
+                window(&finer.records, PARTS as usize * (tick + 1)),
+            ) else {
+                break;
+            };
+            // Weights of the finer one fade a little faster: by how much the older past counts less there.
+            let elapsed = case.step * (tick + 1) as f64;
+            let older = (elapsed / its_seconds - elapsed / seconds).max(0.0).exp();
+            let apart = (integral / weights).sqrt();
+            judged.push(JudgedWindow { window: own, apart, finer: its * older.sqrt() });
+        }
+        Ok(judged)
+    }
+
+    /// G² between both, `at` in parts of tick `tick`, with the data of that tick.
+    fn square(&self, finer: &Self, posed: &[Problem; 2], tick: usize, at: f64) -> Result<f64> {
+        let own = between(&self.answers[tick..], at / f64::from(PARTS));
+        let its = between(&finer.answers[PARTS as usize * tick..], at);
+        let sides = [(&posed[0], &own), (&posed[1], &its)].map(|(problem, fields)| MeshSolution {
+            problem,
+            admissible: fields.admissible(),
+            u: &fields.tau,
+        });
+        let rule = gauss(3);
+        let nesting = Nesting { levels: 1, cut: None };
+        let found = apart(&sides[0], &sides[1], &nesting, &rule)?;
+        Ok(found.with_robin * found.with_robin)
+    }
+}
+
+/// s between answers, linear in between.
+struct Between {
+    vertices: Vec<f64>,
+    bubbles: Vec<f64>,
+    tau: Vec<f64>,
+    following: signorini_certify::admissible::Following,
+}
+
+impl Between {
+    fn admissible(&self) -> Admissible<'_> {
+        let Self { vertices, bubbles, tau, following } = self;
+        Admissible { vertices, bubbles, tau, following }
+    }
+}
+
+fn between(answers: &[Solution], at: f64) -> Between {
+    let first = (at.floor() as usize).min(answers.len() - 1);
+    let share = at - first as f64;
+    let [from, to] = [first, (first + 1).min(answers.len() - 1)].map(|at| &answers[at].certified);
+    let mix = |a: &[f64], b: &[f64]| -> Vec<f64> {
+        a.iter().zip(b).map(|(a, b)| (1.0 - share) * a + share * b).collect()
+    };
+    Between {
+        vertices: mix(&from.vertices, &to.vertices),
+        bubbles: mix(&from.bubbles, &to.bubbles),
+        tau: from.tau.clone(),
+        following: from.following.clone(),
+    }
+}
