@@ -11,6 +11,7 @@ Squares are cut from the lower left to the upper right corner (tri), kept (quad)
 the fields of a chessboard (mixed).
 """
 
+from math import exp, pi
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -43,9 +44,28 @@ def grid(n, kind):
     return vertices, lines + cells
 
 
-def msh22(vertices, elements):
+def column(n):
+    """(0, 4/n) x (0, 1) in 4 x n squares, each cut in two; the sides are a group of their own."""
+    number = lambda i, j: 5 * j + i + 1
+    vertices = [(i / n, j / n) for j in range(n + 1) for i in range(5)]
+    lines = [(1, 1, (number(i, 0), number(i + 1, 0))) for i in range(4)]
+    lines += [(1, 2, (number(i, n), number(i + 1, n))) for i in range(4)]
+    lines += [(1, 3, (number(i, j), number(i, j + 1))) for i in (0, 4) for j in range(n)]
+    cells = []
+    for j in range(n):
+        for i in range(4):
+            a, b = number(i, j), number(i + 1, j)
+            c, d = number(i + 1, j + 1), number(i, j + 1)
+            cells += [(2, 1, (a, b, c)), (2, 1, (a, c, d))]
+    return vertices, lines + cells
+
+
+NAMES = ['1 1 "contact"', '1 2 "dirichlet"', '2 1 "left"', '2 2 "right"']
+OF_COLUMN = ['1 1 "contact"', '1 2 "dirichlet"', '1 3 "sides"', '2 1 "left"']
+
+
+def msh22(vertices, elements, names=NAMES):
     """Gmsh MSH 2.2 ASCII."""
-    names = ['1 1 "contact"', '1 2 "dirichlet"', '2 1 "left"', '2 2 "right"']
     text = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat"]
     text += ["$PhysicalNames", str(len(names)), *names, "$EndPhysicalNames"]
     text += ["$Nodes", str(len(vertices))]
@@ -153,6 +173,79 @@ def jump(k):
     return {"u": u, "gradient": (ux, uy), "f": "0", "materials": {"left": k, "right": "1"}}
 
 
+# --- solutions of steps in time, c = A = 1 ------------------------------------------------------
+
+
+RELEASE = 0.138785297043
+
+
+def release():
+    """0 < y < 1, held at 1 above; u = -y at first, in contact until t* and then free."""
+    waves = lambda terms, of: "(" + "+".join(
+        f"{c:.12g}*exp(-({m}*pi)^2*t)*{of}({m}*pi*y)" for c, m in terms) + ")"
+    touching = [(4 * (-1) ** m / (m * pi), m) for m in range(1, 31)]
+    free = []
+    for j in range(1, 11):
+        nu = (j - 0.5) * pi
+        a = -2 / nu**2
+        for c, m in touching[:6]:
+            a += 2 * c * exp(-((m * pi) ** 2) * RELEASE) * m * pi / ((m * pi) ** 2 - nu**2)
+        free.append((a * exp(nu**2 * RELEASE), j - 0.5))
+    slope = lambda terms, sign: [(sign * c * m * pi, m) for c, m in terms]
+    before, after = f"(0.5+0.5*sign({RELEASE}-t))", f"(0.5-0.5*sign({RELEASE}-t))"
+    return {
+        "u": f"{before}*(y+{waves(touching, 'sin')}) + {after}*(1+{waves(free, 'cos')})",
+        "gradient": ("0", f"{before}*(1+{waves(slope(touching, 1), 'cos')}) "
+                          f"+ {after}*{waves(slope(free, -1), 'sin')}"),
+        "f": "0",
+        "value": "1",
+        "time": (0.01, 0.4, "-y"),
+    }
+
+
+def breathing():
+    """All of the contact boundary changes sides at t = 1/2."""
+    s, opened = "sin(2*pi*t)", "(1 + sign(sin(2*pi*t)))/2"
+    above, below = "(1-y)^2*(1+2*y)", "y*(1-y)^2"
+    return {
+        "u": f"max({s},0)*{above} + min({s},0)*{below}",
+        "gradient": ("0", f"max({s},0)*(-6*y*(1-y)) + min({s},0)*((1-y)*(1-3*y))"),
+        "f": f"2*pi*cos(2*pi*t)*({opened}*{above} + (1 - {opened})*{below}) "
+             f"- max({s},0)*(12*y - 6) - min({s},0)*(6*y - 4)",
+        "time": (0.02, 1, "0"),
+    }
+
+
+def travelling(t="t"):
+    """The front of contact travels to the right with speed 1, without a source."""
+    xi = f"(x + 0.3 - {t})"
+    root, half = f"({xi}^2 + y^2)^0.25", f"(0.5*atan2(y, {xi}))"
+    sigma, tau = f"({root}*cos{half})", f"({root}*sin{half})"
+    bell = f"2/sqrt(pi)*exp(-{sigma}^2)"
+    f = f"((1 + 2*{sigma}^2)*erf({sigma}) + {sigma}*{bell})"
+    # Parabolic coordinates: xi + iy = (sigma + i tau)^2.
+    by_sigma = f"((4*{sigma}*erf({sigma}) + 2*{bell})*(1 - 2*{tau}^2) - 2*{bell})"
+    by_tau = f"(-4*{tau}*{f})"
+    u = f"{f}*(1 - 2*{tau}^2) - 2*erf({sigma})"
+    gradient = (f"({by_sigma}*{sigma} - {by_tau}*{tau})/(2*({xi}^2 + y^2)^0.5)",
+                f"({by_sigma}*{tau} + {by_tau}*{sigma})/(2*({xi}^2 + y^2)^0.5)")
+    initial = travelling("0")["u"] if t == "t" else ""
+    return {"u": u, "gradient": gradient, "f": "0", "time": (0.03, 0.6, initial)}
+
+
+def oscillating(t="t"):
+    """The end of contact oscillates along the boundary."""
+    x = f"(x - 0.3*sin(2*pi*{t}))"
+    r2, theta = f"({x}^2 + y^2)", f"atan2(y, {x})"
+    initial = oscillating("0")["u"] if t == "t" else ""
+    return {
+        "u": f"-({r2}^0.75*sin(1.5*{theta}))",
+        "gradient": (f"-1.5*{r2}^0.25*sin(0.5*{theta})", f"-1.5*{r2}^0.25*cos(0.5*{theta})"),
+        "f": f"0.9*pi*cos(2*pi*t)*{r2}^0.25*sin(0.5*{theta})",
+        "time": (0.0125, 1, initial),
+    }
+
+
 # --- scenes -------------------------------------------------------------------------------------
 
 
@@ -162,17 +255,21 @@ def scene(title, mesh, case):
     for name, value in materials.items():
         entries = ", ".join(f'"{entry}"' for entry in value) if isinstance(value, list) else None
         shown = f"[{entries}]" if entries else f'"{value}"'
-        text += [f"[material.{name}]", f"conductivity = {shown}", ""]
+        text += [f"[material.{name}]", f"conductivity = {shown}"]
+        text += ["capacity = 1", ""] if len(case.get("time", ())) == 3 else [""]
     text += ["[source]", f'f = "{case["f"]}"', ""]
-    text += ["[boundary.dirichlet]", 'kind = "dirichlet"', f'value = "{case["u"]}"', ""]
+    text += ["[boundary.dirichlet]", 'kind = "dirichlet"', f'value = "{case.get("value", case["u"])}"', ""]
     text += ["[boundary.contact]", 'kind = "contact"', f'gap = "{case.get("gap", "0")}"']
+    if "sides" in case:
+        text += ["", "[boundary.sides]", 'kind = "neumann"', "flux = 0"]
     if "range" in case:
         least, most = case["range"]
         text += [f'flux = "{least}"', f'limit = "{most}"']
     text += [""]
     if "time" in case:
-        step, end = case["time"]
-        text += ["[time]", f"step = {step}", f"end = {end}", ""]
+        step, end, *initial = case["time"]
+        text += ["[time]", f"step = {step}", f"end = {end}"]
+        text += [f'initial = "{of}"' for of in initial] + [""]
     gx, gy = case["gradient"]
     text += ["[exact]", f'u = "{case["u"]}"', f'gradient = ["{gx}", "{gy}"]', ""]
     return "\n".join(text)
@@ -232,6 +329,16 @@ def main():
     ]
     for name, title, kind, case in scenes:
         (HERE / f"{name}.toml").write_text(scene(title, f"square-{kind}-16.msh", case))
+    moved = [
+        ("breathing-tri", "E2: contact that opens and closes everywhere at once", breathing()),
+        ("travelling-tri", "E3: a front of contact that travels", travelling()),
+        ("oscillating-tri", "E4: an end of contact that oscillates", oscillating()),
+    ]
+    for name, title, case in moved:
+        (HERE / f"{name}.toml").write_text(scene(title, "square-tri-16.msh", case))
+    (HERE / "column-tri-16.msh").write_text(msh22(*column(16), OF_COLUMN))
+    case = {**release(), "sides": True}
+    (HERE / "release-tri.toml").write_text(scene("E1: contact that is released", "column-tri-16.msh", case))
     for kind in ("tri", "quad"):
         mesh = f"../catalogue/square-{kind}-16.msh"
         title = "L(0.55): a flux between two ends, all three states"

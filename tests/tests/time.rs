@@ -5,58 +5,25 @@ use std::path::Path;
 use signorini_problem::{Problem, State};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_scene::mesh::{self, Mesh};
 use signorini_scene::scene::Scene;
+use signorini_session::tick::{Budget, play, schedule};
 use signorini_session::with_session;
 use signorini_solve::norms::errors;
 use signorini_tolerances::twins::STORED;
 
-/// An exact solution u of c = A = 1 with u ≥ 0 and a flux ≥ 0 on y = 0, and its source.
-struct Exact {
-    u: String,
-    f: String,
+/// A scene of the catalogue, with more of it.
+fn catalogue(name: &str, more: &str) -> Result<Scene> {
+    let path = format!("{}/../meshes/catalogue/{name}-tri.toml", env!("CARGO_MANIFEST_DIR"));
+    let path = Path::new(&path);
+    let text = std::fs::read_to_string(path).expect("a scene of the catalogue");
+    Scene::parse(&(text + more), path)
 }
 
-/// All of the contact boundary changes sides at t = ½.
-fn breathing() -> Exact {
-    let (s, open) = ("sin(2*pi*t)", "(1 + sign(sin(2*pi*t)))/2");
-    let (above, below) = ("(1-y)^2*(1+2*y)", "y*(1-y)^2");
-    Exact {
-        u: format!("max({s},0)*{above} + min({s},0)*{below}"),
-        f: format!(
-            "2*pi*cos(2*pi*t)*({open}*{above} + (1 - {open})*{below}) - max({s},0)*(12*y - 6) - min({s},0)*(6*y - 4)"
-        ),
-    }
-}
-
-/// The front of contact travels to the right with speed 1, without a source.
-fn travelling() -> Exact {
-    let xi = "(x + 0.3 - t)";
-    let r = format!("sqrt({xi}^2 + y^2)");
-    let (sigma, tau2) = (format!("sqrt(max(({r} + {xi})/2, 0))"), format!("(({r} - {xi})/2)"));
-    let f = format!("((1 + 2*{sigma}^2)*erf({sigma}) + 2/sqrt(pi)*{sigma}*exp(-{sigma}^2))");
-    Exact { u: format!("{f}*(1 - 2*{tau2}) - 2*erf({sigma})"), f: "0".to_owned() }
-}
-
-/// The end of contact oscillates along the boundary.
-fn oscillating() -> Exact {
-    let x = "(x - 0.3*sin(2*pi*t))";
-    let (r2, theta) = (format!("({x}^2 + y^2)"), format!("atan2(y, {x})"));
-    Exact {
-        u: format!("-({r2}^0.75*sin(1.5*{theta}))"),
-        f: format!("0.9*pi*cos(2*pi*t)*{r2}^0.25*sin(0.5*{theta})"),
-    }
-}
-
-/// The largest ‖u − u_h‖ at the ends of the steps of length `dt` up to `end`, from the exact u at the start.
-fn largest_error(exact: &Exact, (n, cells): (u32, Cells), dt: f64, end: f64) -> Result<f64> {
-    let Exact { u, f } = exact;
-    let text = format!(
-        "mesh = \"grid\"\n[material.default]\nconductivity = 1\ncapacity = 1\n[source]\nf = \"{f}\"\n\
-         [boundary.dirichlet]\nkind = \"dirichlet\"\nvalue = \"{u}\"\n[boundary.contact]\nkind = \"contact\"\n\
-         [setting]\ncertificate = false\nmodel = \"full\"\n[exact]\nu = \"{u}\"\ngradient = [0, 0]\n"
-    );
-    let scene = Scene::parse(&text, Path::new("time.toml"))?;
-    let mut problem = Problem::new(&scene, grid(n, cells))?;
+/// ‖u − u_h‖ at the ends of steps of length `dt` up to `end`, from the exact u at the start: the largest, and the last.
+fn errors_in_time(name: &str, mesh: Mesh, dt: f64, end: f64) -> Result<[f64; 2]> {
+    let scene = catalogue(name, "[setting]\ncertificate = false\nmodel = \"full\"\n")?;
+    let mut problem = Problem::new(&scene, mesh)?;
     let exact = scene.exact.clone().expect("it is stated");
     let mean = |edge: usize| {
         let points = signorini_problem::quadrature::gauss(8);
@@ -68,19 +35,20 @@ fn largest_error(exact: &Exact, (n, cells): (u32, Cells), dt: f64, end: f64) -> 
     };
     let start: Vec<f64> = (0..problem.ends.len()).map(mean).collect();
     problem = problem.stepping(dt, State { u: start, ..State::default() })?;
-    let mut largest = 0.0_f64;
+    let mut found = [0.0_f64; 2];
     let posed = problem.clone();
     with_session(&posed, |session| {
         for step in 1..=(end / dt).round() as u32 {
             problem.set_time(f64::from(step) * dt)?;
             session.play(&problem)?;
             let solution = session.answer(&problem)?;
-            largest = largest.max(errors(&exact, &problem, &solution.u, &solution.flux)?.l2);
+            let last = errors(&exact, &problem, &solution.u, &solution.flux)?.l2;
+            found = [found[0].max(last), last];
             problem.advance(solution.state());
         }
         Ok(())
     })?;
-    Ok(largest)
+    Ok(found)
 }
 
 /// The fluxes out of a cell add up to what it stores less ∫f.
@@ -118,11 +86,11 @@ fn rate([coarse, fine]: [f64; 2]) -> f64 {
 /// With dt ~ h² the error falls like h², on triangles and quads.
 #[test]
 fn errors_fall_like_the_square_of_h() {
-    for (exact, until) in [(breathing(), 0.625), (travelling(), 0.5), (oscillating(), 0.125)] {
+    for (name, until) in [("breathing", 0.625), ("travelling", 0.5), ("oscillating", 0.125)] {
         for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
-            let of = |n: u32| largest_error(&exact, (n, cells), 0.5 / f64::from(n * n), until);
-            let all = [4, 8].map(|n| of(n).unwrap());
-            println!("{cells:?}: {all:?}, rate {:.2}", rate(all));
+            let of = |n: u32| errors_in_time(name, grid(n, cells), 0.5 / f64::from(n * n), until);
+            let all = [4, 8].map(|n| of(n).unwrap()[0]);
+            println!("{name} {cells:?}: {all:?}, rate {:.2}", rate(all));
             assert!(rate(all) > 1.85, "{cells:?}: {all:?}");
         }
     }
@@ -131,10 +99,35 @@ fn errors_fall_like_the_square_of_h() {
 /// The implicit Euler method is of first order in dt, also where contact changes.
 #[test]
 fn errors_fall_like_dt() {
-    for (exact, least) in [(breathing(), 0.9), (travelling(), 0.85)] {
-        let of = |dt: f64| largest_error(&exact, (16, Cells::Triangles), dt, 0.75);
-        let all = [0.125, 0.0625].map(|dt| of(dt).unwrap());
+    for (name, least) in [("breathing", 0.9), ("travelling", 0.85)] {
+        let of = |dt: f64| errors_in_time(name, grid(16, Cells::Triangles), dt, 0.75);
+        let all = [0.125, 0.0625].map(|dt| of(dt).unwrap()[0]);
         println!("{all:?}, rate {:.2}", rate(all));
         assert!(rate(all) > least, "{all:?}");
     }
+}
+
+/// Data jump at the start of the release: its error is of first order in dt once that has faded.
+#[test]
+fn the_release_of_contact_is_found_in_time() {
+    let column = || mesh::read(&catalogue("release", "").unwrap().mesh.value).unwrap();
+    let all = [0.02, 0.01].map(|dt| errors_in_time("release", column(), dt, 0.4).unwrap()[1]);
+    println!("{all:?}, rate {:.2}", rate(all));
+    assert!(rate(all) > 0.9, "{all:?}");
+}
+
+/// The bound over time against the error of the evolution, whose data the ticks of the release hold as they are.
+#[test]
+fn the_bound_over_time_is_above_the_error_of_the_release() {
+    let scene = catalogue("release", "").unwrap();
+    let problem = Problem::new(&scene, mesh::read(&scene.mesh.value).unwrap()).unwrap();
+    let moments = schedule::moments(&scene, Some(12)).unwrap();
+    let budget = Budget { intervals: false, ..Budget::of(&scene) };
+    let ticks = play(&problem, None, &moments, &budget, |_, _| Ok(())).unwrap();
+    let ratios: Vec<f64> = ticks[1..]
+        .iter()
+        .map(|tick| tick.window.unwrap()[0] / tick.window_error.unwrap())
+        .collect();
+    println!("{ratios:.2?}");
+    assert!(ratios.iter().all(|ratio| (1.0..2.0).contains(ratio)), "{ratios:?}");
 }

@@ -11,9 +11,11 @@
 
 mod along;
 mod fewer;
+mod in_energy;
 mod two_sided;
 
 pub use fewer::of_fewer_points;
+pub use in_energy::in_energy;
 
 use std::borrow::Cow;
 use std::iter::repeat;

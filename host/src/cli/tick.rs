@@ -17,6 +17,7 @@ use signorini_scene::mesh;
 use signorini_scene::scene::{Output, Quantity, Scene, Time};
 use signorini_scene::setting::{Method, ModelKind, Precision, Setting};
 use signorini_session::tick::columns::{bounds_csv, ticks_csv};
+use signorini_session::tick::window_error::of_other_data;
 use signorini_session::tick::{Budget, TickRecord, log, play, replay, schedule};
 use signorini_solve::{Ending, ScalarKind, Solution};
 
@@ -160,6 +161,11 @@ impl Arguments {
         if !self.no_intervals && !self.baked && work > MOST_INTERVALS {
             say(format_args!(
                 "  no intervals of outputs: {work} unknowns times ticks are more than {MOST_INTERVALS}"
+            ));
+        }
+        if let Some(key) = of_other_data(&scene).filter(|_| scene.stores()) {
+            say(format_args!(
+                "  no window_error: a step holds or interpolates {key}, so that [exact] is of other data"
             ));
         }
         without_interval(&scene, &ticks).iter().for_each(|line| say(format_args!("  {line}")));

@@ -1,11 +1,12 @@
 //! `ticks.csv` and `output_bounds.csv`: one line a tick.
 
 use super::TickRecord;
+use super::window_error::has_window_error;
 use signorini_scene::scene::{Quantity, Scene};
 
 /// The text of `ticks.csv`:
 /// `t,status,sweeps,contact_force,contact_length,error_bound[,error_combined]` and a column for each
-/// declared output, and of steps in time `window_energy,window_seconds`; the combined error only where the scene knows its exact solution and no material stores u. A value that
+/// declared output, and of steps in time `window_energy,window_seconds[,window_error]`; the combined error only where the scene knows its exact solution and no material stores u. A value that
 /// does not exist is an empty field.
 pub fn ticks_csv(scene: &Scene, ticks: &[TickRecord]) -> csv::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
@@ -14,7 +15,11 @@ pub fn ticks_csv(scene: &Scene, ticks: &[TickRecord]) -> csv::Result<Vec<u8>> {
     let exact = || scene.exact.iter().filter(|_| !scene.stores());
     let combined = exact().map(|_| "error_combined");
     let outputs = scene.outputs.iter().map(|output| output.name.value.as_str());
-    let window = if scene.stores() { &["window_energy", "window_seconds"][..] } else { &[] };
+    let window = match (scene.stores(), has_window_error(scene)) {
+        (false, _) => &[][..],
+        (true, false) => &["window_energy", "window_seconds"],
+        (true, true) => &["window_energy", "window_seconds", "window_error"],
+    };
     let names = fixed.into_iter().chain(combined).chain(outputs).chain(window.iter().copied());
     writer.write_record(names)?;
     for tick in ticks {
@@ -25,7 +30,8 @@ pub fn ticks_csv(scene: &Scene, ticks: &[TickRecord]) -> csv::Result<Vec<u8>> {
         let numbers = [tick.contact_force, tick.contact_length, bound].into_iter().chain(combined);
         let numbers = numbers.chain(tick.outputs.iter().copied());
         let [energy, seconds] = tick.window.map_or([None; 2], |window| window.map(Some));
-        let numbers = numbers.chain([energy, seconds].into_iter().take(window.len()));
+        let numbers =
+            numbers.chain([energy, seconds, tick.window_error].into_iter().take(window.len()));
         fields.extend(numbers.map(|number| number.map_or(String::new(), digits)));
         writer.write_record(fields)?;
     }

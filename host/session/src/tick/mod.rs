@@ -18,6 +18,7 @@ pub mod schedule;
 mod start;
 #[cfg(test)]
 mod tests;
+pub mod window_error;
 
 pub use record::{TickInterval, TickRecord};
 
@@ -40,6 +41,7 @@ use signorini_solve::{Options, ScalarKind, Solution, choose_units, in_scene};
 use crate::{Session, coarse, kernel_tick, solves, with_module};
 use intervals::Intervals;
 use start::Start;
+use window_error::WindowError;
 
 /// When a tick happens, and what the inputs are then.
 #[derive(Debug, Clone, PartialEq)]
@@ -132,11 +134,15 @@ fn play_in<R: Scalar>(
     let mut problem = problem.clone();
     let mut ticks = Vec::new();
     let first = moments.first().map_or(0.0, |moment| moment.time);
-    let mut evolution = None;
+    let (mut evolution, mut error) = (None, None);
     if let Some(start) = Start::of(given, first)? {
         let Start { problem: at_start, solution, step, .. } = start;
         problem = given.stepping(step, solution.state())?;
         evolution = start.evolution;
+        if let Some(of) = &evolution {
+            let was_steady = given.scene.time.as_ref().is_some_and(|time| time.initial.is_none());
+            error = WindowError::begin(&at_start, &solution, of.seconds(), was_steady)?;
+        }
         if budget.shows_start {
             let start = TickRecord::of(&at_start, &solution)?.with_window(evolution.as_ref());
             done(&start, Some(&solution))?;
@@ -175,7 +181,7 @@ fn play_in<R: Scalar>(
         false => Intervals::Unasked,
     };
     let evolution = evolution.map(|of| of.in_unit(units.energy()));
-    let play = Play { session: &mut *session, intervals, units, evolution };
+    let play = Play { session: &mut *session, intervals, units, evolution, error };
     ticks.extend(play.through(problem, moments, done)?);
     Ok(ticks)
 }
@@ -193,7 +199,8 @@ pub fn replay(
 ) -> Result<(String, Vec<TickRecord>)> {
     with_module(problem, asked, |session, module| {
         let intervals = Intervals::Weighed(module);
-        let play = Play { session, intervals, units: Units::default(), evolution: None };
+        let play =
+            Play { session, intervals, units: Units::default(), evolution: None, error: None };
         Ok((module.name.clone(), play.through(problem, moments, done)?))
     })
 }
@@ -248,6 +255,8 @@ struct Play<'s> {
     units: Units,
     /// The bound of the evolution, of steps in time that have one.
     evolution: Option<Evolution>,
+    /// Its error, where that is known.
+    error: Option<WindowError>,
 }
 
 impl Play<'_> {
@@ -260,7 +269,7 @@ impl Play<'_> {
     ) -> Result<Vec<TickRecord>> {
         let mut problem = problem.clone();
         let ticks = moments.iter().map(|moment| {
-            let (tick, solution) = match moment.set(&mut problem) {
+            let (mut tick, solution) = match moment.set(&mut problem) {
                 // A controller has its own scalar and looks itself.
                 Err(error) if !is_unsolvable(&error) => return Err(error),
                 Err(error) if !matches!(self.intervals, Intervals::Weighed(_)) => {
@@ -268,6 +277,9 @@ impl Play<'_> {
                 }
                 _ => self.tick(&mut problem)?,
             };
+            if let (Some(error), Some(solution)) = (&mut self.error, &solution) {
+                tick.window_error = Some(error.advance(moment, solution)?);
+            }
             done(&tick, solution.as_ref())?;
             Ok(tick)
         });

@@ -30,7 +30,9 @@ pub struct TickRecord {
     pub bound: Option<ErrorBound>,
     /// The bound over time of steps: the root of the fading mean of the energy error's square, and how far back it reaches.
     pub window: Option<[f64; 2]>,
-    /// The error that it bounds, where the exact solution is known.
+    /// The error that the bound over time is for, where the exact solution is that of the data as ticks hold them.
+    pub window_error: Option<f64>,
+    /// The error that `bound` is for, where the exact solution is known.
     pub combined: Option<f64>,
     /// The declared outputs, in the order of the scene.
     pub outputs: Vec<Option<f64>>,
@@ -66,6 +68,7 @@ impl TickRecord {
             contact_length: finite(length),
             bound,
             window: None,
+            window_error: None,
             combined: combined.and_then(finite),
             outputs: outputs(problem, solution, bound)?,
             intervals: Vec::new(),
@@ -89,6 +92,7 @@ impl TickRecord {
             contact_length: None,
             bound: None,
             window: None,
+            window_error: None,
             combined: None,
             outputs: vec![None; outputs],
             intervals: vec![Err("the tick was refused".to_owned()); outputs],
