@@ -28,6 +28,7 @@ pub mod midpoints;
 mod part;
 mod products;
 mod squares;
+mod stored;
 #[cfg(test)]
 mod tests;
 mod values;

@@ -35,6 +35,14 @@ pub struct State<R = f64> {
 }
 
 impl State {
+    /// 0 everywhere on the mesh of `problem`.
+    pub fn zero(problem: &Problem) -> Self {
+        let edges = vec![0.0; problem.ends.len()];
+        let vertices = vec![0.0; problem.mesh.vertices.len()];
+        let openings = vec![[0.0; 2]; problem.topology.counts.contact];
+        Self { u: edges.clone(), vertices, bubbles: edges, openings }
+    }
+
     fn in_units(self, units: &Units) -> Self {
         let of_u = |all: Vec<f64>| all.into_iter().map(|u| (u - units.zero) / units.u).collect();
         Self {

@@ -24,6 +24,8 @@ pub mod row;
 mod spot;
 pub mod step;
 #[cfg(test)]
+mod step_outputs;
+#[cfg(test)]
 mod tests;
 mod verdict;
 
