@@ -85,6 +85,15 @@ impl<R: Scalar> Step<R> {
         triangles.iter().map(of(3)).chain(quads.iter().map(of(4)))
     }
 
+    /// k|T| of one of them.
+    pub fn content(&self, cell: usize) -> R {
+        let [triangles, quads] = &self.masses;
+        match cell.checked_sub(triangles.len()) {
+            None => R::from_count(3) * triangles[cell],
+            Some(quad) => R::from_count(4) * quads[quad],
+        }
+    }
+
     /// As the kernel takes it.
     ///
     /// # Errors

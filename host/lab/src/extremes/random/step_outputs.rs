@@ -108,7 +108,10 @@ fn check(scene: &Scene, mesh: Mesh, scalar: ScalarKind, sweeps: Option<u32>, of:
             "  {of} {name}: {center:.6} ± {plus_minus:.2e}, truth {value:.6} ± {slack:.1e}, ratio {:.2}",
             plus_minus / off
         );
-        assert!(!(off - slack > plus_minus), "{of} {name}: {value} ± {slack}, {center} ± {plus_minus}");
+        assert!(
+            !(off - slack > plus_minus),
+            "{of} {name}: {value} ± {slack}, {center} ± {plus_minus}"
+        );
         ratios.push(plus_minus / off);
     }
     ratios
@@ -121,6 +124,28 @@ fn intervals_of_steps_hold_at_every_step_length() {
             let scene = scene(10_f64.powi(exponent), PLAIN, "", ROBIN);
             let of = format!("{cells:?} {scalar:?} dt 1e{exponent}");
             check(&scene, grid(4, cells), *scalar, None, &of);
+        }
+    }
+}
+
+/// A long step is the steady problem.
+#[test]
+fn intervals_of_long_steps_are_those_of_the_steady_problem() {
+    for (cells, left) in [(Cells::Triangles, ROBIN), (Cells::Quads, HELD), (Cells::Mixed, ROBIN)] {
+        let scene = scene(1e10, PLAIN, "", left);
+        let (step, answer) = second_step(&scene, sided(grid(4, cells)), ScalarKind::F64, None);
+        let mut steady = Problem::new(&scene, (*step.mesh).clone()).unwrap();
+        steady.set_time(step.time).unwrap();
+        let options = Options { solver: SolverKind::Factor, averages: true, ..Options::default() };
+        let at_rest = solve(&steady, &options).unwrap();
+        let expected = of_answer(&steady, &(&at_rest).into());
+        for (name, found) in of_answer(&step, &(&answer).into()) {
+            let [found, expected] = [found, expected[&name].clone()].map(|found| found.unwrap());
+            let by = (found.center - expected.center)
+                .abs()
+                .max((found.plus_minus - expected.plus_minus).abs());
+            println!("{cells:?} {name}: {found:?} {expected:?}");
+            assert!(by < 1e-6 * expected.plus_minus, "{cells:?} {name}: {found:?} {expected:?}");
         }
     }
 }
