@@ -1,5 +1,8 @@
 //! The interval of one output: weights for more and more of what contact leaves, and the best ends of all.
 
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+
 use super::answer::{Answered, Found, OutputBound};
 use super::contact::ContactEdge;
 use super::dual::{Dual, Weights};
@@ -40,6 +43,8 @@ pub(super) const UNSOLVED: &str =
 /// Facts on the solution that all intervals share.
 pub(super) struct Known<'p> {
     pub factor: &'p SharedFactor,
+    /// Weights without contact, by the names of their outputs.
+    pub kept: &'p Mutex<BTreeMap<String, Weights>>,
     pub problem: &'p Problem,
     pub answer: &'p Answered<'p>,
     pub deviations: &'p Deviations<'p>,
@@ -79,7 +84,8 @@ impl Known<'_> {
         let mut part = FAR * goal.size(self.problem) / room;
         let mut best = [f64::NEG_INFINITY, f64::INFINITY];
         for trial in 0..TRIALS {
-            let Some(weights) = dual.solve(self.factor, &self.contact, &goal, part) else { break };
+            let name = &output.name.value;
+            let Some(weights) = self.weights(name, &goal, &mut dual, part) else { break };
             let (first, differ) = self.braces(&goal, &weights, part, true)?;
             let mut ends = first.within(best);
             if differ {
@@ -98,6 +104,19 @@ impl Known<'_> {
             _ if best.iter().all(|end| end.is_finite()) => Ok(self.around(&goal, best)),
             _ => Err(UNBOUNDED.to_owned()),
         })
+    }
+
+    /// Weights of an output: without contact those of all answers.
+    fn weights(&self, name: &str, goal: &Goal, dual: &mut Dual, part: f64) -> Option<Weights> {
+        if !self.contact.is_empty() {
+            return dual.solve(self.factor, &self.contact, goal, part);
+        }
+        if let Some(known) = self.kept.lock().ok()?.get(name) {
+            return Some(known.clone());
+        }
+        let found = dual.solve(self.factor, &[], goal, part)?;
+        self.kept.lock().ok()?.insert(name.to_owned(), found.clone());
+        Some(found)
     }
 
     /// {…} with weights that keep to a part of what contact leaves, and whether its edges ask for different values of a vertex.
