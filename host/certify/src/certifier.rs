@@ -2,7 +2,7 @@
 
 use signorini_bound::averages;
 use signorini_bound::certificate::{
-    self, Certificate, Discretization, Kept, Verdict, certify_step,
+    self, Certificate, Discretization, Kept, Verdict, certify_step_with,
 };
 use signorini_bound::conforming;
 use signorini_bound::equilibrium::Iterate;
@@ -126,10 +126,7 @@ impl<R: Scalar> Certifier<R> {
             self.average(assembled, data, u)?;
             return Ok(None);
         }
-        let verdict = match assembled.step() {
-            Some(step) => self.of_step(assembled, (data, step), u)?,
-            None => self.verdict(assembled, data, u, |_, _| ())?,
-        };
+        let verdict = self.verdict(assembled, data, u, |_, _| ())?;
         self.refusal = match verdict {
             Verdict::Certified(_) => None,
             Verdict::Pulled { edge } => Some(NoBound::pulled(assembled.problem(), edge)),
@@ -175,8 +172,11 @@ impl<R: Scalar> Certifier<R> {
         assembled: &Assembled<R>,
         data: &Data<R>,
         u: &[R],
-        moved: impl FnOnce(&mut [R], &mut [R]),
+        moved: impl Fn(&mut [R], &mut [R]),
     ) -> Result<Verdict<R>, KernelError> {
+        if let Some(step) = assembled.step() {
+            return self.of_step(assembled, (data, step), u, moved);
+        }
         let discretization = self.ways.discretization(assembled, &self.metric)?;
         let forms = data.forms();
         let given = data.given(assembled, forms.as_slice())?;
@@ -194,6 +194,7 @@ impl<R: Scalar> Certifier<R> {
         assembled: &Assembled<R>,
         (data, step): (&Data<R>, &Step<R>),
         u: &[R],
+        moved: impl Fn(&mut [R], &mut [R]),
     ) -> Result<Verdict<R>, KernelError> {
         let forms = data.forms();
         let given = data.given(assembled, forms.as_slice())?;
@@ -208,12 +209,13 @@ impl<R: Scalar> Certifier<R> {
         let iterate = Iterate { u, law };
         let mut evolution = Vec::new();
         let mut of = |kept: Kept, fields: &mut Fields<R>| {
-            let (verdict, residual) = certify_step(
+            let (verdict, residual) = certify_step_with(
                 &discretization,
                 (&given, &of_kernel),
                 iterate,
                 kept,
                 fields.buffers(),
+                &moved,
             )?;
             fields.open(&discretization, &given, law)?;
             if let Some(certificate) = verdict.certificate() {

@@ -39,7 +39,7 @@ mod profile;
 mod relaxed;
 pub mod robin;
 pub mod sampled;
-mod stored;
+pub mod stored;
 mod stretch;
 pub mod term;
 #[cfg(test)]

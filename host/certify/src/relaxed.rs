@@ -9,18 +9,19 @@
 //!   s ← s + ω r/k,    gap² ← gap² − ω (2 − ω) r²/k,    k = ∫A∇φ·∇φ + ∫_R h φ²,
 //! ```
 //! since ∫f̄ φ is an mth of a cell's load at each of its m corners, and a third of it for a bubble: τ cancels. What s follows of ψ and
-//! u_D stays what it is and counts in ∇s. Any s is admissible, whatever these sums round: the kernel bounds the error of what comes out.
+//! u_D stays what it is and counts in ∇s. In a step of time gap² has ∫(f̄ + ∇·τ − c (s − s_old)/dt)² dt/c too: r gains −∫(s − s_old) φ c/dt, k gains
+//! ∫φ² c/dt, and τ cancels again. Any s is admissible, whatever these sums round: the kernel bounds the error of what comes out.
 
 use signorini_bound::certificate::{Certificate, LoadCase, is_clear};
 use signorini_kernel::Real;
 
-use super::admissible::Admissible;
+use super::admissible::{Admissible, Chordal};
 use super::conductivity::{Conductivity, apply, dot, product};
-use signorini_problem::cell::Cell;
+use signorini_problem::cell::{Cell, Jet};
 use signorini_problem::pieces::PiecePoint;
 use signorini_problem::quadrature::{DATA_POINTS, gauss};
 use signorini_problem::scalar::Scalar;
-use signorini_problem::{EdgeKind, Problem};
+use signorini_problem::{EdgeKind, Problem, State};
 
 /// The part of the bound that a first sweep has to gain, or s stays the average.
 const FIRST: f64 = 0.05;
@@ -120,8 +121,10 @@ impl Quadratic {
         [one, three, many]: &[Vec<[f64; 2]>; 3],
     ) {
         let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
+        let stored = stored(problem, fields, at);
         let rule = match cell {
-            Cell::Triangle(_) if conductivity.is_constant() => one,
+            Cell::Triangle(_) if conductivity.is_constant() && stored.is_none() => one,
+            Cell::Triangle(_) if conductivity.is_constant() => three,
             Cell::Quad(_) if conductivity.is_constant() && cell.is_affine() => three,
             _ => many,
         };
@@ -130,15 +133,22 @@ impl Quadratic {
         let (mut k, mut of_s) = ([[0.0; 8]; 8], [0.0; 8]);
         for PiecePoint { point, below: a, .. } in conductivity.points(&cell, rule) {
             let local = cell.local(point.reference);
-            let flux = apply(&a, s.at(&local).gradient);
-            let bubbles = local.sides.iter().map(|side| side.bubble().gradient);
-            let vertices = local.vertices[..corners].iter().map(|of| of.gradient);
-            let mut gradients = [[0.0; 2]; 8];
-            gradients.iter_mut().zip(vertices.chain(bubbles)).for_each(|(to, of)| *to = of);
+            let own = s.at(&local);
+            let flux = apply(&a, own.gradient);
+            let [k_here, change] = stored
+                .as_ref()
+                .map_or([0.0; 2], |(k, old)| [*k, k * (own.value - old.at(&local).value)]);
+            let bubbles = local.sides.iter().map(|side| side.bubble());
+            let mut functions = [Jet::default(); 8];
+            let all = local.vertices[..corners].iter().copied().chain(bubbles);
+            functions.iter_mut().zip(all).for_each(|(to, of)| *to = of);
             for i in 0..count {
-                of_s[i] += point.weight * dot(flux, gradients[i]);
+                let of = functions[i];
+                of_s[i] += point.weight * (dot(flux, of.gradient) + change * of.value);
                 for j in 0..i + 1 {
-                    k[i][j] += point.weight * product(&a, gradients[i], gradients[j]);
+                    let with = functions[j];
+                    let stiff = product(&a, of.gradient, with.gradient);
+                    k[i][j] += point.weight * (stiff + k_here * of.value * with.value);
                 }
             }
         }
@@ -233,6 +243,16 @@ impl Quadratic {
         }
         lost
     }
+}
+
+/// k of a cell in a step of time, and s_old there; nothing where it stores nothing.
+fn stored(problem: &Problem, fields: &Admissible, at: usize) -> Option<(f64, Chordal)> {
+    let step = problem.loads.step.as_ref()?;
+    let content = Some(step.content(at)).filter(|&content| content > 0.0)?;
+    let area: f64 = Cell::of(problem, at).points(&gauss(2)).iter().map(|of| of.weight).sum();
+    let State { vertices, bubbles, .. } = &step.begin;
+    let old = Admissible { vertices, bubbles, ..*fields };
+    Some((content / area, old.chordal(problem, at)))
 }
 
 /// The places of the functions of a cell: its vertices and, of a quad, the bubbles of its sides.

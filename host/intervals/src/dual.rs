@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::contact::ContactEdge;
 use super::goal::Goal;
 use signorini_certify::CertifiedFields;
-use signorini_problem::{Loads, Problem};
+use signorini_problem::{Loads, Problem, State};
 use signorini_scene::error::Result;
 use signorini_scene::expression::Expression;
 use signorini_scene::scene::{Condition, Field, Located, Scene};
@@ -39,6 +39,10 @@ impl Dual {
             let mut all = vec![0.0; triangles + quads];
             all[cell] = 1.0;
             (dual.loads.quads, dual.loads.triangles) = (all.split_off(triangles), all);
+        }
+        // Its step begins at 0.
+        if let Some(step) = &problem.loads.step {
+            dual = dual.stepping(step.length, State::zero(problem))?;
         }
         Ok(Self { problem: dual })
     }

@@ -1,5 +1,8 @@
 //! The interval of one output: weights for more and more of what contact leaves, and the best ends of all.
 
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+
 use super::answer::{Answered, Found, OutputBound};
 use super::contact::ContactEdge;
 use super::dual::{Dual, Weights};
@@ -23,6 +26,9 @@ const STEP: f64 = 2.5;
 /// How far ζ·n may go beyond its usual size on a contact edge, where z is to keep its value: little enough to lose no digit beside.
 pub(super) const FAR: f64 = 1e4;
 
+/// Shares of R_z′ that are tried in the norm of the storage.
+const SHARES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+
 /// Roundings of the scalar that sums may be off, next to their terms.
 const ROUNDINGS: f64 = 512.0;
 
@@ -37,6 +43,8 @@ pub(super) const UNSOLVED: &str =
 /// Facts on the solution that all intervals share.
 pub(super) struct Known<'p> {
     pub factor: &'p SharedFactor,
+    /// Weights without contact, by the names of their outputs.
+    pub kept: &'p Mutex<BTreeMap<String, Weights>>,
     pub problem: &'p Problem,
     pub answer: &'p Answered<'p>,
     pub deviations: &'p Deviations<'p>,
@@ -50,7 +58,9 @@ pub(super) struct Known<'p> {
 impl Known<'_> {
     pub fn interval(&self, output: &Output) -> Result<Found> {
         let mut found = self.bounded(output)?;
-        if let (Ok(found), Some(exact)) = (&mut found, &self.problem.scene.exact) {
+        // A stated solution is not that of the step.
+        let exact = self.problem.scene.exact.as_ref().filter(|_| self.problem.loads.step.is_none());
+        if let (Ok(found), Some(exact)) = (&mut found, exact) {
             let [value, doubt] = exact::value(self.problem, exact, output)?;
             (found.exact, found.doubt) = (Some(value), doubt);
         }
@@ -74,7 +84,8 @@ impl Known<'_> {
         let mut part = FAR * goal.size(self.problem) / room;
         let mut best = [f64::NEG_INFINITY, f64::INFINITY];
         for trial in 0..TRIALS {
-            let Some(weights) = dual.solve(self.factor, &self.contact, &goal, part) else { break };
+            let name = &output.name.value;
+            let Some(weights) = self.weights(name, &goal, &mut dual, part) else { break };
             let (first, differ) = self.braces(&goal, &weights, part, true)?;
             let mut ends = first.within(best);
             if differ {
@@ -95,6 +106,19 @@ impl Known<'_> {
         })
     }
 
+    /// Weights of an output: without contact those of all answers.
+    fn weights(&self, name: &str, goal: &Goal, dual: &mut Dual, part: f64) -> Option<Weights> {
+        if !self.contact.is_empty() {
+            return dual.solve(self.factor, &self.contact, goal, part);
+        }
+        if let Some(known) = self.kept.lock().ok()?.get(name) {
+            return Some(known.clone());
+        }
+        let found = dual.solve(self.factor, &[], goal, part)?;
+        self.kept.lock().ok()?.insert(name.to_owned(), found.clone());
+        Some(found)
+    }
+
     /// {…} with weights that keep to a part of what contact leaves, and whether its edges ask for different values of a vertex.
     fn braces(
         &self,
@@ -106,12 +130,19 @@ impl Known<'_> {
         let (problem, contact, mut weights) = (self.problem, &self.contact, weights.clone());
         let differ = keep(problem, goal, contact, part, takes_least, &mut weights);
         let left = left(problem, goal, contact, &weights);
-        let Products { residual, weights: apart, both, off, sizes } =
+        let Products { residual, weights: apart, both, off, sizes, inside } =
             self.residual.with(goal, &weights)?;
-        let ErrorBound { total, oscillation, rounding, .. } = self.bound;
+        let ErrorBound { total, rounding, .. } = self.bound;
+        let oscillation = self.oscillation();
         let middle = (0.5 * total * total - 0.25 * residual).max(0.0).sqrt();
         let distance = apart.max(0.0).sqrt();
-        let [less, more] = left.part.map(|part| most(distance, middle, part));
+        let [less, more] = left.part.map(|part| {
+            let with = |share: f64| {
+                let distance = (apart + 2.0 * share * share * inside[0]).max(0.0).sqrt();
+                most(distance, middle, part) + (1.0 - share) * inside[1].sqrt() * total
+            };
+            SHARES.map(with).into_iter().fold(f64::INFINITY, f64::min)
+        });
         let sizes: f64 = sizes.map(f64::sqrt).iter().sum();
         let most_z = weights.vertices.iter().fold(0.0_f64, |most, z| most.max(z.abs()));
         let rest = (oscillation + rounding + self.rounding() * total) * sizes
@@ -142,6 +173,15 @@ impl Known<'_> {
             estimate: None,
             exact: None,
             doubt: 0.0,
+        }
+    }
+
+    /// That of data alone: what s changes by inside cells in a step is known.
+    fn oscillation(&self) -> f64 {
+        let ways = self.answer.certified.evolution.iter().map(|way| way.oscillation);
+        match self.problem.loads.step {
+            Some(_) => ways.fold(f64::NAN, f64::max).min(self.bound.oscillation),
+            None => self.bound.oscillation,
         }
     }
 

@@ -14,6 +14,20 @@
 //! ```
 //! Without contact near the output c is 0, and this is of second order, as the error of an output is. Near the end of a contact zone
 //! c and ‖ζ − A∇z‖ cannot both be small, and the order is 4/3.
+//!
+//! # A step in time
+//! Of k(u − s_old) − ∇·(A∇u) = f, k = c/dt, the weights have kz − ∇·ζ = j. Let R = ∇·τ + f − k(s − s_old), R_z = ∇·ζ + j − kz. Since
+//! ∇·(σ − τ) = k(u − s) − R, {…} has beside all that
+//! ```text
+//!   ∫R z + ∫R_z (u − s) = ∫R z + ½Σ∫R̄ R̄_z/k + Σ∫(ū − s̄ − R̄/2k) R̄_z + Σ∫(u − s) R_z′
+//! ```
+//! with means R̄ over the cells and R_z′ = R_z − R̄_z. T bounds ‖A^½∇e‖² + ∫k e² + ‖A^{−½}(σ − τ)‖² + Σ∫(k ē − R̄)²/k + K, e = u − s, so that
+//! ```text
+//!   ‖σ − Σ‖² + Σ∫k (ē − R̄/2k)² + ½Σ∫k (e − ē)² ≤ M² − K/2,      M² = ½T² − ¼‖τ − A∇s‖² − ¼Σ∫R̄²/k.
+//! ```
+//! Any part of R_z′ counts in the storage, twice its square over k beside ‖ζ − A∇z‖² + Σ∫R̄_z²/k. The rest costs
+//! T (Σ‖R_z′‖²/(k + π²α/h²))^½. ∫R z is known (`stored`) but for what f varies by, which is at most the oscillation of data
+//! times ‖A^½∇z‖. Where k = 0 both R̄ and R̄_z are 0, and k = 0 everywhere is the steady problem.
 
 mod answer;
 mod contact;
@@ -28,15 +42,18 @@ pub mod midpoints;
 mod part;
 mod products;
 mod squares;
+mod stored;
 #[cfg(test)]
 mod tests;
 mod values;
 pub mod weights;
 
 use std::collections::BTreeMap;
+use std::sync::Mutex;
 
 pub use answer::{Answered, Found, OutputBound};
 use contact::contact_edges;
+use dual::Weights;
 pub use estimate::estimate;
 pub use goal::described;
 use interval::Known;
@@ -82,6 +99,10 @@ pub fn of_answer(problem: &Problem, answer: &Answered) -> BTreeMap<String, Found
 pub struct Lasting {
     /// The factor of its matrix.
     factor: Option<SharedFactor>,
+    /// ∫h of the laws of transfer in it.
+    transfers: Vec<f64>,
+    /// z and ζ of the outputs by their names, where there is no contact.
+    weights: Mutex<BTreeMap<String, Weights>>,
 }
 
 impl Lasting {
@@ -90,9 +111,11 @@ impl Lasting {
     /// # Errors
     /// A matrix without a factor.
     pub fn renew(&mut self, problem: &Problem) -> Result<()> {
-        let scene = &problem.scene;
-        if self.factor.is_none() || scene.transfer_input().is_some() {
-            self.factor = SharedFactor::of(problem)?;
+        let laws = problem.loads.robin.iter();
+        let transfers: Vec<f64> = laws.map(|law| law.coefficient).collect();
+        if self.factor.is_none() || self.transfers != transfers {
+            let factor = SharedFactor::of(problem)?;
+            *self = Self { factor, transfers, weights: Mutex::default() };
         }
         Ok(())
     }
@@ -128,6 +151,7 @@ fn intervals(
     let deviations = followed(problem, &answer.certified.admissible())?;
     let known = Known {
         factor,
+        kept: &lasting.weights,
         problem,
         answer,
         contact: contact_edges(problem, answer, &deviations)?,

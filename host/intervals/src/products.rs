@@ -9,6 +9,7 @@ use super::answer::Answered;
 use super::dual::Weights;
 use super::goal::Goal;
 use super::squares::Products;
+use super::stored::Stored;
 use signorini_certify::admissible::Admissible;
 use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::{Conductivity, apply, dot, inverse};
@@ -34,6 +35,7 @@ pub(super) struct Residual<'p> {
     deviations: &'p Deviations<'p>,
     /// Points of the cells in which s follows data, with ∇s there: these take long to evaluate.
     lifted: BTreeMap<usize, Vec<(PiecePoint, [f64; 2])>>,
+    stored: Option<Stored<'p>>,
 }
 
 /// The points of a cell in which s follows data, with ∇s at each.
@@ -88,6 +90,7 @@ impl<T: Copy> Fluxes<T> {
             both: inner(residual, zeta) + inner(residual, gradient),
             off: 0.0,
             sizes: [of_gradient, of_zeta],
+            inside: [0.0; 2],
         }
     }
 }
@@ -116,7 +119,7 @@ impl<'p> Residual<'p> {
         let cells: BTreeSet<usize> = deviations.found.iter().map(cell).collect();
         let lifted = cells.into_iter().map(|at| Ok((at, gradients(problem, &s, deviations, at)?)));
         let lifted = lifted.collect::<Result<_>>()?;
-        Ok(Self { problem, s, laws: None, deviations, lifted })
+        Ok(Self { problem, s, laws: None, deviations, lifted, stored: Stored::of(problem) })
     }
 
     /// These with other fluxes through the edges of transfer laws, in their order.
@@ -134,6 +137,9 @@ impl<'p> Residual<'p> {
             let mut sum = Products::default();
             for at in cells {
                 self.add_cell(at, &z, &mut sum);
+                if let Some(stored) = &self.stored {
+                    sum = sum.and(stored.products(at, goal, [&self.s, &z]));
+                }
             }
             Ok(sum)
         })?;

@@ -16,14 +16,17 @@ pub(super) struct Products {
     pub off: f64,
     /// ⟨A∇z, A∇z⟩ and ⟨ζ, ζ⟩
     pub sizes: [f64; 2],
+    /// Σ‖R_z′‖²/k and Σ‖R_z′‖²/(k + π²α/h²) in a step of time.
+    pub inside: [f64; 2],
 }
 
 impl Products {
     /// So many times these.
     pub fn times(self, by: f64) -> Self {
-        let Self { residual, weights, both, off, sizes } = self;
+        let Self { residual, weights, both, off, sizes, inside } = self;
         let [residual, weights, both, off] = [residual, weights, both, off].map(|x| by * x);
-        Self { residual, weights, both, off, sizes: sizes.map(|x| by * x) }
+        let [sizes, inside] = [sizes, inside].map(|all| all.map(|x| by * x));
+        Self { residual, weights, both, off, sizes, inside }
     }
 
     /// These at a point where A is no more than p + N, with p in them, and N ≤ νp. r differs by (A − p)∇s then, and
@@ -82,6 +85,7 @@ impl Products {
             both: seen.iter().zip(product(&cut.seen, &sum)).map(|(a, b)| a * b).sum(),
             off: lost * size(&cut.doubtful, &sum) + by_s * y + r * by_z + by_s * by_z,
             sizes: [(of_z + size(&cut.above[1], &z)).powi(2), of_zeta * of_zeta],
+            inside: [0.0; 2],
         }
     }
 
@@ -93,6 +97,7 @@ impl Products {
             both: self.both + other.both,
             off: self.off + other.off,
             sizes: [0, 1].map(|at| self.sizes[at] + other.sizes[at]),
+            inside: [0, 1].map(|at| self.inside[at] + other.inside[at]),
         }
     }
 }

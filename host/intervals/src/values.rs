@@ -63,12 +63,17 @@ pub(super) fn doubt(problem: &Problem) -> f64 {
     loads.missed + RESOLVED * cells.chain(given).map(|load| load.abs()).sum::<f64>()
 }
 
-/// Sum of the loads of cells and of the fluxes through N that τ leaves: rounding.
+/// Sum of the loads of cells and of the fluxes through N that τ leaves: rounding. A cell that stores u keeps what it lacks (`stored`).
 pub(super) fn imbalance(problem: &Problem, answer: &Answered) -> f64 {
     let tau = &answer.certified.tau;
     let surplus =
         |at: usize| CellField::new(problem, at, tau, tau).surplus(problem.loads.of_cell(at), &[]);
-    let cells: f64 = (0..problem.cells()).map(|at| surplus(at).abs()).sum();
+    let step = problem.loads.step.as_ref();
+    let mut keeps = vec![false; problem.cells()];
+    if let Some(step) = step {
+        keeps.iter_mut().zip(step.contents()).for_each(|(keeps, content)| *keeps = content > 0.0);
+    }
+    let cells: f64 = (0..keeps.len()).filter(|&at| !keeps[at]).map(|at| surplus(at).abs()).sum();
     let mut given = vec![0.0; problem.ends.len()];
     problem.loads.neumann.iter().for_each(|record| given[record.edge as usize] = record.flux);
     let on_neumann = (0..given.len()).filter(|&edge| problem.kinds[edge] == EdgeKind::Neumann);

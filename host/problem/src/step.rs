@@ -35,6 +35,14 @@ pub struct State<R = f64> {
 }
 
 impl State {
+    /// 0 everywhere on the mesh of `problem`.
+    pub fn zero(problem: &Problem) -> Self {
+        let edges = vec![0.0; problem.ends.len()];
+        let vertices = vec![0.0; problem.mesh.vertices.len()];
+        let openings = vec![[0.0; 2]; problem.topology.counts.contact];
+        Self { u: edges.clone(), vertices, bubbles: edges, openings }
+    }
+
     fn in_units(self, units: &Units) -> Self {
         let of_u = |all: Vec<f64>| all.into_iter().map(|u| (u - units.zero) / units.u).collect();
         Self {
@@ -75,6 +83,15 @@ impl<R: Scalar> Step<R> {
         let [triangles, quads] = &self.masses;
         let of = |sides: u32| move |&mass: &R| R::from_count(sides) * mass;
         triangles.iter().map(of(3)).chain(quads.iter().map(of(4)))
+    }
+
+    /// k|T| of one of them.
+    pub fn content(&self, cell: usize) -> R {
+        let [triangles, quads] = &self.masses;
+        match cell.checked_sub(triangles.len()) {
+            None => R::from_count(3) * triangles[cell],
+            Some(quad) => R::from_count(4) * quads[quad],
+        }
     }
 
     /// As the kernel takes it.

@@ -25,7 +25,8 @@ pub fn picture(scene: &Scene, ticks: &[TickRecord], budget: Option<u32>) -> Char
         // The interval of a probe is around another number than the curve: the mean over its cell.
         let is_drawn =
             !matches!(output.quantity, Quantity::Probe { .. }) && ends.iter().any(Option::is_some);
-        let label = "the exact value lies within".to_owned();
+        let of = if scene.stores() { " of this step" } else { "" };
+        let label = format!("the exact value{of} lies within");
         let band = is_drawn.then_some(Band { label, ends });
         Strip { band, ..strip(values) }
     }));

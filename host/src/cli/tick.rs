@@ -77,7 +77,7 @@ pub struct Arguments {
     #[arg(long, conflicts_with_all = ["budget_sweeps", "error", "coarse"])]
     baked: bool,
     /// No intervals of the outputs: else output_bounds.csv has NAME_least and NAME_most around the exact value of each force, flux
-    /// and mean, NAME_cell_least and NAME_cell_most around the mean over a probe's cell. Above 300 000 unknowns times ticks there are none without --baked, whose controller has numbers for them
+    /// and mean, NAME_cell_least and NAME_cell_most around the mean over a probe's cell; of steps in time NAME_step_least and NAME_step_most, about that step alone. Above 300 000 unknowns times ticks there are none without --baked, whose controller has numbers for them
     #[arg(long)]
     no_intervals: bool,
     /// Also ticks.pvd, a series for ParaView, and a VTU file each tick in the folder ticks

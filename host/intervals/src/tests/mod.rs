@@ -1,6 +1,7 @@
 //! Intervals of outputs hold what far finer meshes and exact solutions say.
 
 mod cases;
+mod steps;
 mod weights;
 
 use std::path::Path;

@@ -39,7 +39,8 @@ pub fn ticks_csv(scene: &Scene, ticks: &[TickRecord]) -> csv::Result<Vec<u8>> {
 }
 
 /// The text of `output_bounds.csv`: `t`, and `NAME_least` and `NAME_most` of each output whose exact value is known to lie between;
-/// of a probe `NAME_cell_least` and `NAME_cell_most`, around the mean over its cell.
+/// of a probe `NAME_cell_least` and `NAME_cell_most`, around the mean over its cell. Of steps in time these are `NAME_step_…`, about
+/// the step alone.
 pub fn bounds_csv(scene: &Scene, ticks: &[TickRecord]) -> csv::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let interval = |tick: &TickRecord, at: usize| Some(*tick.intervals.get(at)?.as_ref().ok()?);
@@ -48,7 +49,8 @@ pub fn bounds_csv(scene: &Scene, ticks: &[TickRecord]) -> csv::Result<Vec<u8>> {
     let names = bounded.iter().flat_map(|&at| {
         let output = &scene.outputs[at];
         let of = if matches!(output.quantity, Quantity::Probe { .. }) { "_cell" } else { "" };
-        ["least", "most"].map(|end| format!("{}{of}_{end}", output.name.value))
+        let step = if scene.stores() { "_step" } else { "" };
+        ["least", "most"].map(|end| format!("{}{of}{step}_{end}", output.name.value))
     });
     writer.write_record(std::iter::once("t".to_owned()).chain(names))?;
     for tick in ticks {

@@ -30,10 +30,6 @@ impl Intervals<'_> {
         {
             return Ok(vec![Err(why.to_string()); problem.scene.outputs.len()]);
         }
-        if problem.loads.step.is_some() && matches!(self, Self::Anew(_)) {
-            let why = "outputs of a step in time have no intervals yet".to_owned();
-            return Ok(vec![Err(why); problem.scene.outputs.len()]);
-        }
         match self {
             Self::Unasked => Ok(Vec::new()),
             Self::Anew(lasting) => {

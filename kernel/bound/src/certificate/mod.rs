@@ -60,7 +60,7 @@ pub use metric::{Metric, POINTS, of_quad, of_triangle};
 pub use pair::Pair;
 pub use signorini_kernel::verdict::{Certificate, Verdict};
 pub use stability::stability;
-pub use step::{Kept, Step, StoredCell, certify_step};
+pub use step::{Kept, Step, StoredCell, certify_step, certify_step_with};
 pub use stored::Residual;
 pub use transfer::TransferForms;
 

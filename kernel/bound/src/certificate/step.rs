@@ -80,12 +80,27 @@ pub fn certify_step<R: Real, I: Index>(
     (given, step): (&LoadCase<R, I>, &Step<R>),
     iterate: Iterate<R>,
     kept: Kept,
+    buffers: Buffers<R>,
+) -> Result<(Verdict<R>, Residual<R>), Error> {
+    certify_step_with(discretization, (given, step), iterate, kept, buffers, |_, _| ())
+}
+
+/// Bounds the error of a step with what `moved` makes of s, as [`certify_with`](super::certify_with) does.
+///
+/// # Errors
+/// As for [`certify_step`].
+pub fn certify_step_with<R: Real, I: Index>(
+    discretization: &Discretization<R, I>,
+    (given, step): (&LoadCase<R, I>, &Step<R>),
+    iterate: Iterate<R>,
+    kept: Kept,
     mut buffers: Buffers<R>,
+    moved: impl FnOnce(&mut [R], &mut [R]),
 ) -> Result<(Verdict<R>, Residual<R>), Error> {
     let Discretization { edges, cells, .. } = discretization;
     same_length(Array::Storage, step.cells.len(), edges.cells())?;
     same_length(Array::Vertices, step.vertices.len(), buffers.vertices.len())?;
-    admissible(discretization, given, iterate, &mut buffers, |_, _| ())?;
+    admissible(discretization, given, iterate, &mut buffers, moved)?;
     let Buffers { vertices, bubbles, tau, indicators } = buffers;
     add_stored(cells, step.storage, iterate.u, tau);
     equilibrium::impose(edges, &given.boundary, iterate, tau);

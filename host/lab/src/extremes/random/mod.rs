@@ -25,6 +25,8 @@ pub mod row;
 mod spot;
 pub mod step;
 #[cfg(test)]
+mod step_outputs;
+#[cfg(test)]
 mod tests;
 pub mod trajectory;
 mod verdict;

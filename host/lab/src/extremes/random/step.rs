@@ -58,7 +58,7 @@ fn side<'a>(problem: &'a Problem, solution: &'a Solution) -> MeshSolution<'a> {
 }
 
 /// The step of `problem` on a finer mesh: from its s_old, which every finer mesh holds exactly.
-fn finer(problem: &Problem, levels: u32) -> Result<Problem> {
+pub(super) fn finer(problem: &Problem, levels: u32) -> Result<Problem> {
     let Some(step) = &problem.loads.step else {
         return Err(Error::Check("no step in time".to_owned()));
     };
@@ -96,7 +96,7 @@ fn finer(problem: &Problem, levels: u32) -> Result<Problem> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use std::path::Path;
 
     use signorini_scene::mesh::Mesh;
@@ -124,8 +124,18 @@ mod tests {
     const ROBIN: &str = "kind = \"robin\"\ncoefficient = 3\nambient = -0.1";
     const PLAIN: &str = "conductivity = 1\ncapacity = 1";
 
-    /// The second step, in which f has another sign, after so many sweeps.
     fn judged(scene: &Scene, mesh: Mesh, scalar: ScalarKind, sweeps: Option<u32>) -> JudgedStep {
+        let (step, last) = second_step(scene, mesh, scalar, sweeps);
+        judge(&step, &last, 2).unwrap()
+    }
+
+    /// The second step, in which f has another sign, and its answer after so many sweeps.
+    pub fn second_step(
+        scene: &Scene,
+        mesh: Mesh,
+        scalar: ScalarKind,
+        sweeps: Option<u32>,
+    ) -> (Problem, Solution) {
         let problem = Problem::new(scene, mesh).unwrap();
         let dt = scene.time.as_ref().unwrap().step;
         let own = Budget::of(scene);
@@ -141,8 +151,7 @@ mod tests {
         let [_, before, last] = &solutions[..] else { panic!("a start and two steps") };
         let mut step = problem.clone();
         step.set_time(2.0 * dt).unwrap();
-        let step = step.stepping(dt, before.state()).unwrap();
-        judge(&step, last, 2).unwrap()
+        (step.stepping(dt, before.state()).unwrap(), last.clone())
     }
 
     /// The brief's 1.75 is asked of converged steps.

@@ -1,0 +1,151 @@
+//! Intervals of outputs of a step hold those of the same step on finer meshes, from the same s_old.
+
+use std::path::Path;
+
+use signorini_certify::cell::Cell;
+use signorini_intervals::{OutputBound, of_answer};
+use signorini_problem::Problem;
+use signorini_problem::field::CellField;
+use signorini_problem::functional::Functional;
+use signorini_problem::quadrature::gauss;
+use signorini_scene::mesh::structured::{Cells, Trapezoids, grid, trapezoids};
+use signorini_scene::mesh::{Curve, Mesh};
+use signorini_scene::scene::Scene;
+use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
+
+use super::step::finer;
+use super::step::tests::second_step;
+
+const PLAIN: &str = "conductivity = 1\ncapacity = 1";
+const HELD: &str = "kind = \"dirichlet\"\nvalue = 0.1";
+const ROBIN: &str = "kind = \"robin\"\ncoefficient = 3\nambient = -0.1";
+const WALL: &str = "kind = \"neumann\"\nflux = 0.2";
+
+/// Outputs of every kind: the middle is a cell.
+const OUTPUTS: &str = r#"
+[output.force]
+kind = "force"
+[output.skin]
+kind = "mean"
+of = "contact"
+[output.wall]
+kind = "mean"
+of = "right"
+[output.through]
+kind = "flux"
+of = "left"
+[output.roof]
+kind = "flux"
+of = "dirichlet"
+[output.middle]
+kind = "probe"
+at = [0.03, 0.51]
+"#;
+
+/// f changes its sign in the second step, so that contact travels.
+fn scene(dt: f64, material: &str, contact: &str, left: &str) -> Scene {
+    let text = format!(
+        "mesh = \"grid\"\n[material.default]\n{material}\n\
+         [source]\nf = \"10*sign(1.5 - t/{dt})*(1 + x*y)\"\n\
+         [boundary.dirichlet]\nkind = \"dirichlet\"\nvalue = 0.1\n[boundary.left]\n{left}\n\
+         [boundary.right]\n{WALL}\n[boundary.contact]\nkind = \"contact\"\n{contact}\n\
+         [time]\nstep = {dt}\ninitial = 0.05\n{OUTPUTS}"
+    );
+    Scene::parse(&text, Path::new("step.toml")).unwrap()
+}
+
+/// With curves of their own for the left and the right side.
+fn sided(mut mesh: Mesh) -> Mesh {
+    for (name, x) in [("left", -1.0), ("right", 1.0)] {
+        let is_there = |edge: &[u32; 2]| edge.iter().all(|&at| mesh.vertices[at as usize][0] == x);
+        let rest = mesh.curves.iter().position(|curve| curve.name == "dirichlet").unwrap();
+        let (edges, others) = mesh.curves[rest].edges.iter().copied().partition(is_there);
+        mesh.curves[rest].edges = others;
+        mesh.curves.push(Curve { name: name.to_owned(), edges });
+    }
+    mesh
+}
+
+/// The mean of s of a finer answer over the cell of a probe on the coarser mesh.
+fn mean_over(coarse: &Problem, cell: usize, (fine, answer): (&Problem, &Solution)) -> f64 {
+    let none = vec![0.0; coarse.ends.len()];
+    let whole = CellField::new(coarse, cell, &none, &none);
+    let s = answer.certified.admissible();
+    let [mut sum, mut area] = [0.0; 2];
+    for at in 0..fine.cells() {
+        let part = Cell::of(fine, at);
+        if whole.locate(part.middle()).is_some() {
+            let s = s.chordal(fine, at);
+            for point in part.points(&gauss(4)) {
+                sum += point.weight * s.at(&part.local(point.reference)).value;
+                area += point.weight;
+            }
+        }
+    }
+    sum / area
+}
+
+/// Half-widths over the errors of the middles, and how many outputs have an interval.
+fn check(scene: &Scene, mesh: Mesh, scalar: ScalarKind, sweeps: Option<u32>, of: &str) -> Vec<f64> {
+    let (problem, answer) = second_step(scene, sided(mesh), scalar, sweeps);
+    let options = Options { solver: SolverKind::Factor, averages: true, ..Options::default() };
+    let fine = finer(&problem, 2).unwrap();
+    let truth = solve(&fine, &options).unwrap();
+    let its = of_answer(&fine, &(&truth).into());
+    let mut ratios = Vec::new();
+    for (name, found) in of_answer(&problem, &(&answer).into()) {
+        let Ok(OutputBound { center, plus_minus, .. }) = found else {
+            println!("  {of} {name}: {}", found.unwrap_err());
+            continue;
+        };
+        let output = scene.outputs.iter().find(|output| output.name.value == name).unwrap();
+        let [value, slack] = match Functional::of(&problem, output).unwrap() {
+            Functional::Probe(cell, _) => [mean_over(&problem, cell, (&fine, &truth)), 0.0],
+            _ => its[&name].as_ref().map_or([f64::NAN; 2], |of| [of.center, of.plus_minus]),
+        };
+        let off = (value - center).abs();
+        println!(
+            "  {of} {name}: {center:.6} ± {plus_minus:.2e}, truth {value:.6} ± {slack:.1e}, ratio {:.2}",
+            plus_minus / off
+        );
+        assert!(
+            !(off - slack > plus_minus),
+            "{of} {name}: {value} ± {slack}, {center} ± {plus_minus}"
+        );
+        ratios.push(plus_minus / off);
+    }
+    ratios
+}
+
+#[test]
+fn intervals_of_steps_hold_at_every_step_length() {
+    for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
+        for (exponent, scalar) in (-4..=4).zip([ScalarKind::F64, ScalarKind::F32].iter().cycle()) {
+            let scene = scene(10_f64.powi(exponent), PLAIN, "", ROBIN);
+            let of = format!("{cells:?} {scalar:?} dt 1e{exponent}");
+            check(&scene, grid(4, cells), *scalar, None, &of);
+        }
+    }
+}
+
+/// A long step is the steady problem.
+#[test]
+fn intervals_of_long_steps_are_those_of_the_steady_problem() {
+    for (cells, left) in [(Cells::Triangles, ROBIN), (Cells::Quads, HELD), (Cells::Mixed, ROBIN)] {
+        let scene = scene(1e10, PLAIN, "", left);
+        let (step, answer) = second_step(&scene, sided(grid(4, cells)), ScalarKind::F64, None);
+        let mut steady = Problem::new(&scene, (*step.mesh).clone()).unwrap();
+        steady.set_time(step.time).unwrap();
+        let options = Options { solver: SolverKind::Factor, averages: true, ..Options::default() };
+        let at_rest = solve(&steady, &options).unwrap();
+        let expected = of_answer(&steady, &(&at_rest).into());
+        for (name, found) in of_answer(&step, &(&answer).into()) {
+            let [found, expected] = [found, expected[&name].clone()].map(|found| found.unwrap());
+            let by = (found.center - expected.center)
+                .abs()
+                .max((found.plus_minus - expected.plus_minus).abs());
+            println!("{cells:?} {name}: {found:?} {expected:?}");
+            assert!(by < 1e-6 * expected.plus_minus, "{cells:?} {name}: {found:?} {expected:?}");
+        }
+    }
+}
