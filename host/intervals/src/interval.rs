@@ -12,8 +12,9 @@ use super::values::{INTEGRATED, Value};
 use signorini_certify::ErrorBound;
 use signorini_certify::deviation::Deviations;
 use signorini_problem::Problem;
+use signorini_problem::functional::of_one;
 use signorini_scene::error::Result;
-use signorini_scene::scene::Output;
+use signorini_scene::scene::{Output, Quantity};
 use signorini_solve::SharedFactor;
 
 /// Parts c that are tried, and by how much each is larger than the last.
@@ -50,6 +51,9 @@ pub(super) struct Known<'p> {
 impl Known<'_> {
     pub fn interval(&self, output: &Output) -> Result<Found> {
         let mut found = self.bounded(output)?;
+        if output.quantity == Quantity::Content {
+            found = found.map(|found| found.times(of_one(self.problem, output)));
+        }
         if let (Ok(found), Some(exact)) = (&mut found, &self.problem.scene.exact) {
             let [value, doubt] = exact::value(self.problem, exact, output)?;
             (found.exact, found.doubt) = (Some(value), doubt);

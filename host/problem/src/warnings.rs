@@ -62,7 +62,7 @@ fn idle_default(problem: &Problem) -> Option<String> {
 fn idle_loads(problem: &Problem) -> Vec<String> {
     let inputs = problem.scene.inputs.iter().filter(|input| input.field.value != Field::Source);
     let inputs = inputs.map(|input| (&input.name, &input.of));
-    let outputs = problem.scene.outputs.iter();
+    let outputs = problem.scene.outputs.iter().filter(|output| !output.quantity.is_inside());
     let outputs = outputs.flat_map(|output| output.of.iter().map(|of| (&output.name, of)));
     let idle = inputs.chain(outputs).filter(|(_, of)| is_idle(problem, &of.value));
     idle.map(|(name, of)| {

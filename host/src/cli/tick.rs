@@ -211,8 +211,10 @@ fn refused(ticks: &[TickRecord], is: fn(&TickRecord) -> bool, why: &str) -> Opti
 
 /// Why outputs have no interval, the first reason of each; lengths never have one.
 fn without_interval(scene: &Scene, ticks: &[TickRecord]) -> Vec<String> {
-    let is_length = |of: &Output| matches!(of.quantity, Quantity::Length | Quantity::Saturated);
-    let outputs = scene.outputs.iter().enumerate().filter(|(_, of)| !is_length(of));
+    let has_none = |of: &Output| {
+        matches!(of.quantity, Quantity::Length | Quantity::Saturated | Quantity::Window)
+    };
+    let outputs = scene.outputs.iter().enumerate().filter(|(_, of)| !has_none(of));
     let line = |(at, output): (usize, &Output)| {
         let reasons = ticks.iter().filter_map(|tick| tick.intervals.get(at)?.as_ref().err());
         let (first, count) = (reasons.clone().next()?, reasons.count());

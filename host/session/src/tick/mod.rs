@@ -138,7 +138,8 @@ fn play_in<R: Scalar>(
         problem = given.stepping(step, solution.state())?;
         evolution = start.evolution;
         if budget.shows_start {
-            let start = TickRecord::of(&at_start, &solution)?.with_window(evolution.as_ref());
+            let start =
+                TickRecord::of(&at_start, &solution)?.with_window(&given.scene, evolution.as_ref());
             done(&start, Some(&solution))?;
             ticks.push(start);
         }
@@ -291,13 +292,15 @@ impl Play<'_> {
         tick.intervals = self.intervals.of(problem, (&*self.session, &solution))?;
         if let Some(evolution) = &mut self.evolution {
             evolution.advance(&solution.certified.evolution);
+            tick.over_time =
+                self.intervals.over_time(problem, (&solution, evolution.distance()))?;
         }
-        let mut tick = tick.with_window(self.evolution.as_ref());
+        let mut tick = tick.with_window(&problem.scene, self.evolution.as_ref());
         let is_plain = self.units == Units::default();
         let posed = (!is_plain).then(|| Arc::new(problem.clone()));
         problem.advance(solution.state());
         let Some(posed) = posed else { return Ok((tick, Some(solution))) };
-        tick.rescale(&problem.scene, &self.units);
+        tick.rescale(problem, &self.units);
         Ok((tick, Some(in_scene(&posed, &self.units, solution))))
     }
 }
