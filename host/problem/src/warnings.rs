@@ -1,6 +1,7 @@
 //! Warnings on a scene and its mesh: what may not be meant, though it is no error.
 
 use super::solvability::floating;
+use super::stored;
 use super::{EdgeKind, Problem};
 use signorini_scene::mesh::coincident::{Segment, coincident};
 use signorini_scene::scene::{Condition, Field};
@@ -12,6 +13,7 @@ pub(super) fn warnings(problem: &Problem) -> Vec<String> {
         .chain(floating(problem))
         .chain(idle_default(problem))
         .chain(idle_loads(problem))
+        .chain(stored::warnings(problem))
         .collect()
 }
 

@@ -17,7 +17,7 @@ use signorini_scene::mesh;
 use signorini_scene::scene::{Output, Quantity, Scene, Time};
 use signorini_scene::setting::{Method, ModelKind, Precision, Setting};
 use signorini_session::tick::columns::{bounds_csv, ticks_csv};
-use signorini_session::tick::{Budget, TickRecord, log, play, replay, schedule};
+use signorini_session::tick::{Budget, TickRecord, log, play, replay, schedule, warnings};
 use signorini_solve::{Ending, ScalarKind, Solution};
 
 const EXAMPLES: &str = "\
@@ -126,6 +126,9 @@ impl Arguments {
             intervals: !self.no_intervals && work <= MOST_INTERVALS,
             shows_start: self.log.is_none(),
         };
+        if !self.baked {
+            warn(&warnings(&problem, &moments, budget.scalar)?);
+        }
         let bar = steps(moments.len());
         let mut series = self.vtu.then(|| Series::new(&out, "ticks", 4));
         let done = |tick: &TickRecord, solution: Option<&Solution>| {

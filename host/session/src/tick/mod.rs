@@ -20,6 +20,7 @@ mod start;
 mod tests;
 
 pub use record::{TickInterval, TickRecord};
+pub use start::warnings;
 
 use std::sync::Arc;
 
