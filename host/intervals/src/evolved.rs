@@ -1,4 +1,4 @@
-//! Outputs of the evolution in time, between which its bound has them.
+//! Outputs of the evolution in time: the ends between which its bound has them.
 //!
 //! ```text
 //!   |J(u) − J(s)| ≤ ‖j c^{−½}‖ ‖c^½(u − s)‖,     J(u) = ∫ j u
