@@ -535,3 +535,47 @@ fn a_log_goes_on_beyond_loads_that_contact_cannot_hold() {
         assert_eq!(status(ticked(&never)), "no-solution no-solution", "{more:?}");
     }
 }
+
+/// A plate that stores u and is held above, with outputs of it.
+fn storing(more: &str) -> String {
+    let mesh = meshes("catalogue/square-tri-16.msh");
+    let plate = in_time(&mesh, "1", "0", "")
+        .replace("conductivity = 1\n", "conductivity = 1\ncapacity = 2\n");
+    format!("{plate}[output.heat]\nkind = \"content\"\n[time]\nstep = 0.1\n{more}")
+}
+
+#[test]
+fn what_is_stored_has_columns_for_the_evolution() {
+    let folder = Folder::new();
+    let sure = "[output.sure]\nkind = \"window\"\n";
+    let scene = folder.write("plate.toml", storing(&format!("initial = \"y\"\n{sure}")));
+    let run = tick(&scene, &folder, &["--ticks", "3"]).succeeds();
+    let moved = "warning: time.initial is moved to the gap or the given u on";
+    assert!(run.stderr.starts_with(moved), "{}", run.stderr);
+    assert!(run.stderr.contains("by 9.69e-1 at most"), "{}", run.stderr);
+    let ticks = Table::read(folder.path("out/ticks.csv"));
+    assert_eq!(ticks.numbers("sure"), ticks.numbers("window_energy"));
+    let bounds = Table::read(folder.path("out/output_bounds.csv"));
+    let heat = ticks.numbers("heat");
+    let [least, most] = ["heat_least", "heat_most"].map(|name| bounds.column(name));
+    assert_eq!((least[0], most[0]), ("", ""), "the start has none");
+    for at in 1..heat.len() {
+        let [least, most] = [least[at], most[at]].map(|end| end.parse::<f64>().expect("an end"));
+        assert!(least < heat[at] && heat[at] < most, "{least} {} {most}", heat[at]);
+    }
+    // The steady state has no bound over time.
+    let message = refused("solve", &scene, &[]);
+    assert!(message.contains("output.sure: this is the steady state"), "{message}");
+}
+
+#[test]
+fn steps_in_f32_that_are_too_short_are_said() {
+    let folder = Folder::new();
+    let scene = folder.write("plate.toml", storing(""));
+    let short = ["--ticks", "1", "--step", "1e-5", "--no-intervals"];
+    let said =
+        |more: &[&str]| tick(&scene, &folder, &[&short[..], more].concat()).succeeds().stderr;
+    let in_f32 = said(&["--scalar", "f32"]);
+    assert!(in_f32.contains("of the time in which u decays: in f32"), "{in_f32}");
+    assert_eq!(said(&[]), "");
+}

@@ -43,8 +43,13 @@ pub(super) fn meaning(output: &Output) -> String {
         Quantity::Saturated => {
             format!("Length of {place} where the flux is at its limit, u < ψ; unit of the mesh.")
         }
-        Quantity::Mean => format!("Mean of u over {place}."),
+        Quantity::Mean | Quantity::MeanInside => format!("Mean of u over {place}."),
+        Quantity::Content => {
+            let place = output.place("the domain", code);
+            format!("∫c u over {place}, c the capacity; unit of c times an area times u.")
+        }
         Quantity::Probe { at: [x, y] } => format!("u at ({x}, {y})."),
+        Quantity::Window => "Bound on the energy norm of the error over time.".to_owned(),
         Quantity::Bound => {
             "Bound on the error in the energy norm; infinite where there is none.".to_owned()
         }

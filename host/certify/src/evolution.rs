@@ -123,6 +123,11 @@ impl Evolution {
         self.bound * (THETA * self.rate / (PHI * weights)).sqrt()
     }
 
+    /// ‖c^½(u − s)‖ at the end of the last step, at most; ∞ where a step had no bound.
+    pub fn distance(&self) -> f64 {
+        self.bound
+    }
+
     /// How far back the mean reaches, in the unit of time: 1/(2θλ).
     pub fn seconds(&self) -> f64 {
         0.5 / (THETA * self.rate)

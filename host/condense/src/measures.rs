@@ -21,7 +21,7 @@ impl Columns<'_> {
             Functional::Probe(cell, point) => self.linear(|Field { u, flux }| {
                 CellField::new(problem, *cell, u, flux).sample(point).u
             }),
-            Functional::Mean(parts) => self.linear(|Field { u, .. }| {
+            Functional::Linear(parts) => self.linear(|Field { u, .. }| {
                 parts.iter().fold(0.0, |sum, &(edge, part)| sum + part * u[edge])
             }),
             Functional::Length(lengths) => {
@@ -32,7 +32,8 @@ impl Columns<'_> {
             Functional::Saturated(lengths) => {
                 Measure::Saturated { always: 0.0, of_contact: self.by_unknown(lengths) }
             }
-            Functional::Bound => Measure::Bound,
+            // A controller with a window is refused.
+            Functional::Bound | Functional::Window => Measure::Bound,
         };
         Ok(functionals(problem)?.iter().map(measure).collect())
     }

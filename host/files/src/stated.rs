@@ -55,7 +55,10 @@ impl<'a> Stated<'a> {
                 )
             }
             Some(Err(why))
-                if !matches!(self.output.quantity, Quantity::Length | Quantity::Saturated) =>
+                if !matches!(
+                    self.output.quantity,
+                    Quantity::Length | Quantity::Saturated | Quantity::Window
+                ) =>
             {
                 format!("{value}{unit}; no interval: {why}")
             }

@@ -49,14 +49,36 @@ impl OutputBound {
     }
 
     /// From `units` to those of the scene.
-    pub(super) fn in_scene(self, units: &Units, of: Quantity) -> Self {
+    /// The output is `of_one` for u = 1.
+    pub(super) fn in_scene(self, units: &Units, of: Quantity, of_one: f64) -> Self {
         let Self { center, plus_minus, estimate, exact, doubt, .. } = self;
         let [plus_minus, doubt] = [plus_minus, doubt].map(|x| x * units.of_output(of));
-        let (center, exact) = (units.output(of, center), exact.map(|x| units.output(of, x)));
+        let output = |x: f64| units.output(of, [x, of_one]);
+        let (center, exact) = (output(center), exact.map(output));
         let estimate = estimate.map(|x| x * units.of_output(of));
-        // Another zero of u rounds the middle.
-        let rounding = if units.zero == 0.0 { 0.0 } else { f64::EPSILON * center.abs() };
+        let rounding = zero_rounding(units, of) * center.abs();
         Self { center, plus_minus: plus_minus + rounding, estimate, exact, doubt, ..self }
+    }
+
+    /// So many times the output.
+    pub(super) fn times(self, by: f64) -> Self {
+        let Self { center, plus_minus, estimate, exact, doubt, of } = self;
+        let [center, doubt] = [center, doubt].map(|x| by * x);
+        let plus_minus = by * plus_minus + SUMMED * center.abs();
+        let [estimate, exact] = [estimate, exact].map(|x| x.map(|x| by * x));
+        Self { center, plus_minus, of, estimate, exact, doubt }
+    }
+}
+
+/// Roundings of a sum over cells, next to its terms.
+const SUMMED: f64 = 512.0 * f64::EPSILON;
+
+/// What another zero of u rounds of an output, as a part of it: of a content, ∫c is a sum.
+pub fn zero_rounding(units: &Units, of: Quantity) -> f64 {
+    match of {
+        _ if units.zero == 0.0 => 0.0,
+        Quantity::Content => SUMMED,
+        _ => f64::EPSILON,
     }
 }
 

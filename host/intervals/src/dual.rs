@@ -34,10 +34,9 @@ impl Dual {
             let edge = record.edge as usize;
             record.ambient += problem.lengths[edge] * goal.density_on(problem, edge);
         }
-        if let Some(cell) = goal.cell {
-            let (triangles, quads) = (problem.mesh.triangles.len(), problem.mesh.quads.len());
-            let mut all = vec![0.0; triangles + quads];
-            all[cell] = 1.0;
+        if !goal.sources.is_empty() {
+            let mut all = goal.sources.clone();
+            let triangles = problem.mesh.triangles.len();
             (dual.loads.quads, dual.loads.triangles) = (all.split_off(triangles), all);
         }
         // Its step begins at 0.

@@ -5,7 +5,7 @@ use super::values::end;
 use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::{Conductivity, apply, dot};
 use signorini_kernel::mesh::geometry::scaled_normal;
-use signorini_problem::functional::Functional;
+use signorini_problem::functional::{Functional, of_cells};
 use signorini_problem::pointwise::exact_at;
 use signorini_problem::quadrature::bisected::graded_mean;
 use signorini_problem::quadrature::{gauss, on_panels};
@@ -27,6 +27,7 @@ pub(super) fn value(problem: &Problem, exact: &Exact, output: &Output) -> Result
     let sum = |all: [f64; 2], of: [f64; 2]| [all[0] + of[0], all[1] + of[1]];
     match output.quantity {
         Quantity::Probe { .. } => Ok([over_cell(problem, exact, output)?, 0.0]),
+        Quantity::MeanInside | Quantity::Content => over_cells(problem, exact, output),
         Quantity::Mean => {
             let all = part.edges().map(|edge| of_u(problem, exact, edge)).fold([0.0; 2], sum);
             Ok(all.map(|x| x / part.length()))
@@ -67,9 +68,29 @@ fn of_flux(problem: &Problem, exact: &Exact, edge: usize, is_force: bool) -> Res
 /// The mean over the cell of a probe.
 fn over_cell(problem: &Problem, exact: &Exact, output: &Output) -> Result<f64> {
     let Functional::Probe(at, _) = Functional::of(problem, output)? else { return Ok(f64::NAN) };
+    mean(problem, exact, at, &on_panels(PANELS, &gauss(POINTS)))
+}
+
+/// Σ_T w_T ū_T, and by how much rules of [`POINTS`] and half as many points a direction differ in it.
+fn over_cells(problem: &Problem, exact: &Exact, output: &Output) -> Result<[f64; 2]> {
+    let [mut value, mut doubt] = [0.0; 2];
+    let rules = [POINTS, POINTS / 2].map(gauss);
+    for (at, weight) in of_cells(problem, output).into_iter().enumerate() {
+        if weight != 0.0 {
+            let [fine, coarse] = [0, 1].map(|rule| mean(problem, exact, at, &rules[rule]));
+            let fine = fine?;
+            value += weight * fine;
+            doubt += weight * (fine - coarse?).abs();
+        }
+    }
+    Ok([value, doubt])
+}
+
+/// The mean over a cell.
+fn mean(problem: &Problem, exact: &Exact, at: usize, rule: &[[f64; 2]]) -> Result<f64> {
     let cell = Cell::of(problem, at);
     let [mut sum, mut area] = [0.0; 2];
-    for point in cell.points(&on_panels(PANELS, &gauss(POINTS))) {
+    for point in cell.points(rule) {
         sum += point.weight * exact_at(&problem.scene, exact, point.x, problem.time)?.0;
         area += point.weight;
     }

@@ -1,12 +1,12 @@
 //! Outputs as functionals of u and σ, and the data of the linear problem that weighs their errors.
 //!
 //! ```text
-//!   J(u) = J(s) + {…}      the mean of u over a part P of the boundary, or over a cell
+//!   J(u) = J(s) + {…}      the mean of u over a part P of the boundary, or over cells with weights w_T
 //!   J(σ) = J(τ) − {…}      the flux through P, or the force of contact there
 //! ```
 //! with the same {…} for both ([`super`]). Its weights z and ζ have these data:
 //! ```text
-//!   mean    ζ·n = 1/|P| on P, 0 on the rest of N and C,  z = 0 on D,  ζ·n = −h z (+ 1/|P|) on R,  −∇·ζ = 1/|T| in a cell
+//!   mean    ζ·n = 1/|P| on P, 0 on the rest of N and C,  z = 0 on D,  ζ·n = −h z (+ 1/|P|) on R,  −∇·ζ = w_T/|T| in a cell
 //!   flux    z = ±1 on P, 0 on the rest of D and C,  ζ·n = 0 on N,  ζ·n = h (1_P − z) on R
 //! ```
 
@@ -18,6 +18,7 @@ use std::f64::consts::PI;
 use signorini_certify::cell::Cell;
 use signorini_certify::deviation::Deviations;
 use signorini_certify::oscillation::alpha;
+use signorini_problem::functional::{Functional, of_cells};
 use signorini_problem::{EdgeKind, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Field, Output, Quantity};
@@ -32,8 +33,8 @@ pub(super) struct Goal {
     pub values: Vec<f64>,
     /// ζ·n on each of the scene's boundaries, as far as no u makes it.
     pub densities: Vec<f64>,
-    /// The cell, triangles first, in which ζ has a source of 1.
-    pub cell: Option<usize>,
+    /// ∫_T −∇·ζ in each cell, triangles first, with the sum 1; nothing where ζ has no source.
+    pub sources: Vec<f64>,
     /// How far J(u) − J(s) may be from {…}, for an error of 1 in the energy norm: a source of ζ is no constant on a quad that is no
     /// parallelogram.
     pub beside: f64,
@@ -50,13 +51,17 @@ pub(super) type Posed = std::result::Result<Goal, String>;
 pub fn described(output: &Output) -> String {
     let of = output.place("all contact edges", str::to_owned);
     match output.quantity {
-        Quantity::Mean => format!("the mean of u over {of}"),
+        Quantity::Mean | Quantity::MeanInside => format!("the mean of u over {of}"),
+        Quantity::Content => {
+            format!("∫cu over {}", output.place("the domain", str::to_owned))
+        }
         Quantity::Flux => format!("the flux (A∇u)·n over {of}"),
         Quantity::Force => format!("the force ∫λ over {of}"),
         Quantity::Length => format!("the length of {of} that touches"),
         Quantity::Saturated => format!("the length of {of} at its limit"),
         Quantity::Probe { at: [x, y] } => format!("u at ({x}, {y})"),
         Quantity::Bound => "the error bound".to_owned(),
+        Quantity::Window => "the bound over time".to_owned(),
     }
 }
 
@@ -116,11 +121,26 @@ impl Goal {
         let none = |why: &str| Ok(Err(why.to_owned()));
         match output.quantity {
             Quantity::Length | Quantity::Saturated => none("the length of a contact set has none"),
-            Quantity::Bound => none("it is a bound itself"),
-            Quantity::Probe { .. } => match values::cell(problem, answer, deviations, output)? {
-                Some((cell, start)) => Ok(Ok(Self::of_cell(problem, cell, start))),
-                None => none("it is outside the mesh"),
-            },
+            Quantity::Bound | Quantity::Window => none("it is a bound itself"),
+            Quantity::Probe { .. } => {
+                let Functional::Probe(cell, _) = Functional::of(problem, output)? else {
+                    return none("it is outside the mesh");
+                };
+                let mut sources = vec![0.0; problem.cells()];
+                sources[cell] = 1.0;
+                let [x, y] = Cell::of(problem, cell).middle();
+                let of = format!("the mean of u over the cell around ({x}, {y})");
+                Self::inside(problem, answer, deviations, (sources, of)).map(Ok)
+            }
+            Quantity::MeanInside | Quantity::Content => {
+                let weights = of_cells(problem, output);
+                let all: f64 = weights.iter().sum();
+                if all == 0.0 {
+                    return none("its materials have no cell that counts");
+                }
+                let sources = weights.into_iter().map(|weight| weight / all).collect();
+                Self::inside(problem, answer, deviations, (sources, described(output))).map(Ok)
+            }
             _ if part.edges().next().is_none() => none("its boundary has no edge"),
             Quantity::Mean => Self::of_mean(problem, answer, deviations, output).map(Ok),
             Quantity::Flux | Quantity::Force => Self::of_flux(problem, answer, output).map(Ok),
@@ -144,15 +164,22 @@ impl Goal {
     /// u at the start and no data: z and ζ are 0.
     fn without_data(problem: &Problem, start: Value, of: String) -> Self {
         let none = vec![0.0; problem.scene.boundaries.len()];
-        let (values, densities) = (none.clone(), none);
-        Self { sign: 1.0, start, values, densities, cell: None, beside: 0.0, law: EVERYTHING, of }
+        let (values, densities, sources) = (none.clone(), none, Vec::new());
+        Self { sign: 1.0, start, values, densities, sources, beside: 0.0, law: EVERYTHING, of }
     }
 
-    fn of_cell(problem: &Problem, cell: usize, start: Value) -> Self {
-        let [x, y] = Cell::of(problem, cell).middle();
-        let of = format!("the mean of u over the cell around ({x}, {y})");
-        let beside = beside(problem, cell);
-        Self { cell: Some(cell), beside, ..Self::without_data(problem, start, of) }
+    /// Σ_T w_T ū_T for weights with the sum 1, and words for it.
+    fn inside(
+        problem: &Problem,
+        answer: &Answered,
+        deviations: &Deviations,
+        (sources, of): (Vec<f64>, String),
+    ) -> Result<Self> {
+        let start = values::inside(problem, answer, deviations, &sources)?;
+        let counted = sources.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
+        let squares = counted.map(|(at, weight)| (weight * beside(problem, at)).powi(2));
+        let beside = squares.sum::<f64>().sqrt();
+        Ok(Self { sources, beside, ..Self::without_data(problem, start, of) })
     }
 
     fn of_flux(problem: &Problem, answer: &Answered, output: &Output) -> Result<Self> {
@@ -190,6 +217,9 @@ impl Goal {
     /// # Errors
     /// Data that are not finite.
     pub fn given(problem: &Problem, output: &Output) -> Result<Option<Value>> {
+        if output.quantity.is_inside() {
+            return Ok(None);
+        }
         let part = Part::new(problem, output);
         let field = match output.quantity {
             Quantity::Flux if part.is_all(EdgeKind::Neumann) => Field::Flux,

@@ -15,8 +15,9 @@ use super::values::{INTEGRATED, Value};
 use signorini_certify::ErrorBound;
 use signorini_certify::deviation::Deviations;
 use signorini_problem::Problem;
+use signorini_problem::functional::of_one;
 use signorini_scene::error::Result;
-use signorini_scene::scene::Output;
+use signorini_scene::scene::{Output, Quantity};
 use signorini_solve::SharedFactor;
 
 /// Parts c that are tried, and by how much each is larger than the last.
@@ -58,6 +59,9 @@ pub(super) struct Known<'p> {
 impl Known<'_> {
     pub fn interval(&self, output: &Output) -> Result<Found> {
         let mut found = self.bounded(output)?;
+        if output.quantity == Quantity::Content {
+            found = found.map(|found| found.times(of_one(self.problem, output)));
+        }
         // A stated solution is not that of the step.
         let exact = self.problem.scene.exact.as_ref().filter(|_| self.problem.loads.step.is_none());
         if let (Ok(found), Some(exact)) = (&mut found, exact) {

@@ -33,6 +33,7 @@ mod answer;
 mod contact;
 mod dual;
 mod estimate;
+mod evolved;
 mod exact;
 mod goal;
 mod interval;
@@ -51,16 +52,17 @@ pub mod weights;
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 
-pub use answer::{Answered, Found, OutputBound};
+pub use answer::{Answered, Found, OutputBound, zero_rounding};
 use contact::contact_edges;
 use dual::Weights;
 pub use estimate::estimate;
+pub use evolved::over_time;
 pub use goal::described;
 use interval::Known;
 use products::Residual;
 use signorini_certify::curved::followed;
 use signorini_problem::Problem;
-use signorini_problem::functional::wanted;
+use signorini_problem::functional::{of_one, wanted};
 use signorini_problem::threads::on_two_threads;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Output;
@@ -77,7 +79,8 @@ pub fn of_outputs(problem: &Problem, solution: &Solution) -> BTreeMap<String, Fo
     let mut all = of_answer(scaled, &own.into());
     for output in wanted(&problem.scene).iter() {
         if let Some(Ok(found)) = all.get_mut(&output.name.value) {
-            *found = found.clone().in_scene(&solution.units, output.quantity);
+            let of_one = of_one(scaled, output);
+            *found = found.clone().in_scene(&solution.units, output.quantity, of_one);
         }
     }
     all

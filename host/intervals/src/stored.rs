@@ -75,7 +75,7 @@ impl<'p> Stored<'p> {
         let old = Admissible { vertices: &begin.vertices, bubbles: &begin.bubbles, ..*s };
         let [s_here, old_here, z_here] = [s, &old, z].map(|of| of.chordal(problem, at));
         let load = problem.loads.of_cell(at);
-        let source = if goal.cell == Some(at) { 1.0 } else { 0.0 };
+        let source = goal.sources.get(at).copied().unwrap_or(0.0);
         let [out, out_z] = [(s.tau, load), (z.tau, source)]
             .map(|(flux, load)| CellField::new(problem, at, flux, flux).surplus(load, &[]));
         let fluxes = problem.topology.edges_of(at).iter().map(|&edge| s.tau[edge as usize].abs());

@@ -6,12 +6,12 @@ use signorini_certify::cell::Cell;
 use signorini_certify::curved;
 use signorini_certify::deviation::Deviations;
 use signorini_problem::field::CellField;
-use signorini_problem::functional::Functional;
 use signorini_problem::quadrature::enclosed::Integral;
 use signorini_problem::quadrature::{gauss, mean_on_edge};
 use signorini_problem::{EdgeKind, Problem, Sum};
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Condition, Field, Output};
+use signorini_scene::scene::{Condition, Field};
+use std::collections::BTreeSet;
 
 /// Part of their size that the quadrature of smooth data may miss.
 pub(super) const INTEGRATED: f64 = 2e-9;
@@ -104,24 +104,33 @@ fn largest(numbers: &[f64]) -> f64 {
     numbers.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 
-/// The cell with a probe, and the mean of s over it.
-pub(super) fn cell(
+/// Σ_T w_T s̄_T for weights of the cells, s̄_T the mean of s over one.
+pub(super) fn inside(
     problem: &Problem,
     answer: &Answered,
     deviations: &Deviations,
-    output: &Output,
-) -> Result<Option<(usize, Value)>> {
-    let Functional::Probe(at, _) = Functional::of(problem, output)? else { return Ok(None) };
-    let (cell, s) = (Cell::of(problem, at), answer.certified.admissible());
-    let on_cell = s.on_cell(problem, at, deviations);
-    let [mut value, mut terms, mut area] = [0.0; 3];
-    for point in curved::points_along_sides(problem, at, deviations, &gauss(curved::POINTS))? {
-        let here = on_cell.at(&cell.local(point.reference))?.value;
-        (value, terms) = (value + point.weight * here, terms + point.weight * here.abs());
-        area += point.weight;
+    weights: &[f64],
+) -> Result<Value> {
+    let s = answer.certified.admissible();
+    let lifted: BTreeSet<usize> =
+        deviations.found.iter().map(|of| problem.topology.first_side(of.edge).0).collect();
+    let [mut value, mut terms] = [0.0; 2];
+    for (at, weight) in weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
+        let (cell, on_cell) = (Cell::of(problem, at), s.on_cell(problem, at, deviations));
+        let points = match lifted.contains(&at) {
+            true => curved::points_along_sides(problem, at, deviations, &gauss(curved::POINTS))?,
+            // Of degree 3 in each direction, with the area element.
+            false => cell.points(&gauss(2)),
+        };
+        let [mut sum, mut size, mut area] = [0.0; 3];
+        for point in points {
+            let here = on_cell.at(&cell.local(point.reference))?.value;
+            (sum, size) = (sum + point.weight * here, size + point.weight * here.abs());
+            area += point.weight;
+        }
+        (value, terms) = (value + weight * sum / area, terms + weight * size / area);
     }
-    let [value, terms] = [value, terms].map(|sum| sum / area);
-    Ok(Some((at, Value { value, terms, largest: largest(s.vertices) })))
+    Ok(Value { value, terms, largest: largest(s.vertices) })
 }
 
 /// ∫τ·n over a part of the boundary; as a force, from the ends that it is measured from. Through N the data give it.

@@ -140,6 +140,9 @@ impl<'p> Weighing<'p> {
         if let Quantity::Probe { .. } = output.quantity {
             return none("u at a point has none; a mean over a boundary has one");
         }
+        if output.quantity.is_inside() {
+            return none("an integral over cells has none; a mean over a boundary has one");
+        }
         let goal = match Goal::of(self.problem, &answer, &NOTHING, output)? {
             Ok(goal) => goal,
             Err(why) => return Ok(Err(why)),

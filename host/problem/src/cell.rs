@@ -128,6 +128,16 @@ impl Cell {
         [0, 1].map(|k| sum(k) / corners.len() as f64)
     }
 
+    /// |T|
+    pub fn area(&self) -> f64 {
+        // That of the parallelogram of the diagonals of a quad, halved.
+        let [[ax, ay], [bx, by]] = match *self {
+            Self::Triangle([a, b, c]) => [[b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]],
+            Self::Quad([a, b, c, d]) => [[c[0] - a[0], c[1] - a[1]], [d[0] - b[0], d[1] - b[1]]],
+        };
+        0.5 * (ax * by - ay * bx)
+    }
+
     /// The largest distance between two of its points.
     pub fn diameter(&self) -> f64 {
         let pairs =

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use crate::cell::Cell;
 use crate::field::CellField;
 use crate::quadrature::Point;
 use crate::{EdgeKind, Problem};
@@ -17,14 +18,16 @@ pub enum Functional {
     Force(Vec<usize>),
     /// u_h at a point of a cell (triangles first).
     Probe(usize, Point),
-    /// The mean of u_h over edges, each with its part of their length.
-    Mean(Vec<(usize, f64)>),
+    /// Σ w_E u_E over edges: a mean over them, each with its part of their length, or over cells, or what cells store.
+    Linear(Vec<(usize, f64)>),
     /// The lengths of those of these contact edges that are active.
     Length(Vec<(usize, f64)>),
     /// The lengths of those of these contact edges whose flux is at its limit.
     Saturated(Vec<(usize, f64)>),
     /// The error bound.
     Bound,
+    /// The bound over time, which no single answer has.
+    Window,
 }
 
 /// The declared outputs; without any, contact force and length.
@@ -62,12 +65,63 @@ impl Functional {
             Quantity::Flux => Self::Flux(edges.collect()),
             Quantity::Force => Self::Force(edges.filter(contact).collect()),
             Quantity::Probe { at } => probe(problem, output, at)?,
-            Quantity::Mean => Self::Mean(parts(edges.map(length).collect())),
+            Quantity::Mean => Self::Linear(parts(edges.map(length).collect())),
+            Quantity::MeanInside | Quantity::Content => Self::Linear(by_edges(problem, output)),
             Quantity::Length => Self::Length(edges.filter(contact).map(length).collect()),
             Quantity::Saturated => Self::Saturated(edges.filter(contact).map(length).collect()),
             Quantity::Bound => Self::Bound,
+            Quantity::Window => Self::Window,
         })
     }
+}
+
+/// What an output weighs the mean of u over each cell with: ∫_T c of a content, the part of the area of a mean over a material; 0
+/// beside its materials, and of outputs that are about no cells nothing at all.
+pub fn of_cells(problem: &Problem, output: &Output) -> Vec<f64> {
+    let is_its = |cell: usize| {
+        let material = problem.binding.materials[cell] as usize;
+        output.of.is_empty() || output.is_of(&problem.scene.materials[material].name.value)
+    };
+    let weights = |weight: &dyn Fn(usize) -> f64| -> Vec<f64> {
+        (0..problem.cells()).map(|at| if is_its(at) { weight(at) } else { 0.0 }).collect()
+    };
+    let sides = |cell: usize| problem.topology.edges_of(cell).len() as f64;
+    match output.quantity {
+        Quantity::Content => {
+            weights(&|cell| sides(cell) * problem.capacities.get(cell).copied().unwrap_or(0.0))
+        }
+        Quantity::MeanInside => {
+            let areas = weights(&|cell| Cell::of(problem, cell).area());
+            let all: f64 = areas.iter().sum();
+            areas.into_iter().map(|area| if all > 0.0 { area / all } else { 0.0 }).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// The value of an output for u = 1 everywhere, where it is linear in u: what a constant in all data of u adds to it.
+pub fn of_one(problem: &Problem, output: &Output) -> f64 {
+    match output.quantity {
+        Quantity::Probe { .. } | Quantity::Mean | Quantity::MeanInside => 1.0,
+        Quantity::Content => of_cells(problem, output).iter().sum(),
+        Quantity::Flux
+        | Quantity::Force
+        | Quantity::Length
+        | Quantity::Saturated
+        | Quantity::Bound
+        | Quantity::Window => 0.0,
+    }
+}
+
+/// Weights of cells as such of their sides: the mean over a cell is that of its sides' means.
+fn by_edges(problem: &Problem, output: &Output) -> Vec<(usize, f64)> {
+    let mut weights = vec![0.0; problem.ends.len()];
+    for (cell, weight) in of_cells(problem, output).into_iter().enumerate() {
+        let sides = problem.topology.edges_of(cell);
+        let each = weight / sides.len() as f64;
+        sides.iter().for_each(|&edge| weights[edge as usize] += each);
+    }
+    weights.into_iter().enumerate().filter(|(_, weight)| *weight != 0.0).collect()
 }
 
 /// The sides of a cell, each with the value of its basis function at a point of that cell.

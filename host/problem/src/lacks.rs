@@ -11,7 +11,7 @@ use std::fmt;
 
 use signorini_kernel::mesh::components::PartCounts;
 
-use super::property::{MOST_NUMBERS, Property};
+use super::property::{MOST_NUMBERS, Property, window};
 use super::{Parts, Problem};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::scene::term::first_in_time;
@@ -152,6 +152,10 @@ impl Approach {
                 }
                 Factor => None,
             },
+            Property::Window => match self {
+                Condensation | Modes | FullModel => Some(no_window),
+                Tick | Factor | FactoredTicks | Export | Baselines => None,
+            },
         }
     }
 }
@@ -218,6 +222,13 @@ pub(super) fn no_steps(problem: &Problem) -> InputError {
     let place = stores.map(|material| &material.capacity);
     refused_at(problem, place, "no controller steps in time yet".to_owned())
         .hint("`signorini tick` steps in time on this machine; without `capacity` the controller is the steady one")
+}
+
+/// No controller carries what its steps leave of their equations.
+fn no_window(problem: &Problem) -> InputError {
+    let name = window(problem).map(|output| &output.name);
+    refused_at(problem, name, "no controller has the bound over time yet".to_owned())
+        .hint("take `bound`, that of each step; `signorini tick` has both")
 }
 
 fn one_factor(problem: &Problem) -> InputError {

@@ -37,6 +37,7 @@ pub mod scalar;
 pub mod search;
 mod solvability;
 mod step;
+mod stored;
 mod sum;
 #[cfg(test)]
 mod tests;

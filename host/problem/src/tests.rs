@@ -266,3 +266,39 @@ fn the_diagonal_has_the_bits_of_the_assembled_one() -> Result<()> {
     }
     Ok(())
 }
+
+fn stored(left: &str, right: &str, step: f64) -> Result<Vec<String>> {
+    let text = SCENE.replace("material.default.conductivity = \"1\"\n", "");
+    let material = |name: &str, capacity: &str| {
+        format!("[material.{name}]\nconductivity = 2\ncapacity = \"{capacity}\"\n")
+    };
+    let text = format!(
+        "{text}{}{}[time]\nstep = {step}\n",
+        material("left", left),
+        material("right", right)
+    );
+    warnings(&text, grid(4, Cells::Triangles))
+}
+
+#[test]
+fn what_may_not_be_meant_of_a_capacity_is_said() -> Result<()> {
+    assert_eq!(stored("1", "2", 1.0)?, [""; 0]);
+    // Not the same in both halves, but in every cell.
+    assert_eq!(stored("1 + sign(x)", "2 + sign(y - 0.5)", 1.0)?, [""; 0]);
+    let one = stored("1", "0", 1.0)?;
+    assert_eq!(
+        one,
+        ["[material.left] has a capacity, and [material.right] has none: u answers at once there"]
+    );
+    let varying = stored("1", "1 + x", 1.0)?;
+    assert!(varying[0].starts_with("a capacity varies inside 32 of 64 cells"), "{varying:?}");
+    // h = ¼ and c/α = ½ or 1: k h²/α is 1e4 at dt = 3.1e−6 where it is least.
+    assert_eq!(stored("1", "2", 3.2e-6)?, [""; 0]);
+    let short = stored("1", "2", 3.0e-6)?;
+    assert!(
+        short[0].starts_with("time.step = 0.000003: no less than 1.0e4 such steps"),
+        "{short:?}"
+    );
+    assert_eq!(short.len(), 1);
+    Ok(())
+}

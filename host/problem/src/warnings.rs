@@ -1,6 +1,7 @@
 //! Warnings on a scene and its mesh: what may not be meant, though it is no error.
 
 use super::solvability::floating;
+use super::stored;
 use super::{EdgeKind, Problem};
 use signorini_scene::mesh::coincident::{Segment, coincident};
 use signorini_scene::scene::{Condition, Field};
@@ -12,6 +13,7 @@ pub(super) fn warnings(problem: &Problem) -> Vec<String> {
         .chain(floating(problem))
         .chain(idle_default(problem))
         .chain(idle_loads(problem))
+        .chain(stored::warnings(problem))
         .collect()
 }
 
@@ -62,7 +64,7 @@ fn idle_default(problem: &Problem) -> Option<String> {
 fn idle_loads(problem: &Problem) -> Vec<String> {
     let inputs = problem.scene.inputs.iter().filter(|input| input.field.value != Field::Source);
     let inputs = inputs.map(|input| (&input.name, &input.of));
-    let outputs = problem.scene.outputs.iter();
+    let outputs = problem.scene.outputs.iter().filter(|output| !output.quantity.is_inside());
     let outputs = outputs.flat_map(|output| output.of.iter().map(|of| (&output.name, of)));
     let idle = inputs.chain(outputs).filter(|(_, of)| is_idle(problem, &of.value));
     idle.map(|(name, of)| {

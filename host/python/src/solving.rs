@@ -85,6 +85,7 @@ impl How {
 
 fn on_its_mesh(posed: &PosedScene, asked: &SolveRequest) -> Result<Answer> {
     let mut problem = posed.problem()?;
+    posed.scene.check_at_rest()?;
     problem.warnings.extend(at_rest_warning(&posed.scene));
     let solution = asked.solve(&problem)?;
     let energy_norm = energy_norm::of_solution(&problem, &solution)?;
@@ -97,6 +98,7 @@ fn refined(
     asked: &SolveRequest,
     given_up: &GivenUp,
 ) -> Result<Answer> {
+    posed.scene.check_at_rest()?;
     let go_on = |_: &_| Ok(!given_up.load(Ordering::Relaxed));
     let setting = posed.scene.setting.unwrap_or_default();
     let mesh =

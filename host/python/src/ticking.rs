@@ -88,11 +88,15 @@ fn columns<'py>(
     let (outputs, bounds) = (Filled::new(py), Filled::new(py));
     for (at, name) in names.iter().enumerate() {
         outputs.numbers(name, number(&|tick| tick.outputs.get(at).copied().flatten()))?;
-        let ends = records.iter().map(|tick| match tick.intervals.get(at) {
-            Some(Ok(ends)) => *ends,
-            _ => [f64::NAN; 2],
-        });
-        bounds.rows(name, ends.collect())?;
+        let ends = |of: &dyn Fn(&TickRecord) -> Option<[f64; 2]>| {
+            records.iter().map(|tick| of(tick).unwrap_or([f64::NAN; 2])).collect::<Vec<_>>()
+        };
+        let over_time = |tick: &TickRecord| tick.over_time.get(at).copied().flatten();
+        let is_over_time = records.iter().any(|tick| over_time(tick).is_some());
+        let anew = |tick: &TickRecord| tick.intervals.get(at)?.as_ref().ok().copied();
+        let own: &dyn Fn(&TickRecord) -> Option<[f64; 2]> =
+            if is_over_time { &over_time } else { &anew };
+        bounds.rows(name, ends(own))?;
     }
     all.set("outputs", outputs.0)?;
     all.set("output_bounds", bounds.0)?;

@@ -6,7 +6,7 @@ use signorini_kernel::law::EdgeLaw;
 
 use crate::{ScalarKind, Solution};
 use signorini_problem::field::CellField;
-use signorini_problem::functional::Functional;
+use signorini_problem::functional::{Functional, of_one};
 use signorini_problem::{EdgeKind, Problem};
 use signorini_scene::error::Result;
 
@@ -37,7 +37,8 @@ pub fn outputs(problem: &Problem, solution: &Solution) -> Result<BTreeMap<String
         let mut all = outputs(problem, own)?;
         for output in &problem.scene.outputs {
             if let Some(Some(value)) = all.get_mut(&output.name.value) {
-                *value = solution.units.output(output.quantity, *value);
+                let both = [*value, of_one(problem, output)];
+                *value = solution.units.output(output.quantity, both);
             }
         }
         return Ok(all);
@@ -74,7 +75,7 @@ fn evaluate(problem: &Problem, reading: Reading, functional: &Functional) -> Opt
         Functional::Probe(cell, point) => {
             Some(CellField::new(problem, *cell, reading.u, reading.flux).sample(point).u)
         }
-        Functional::Mean(parts) => {
+        Functional::Linear(parts) => {
             Some(parts.iter().fold(0.0, |sum, &(edge, part)| sum + part * reading.u[edge]))
         }
         Functional::Length(lengths) => {
@@ -87,6 +88,7 @@ fn evaluate(problem: &Problem, reading: Reading, functional: &Functional) -> Opt
             Some(length_where(lengths, at_limit))
         }
         Functional::Bound => reading.bound,
+        Functional::Window => None,
     }
 }
 

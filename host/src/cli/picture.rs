@@ -20,7 +20,11 @@ pub fn picture(scene: &Scene, ticks: &[TickRecord], budget: Option<u32>) -> Char
         let unit = output.unit.as_ref().map_or_else(String::new, |unit| format!(" [{unit}]"));
         let label = format!("{}{unit}", output.name.value);
         let values = curve(&label, &|tick| tick.outputs.get(at).copied().flatten());
-        let interval = |tick: &TickRecord| Some(*tick.intervals.get(at)?.as_ref().ok()?);
+        let interval = |tick: &TickRecord| match scene.stores() {
+            // The curve is that of the evolution.
+            true => tick.over_time.get(at).copied().flatten(),
+            false => Some(*tick.intervals.get(at)?.as_ref().ok()?),
+        };
         let ends: Vec<_> = ticks.iter().map(interval).collect();
         // The interval of a probe is around another number than the curve: the mean over its cell.
         let is_drawn =

@@ -72,6 +72,7 @@ impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let scene = self.place.scene()?;
         let out = self.place.out()?;
+        scene.check_at_rest()?;
         self.check(&scene)?;
         let told = match self.max_error {
             None => self.on_its_mesh(&scene)?,

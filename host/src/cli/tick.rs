@@ -18,7 +18,7 @@ use signorini_scene::scene::{Output, Quantity, Scene, Time};
 use signorini_scene::setting::{Method, ModelKind, Precision, Setting};
 use signorini_session::tick::columns::{bounds_csv, ticks_csv};
 use signorini_session::tick::window_error::of_other_data;
-use signorini_session::tick::{Budget, TickRecord, log, play, replay, schedule};
+use signorini_session::tick::{Budget, TickRecord, log, play, replay, schedule, warnings};
 use signorini_solve::{Ending, ScalarKind, Solution};
 
 const EXAMPLES: &str = "\
@@ -127,6 +127,9 @@ impl Arguments {
             intervals: !self.no_intervals && work <= MOST_INTERVALS,
             shows_start: self.log.is_none(),
         };
+        if !self.baked {
+            warn(&warnings(&problem, &moments, budget.scalar)?);
+        }
         let bar = steps(moments.len());
         let mut series = self.vtu.then(|| Series::new(&out, "ticks", 4));
         let done = |tick: &TickRecord, solution: Option<&Solution>| {
@@ -217,8 +220,10 @@ fn refused(ticks: &[TickRecord], is: fn(&TickRecord) -> bool, why: &str) -> Opti
 
 /// Why outputs have no interval, the first reason of each; lengths never have one.
 fn without_interval(scene: &Scene, ticks: &[TickRecord]) -> Vec<String> {
-    let is_length = |of: &Output| matches!(of.quantity, Quantity::Length | Quantity::Saturated);
-    let outputs = scene.outputs.iter().enumerate().filter(|(_, of)| !is_length(of));
+    let has_none = |of: &Output| {
+        matches!(of.quantity, Quantity::Length | Quantity::Saturated | Quantity::Window)
+    };
+    let outputs = scene.outputs.iter().enumerate().filter(|(_, of)| !has_none(of));
     let line = |(at, output): (usize, &Output)| {
         let reasons = ticks.iter().filter_map(|tick| tick.intervals.get(at)?.as_ref().err());
         let (first, count) = (reasons.clone().next()?, reasons.count());

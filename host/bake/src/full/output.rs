@@ -32,11 +32,12 @@ pub(super) fn output<R: Scalar>(problem: &Problem, functional: &Functional) -> O
         Functional::Probe(cell, point) => {
             Output::Probe(shares(&basis_at(problem, *cell, point), 0))
         }
-        Functional::Mean(parts) => Output::Probe(shares(parts, 0)),
+        Functional::Linear(parts) => Output::Probe(shares(parts, 0)),
         Functional::Length(lengths) => Output::Length(shares(lengths, free)),
         // Where no flux has a limit the kernel has no code for it, and the length is 0.
         Functional::Saturated(_) if problem.loads.spans.is_empty() => Output::Probe(Vec::new()),
         Functional::Saturated(lengths) => Output::Saturated(shares(lengths, free)),
-        Functional::Bound => Output::Bound,
+        // A controller with a window is refused.
+        Functional::Bound | Functional::Window => Output::Bound,
     }
 }

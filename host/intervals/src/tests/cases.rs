@@ -1,6 +1,8 @@
 //! Small scenes of which something is known: a polynomial, a trapezoid, a wall.
 
 use super::*;
+use signorini_scene::mesh::Mesh;
+use signorini_scene::mesh::structured::{Trapezoids, trapezoids};
 
 /// u = x² − y² on (−1, 1) × (0, 1), heat through the left side by a transfer law, through the right one by a given u.
 const HARMONIC: &str = r#"
@@ -17,6 +19,7 @@ output.cold = { kind = "flux", of = "left" }
 output.skin = { kind = "mean", of = "left" }
 output.warm = { kind = "flux", of = "right" }
 output.given = { kind = "mean", of = "right" }
+output.two = { kind = "flux", of = ["contact", "left"] }
 "#;
 
 #[test]
@@ -29,6 +32,7 @@ fn they_hold_the_values_of_an_exact_solution() -> Result<()> {
         ("skin", 2.0 / 3.0),
         ("warm", 2.0),
         ("given", 2.0 / 3.0),
+        ("two", 2.0),
     ];
     for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
         let mut widths = Vec::new();
@@ -40,7 +44,10 @@ fn they_hold_the_values_of_an_exact_solution() -> Result<()> {
                 let interval = found[name].as_ref().unwrap_or_else(|why| panic!("{name}: {why}"));
                 check(name, interval, value);
             }
-            widths.push(found["warm"].as_ref().map_or(f64::NAN, |found| found.plus_minus));
+            let width =
+                |name: &str| found[name].as_ref().map_or(f64::NAN, |found| found.plus_minus);
+            assert!(width("two") <= width("bottom") + width("cold"), "{cells:?}: {found:?}");
+            widths.push(width("warm"));
         }
         // Of first order: a quarter of the edge is a quarter of the width.
         assert!(widths[1] < 0.3 * widths[0], "{cells:?}: {widths:?}");
@@ -158,6 +165,84 @@ fn without_transfer_there_are_intervals_that_hold() -> Result<()> {
     let found = of_outputs(&problem, &solve(&problem, &options())?);
     for name in ["below", "side"] {
         check(name, found[name].as_ref().expect("an interval"), exact[name].expect("a value"));
+    }
+    Ok(())
+}
+
+/// u = x² − y² + 2x + `zero` on (−1, 1) × (0, 1), of which the left half stores `c` and the right half twice that.
+fn stores(c: f64, zero: f64) -> String {
+    format!(
+        r#"
+mesh = "grid"
+material.left = {{ conductivity = "1", capacity = "{c:?}" }}
+material.right = {{ conductivity = "1", capacity = "2*{c:?} + 0*x" }}
+source.f = "0"
+boundary.dirichlet = {{ kind = "dirichlet", value = "x^2 - y^2 + 2*x + {zero:?}" }}
+boundary.contact = {{ kind = "neumann", flux = "0" }}
+output.heat = {{ kind = "content" }}
+output.cold = {{ kind = "content", of = "left" }}
+output.both = {{ kind = "content", of = ["right", "left"] }}
+output.warm = {{ kind = "mean", of = "right" }}
+"#
+    )
+}
+
+/// ∫(x² − y²) = 0 over either half, ∫2x = ∓1: with another capacity, in other units and with another zero of u.
+#[test]
+fn contents_and_means_over_materials_hold_and_shrink() -> Result<()> {
+    for (c, zero) in [(2.0, 0.0), (2.0, 273.15), (3e6, 1e4), (1e-9, -5.0)] {
+        let on = |cells| move |n: u32| grid(n, cells);
+        let slanted = |n: u32| trapezoids(n, Trapezoids::InTwoRows);
+        let [triangles, mixed] = [Cells::Triangles, Cells::Mixed].map(on);
+        let meshes: [(&str, &dyn Fn(u32) -> Mesh); 3] =
+            [("triangles", &triangles), ("mixed", &mixed), ("trapezoids", &slanted)];
+        for (cells, mesh) in meshes {
+            let mut widths = Vec::new();
+            for n in [4, 16] {
+                let (_, problem) = on_grid(&stores(c, zero), mesh(n))?;
+                let solution = solve(&problem, &options())?;
+                let (found, values) =
+                    (of_outputs(&problem, &solution), outputs(&problem, &solution)?);
+                for (name, exact) in [
+                    ("heat", c * (1.0 + 3.0 * zero)),
+                    ("cold", c * (zero - 1.0)),
+                    ("both", c * (1.0 + 3.0 * zero)),
+                    ("warm", 1.0 + zero),
+                ] {
+                    let interval =
+                        found[name].as_ref().unwrap_or_else(|why| panic!("{name}: {why}"));
+                    check(&format!("{name}, {c}, {zero}, {cells:?}"), interval, exact);
+                    let value = values[name].expect("a value");
+                    let off = (value - exact).abs();
+                    let size = if name == "warm" { 1.0 } else { c };
+                    assert!(off < 0.05 * size, "{name}, {c}, {zero}, {cells:?}: {value} {exact}");
+                }
+                let width =
+                    |name: &str| found[name].as_ref().map_or(f64::NAN, |found| found.plus_minus);
+                assert!(width("heat") < 0.6 * c && width("warm") < 0.3, "{cells:?}: {found:?}");
+                widths.push([width("heat"), width("warm")]);
+            }
+            // Of second order.
+            let is_second = |at: usize| widths[1][at] < 0.1 * widths[0][at];
+            assert!(is_second(0) && is_second(1), "{c}, {zero}, {cells:?}: {widths:?}");
+        }
+    }
+    Ok(())
+}
+
+/// A linear u is exact: over the square, its corners' mean.
+#[test]
+fn the_content_of_a_linear_u_is_exact() -> Result<()> {
+    let text = stores(2.0, 0.0).replace("x^2 - y^2 + 2*x", "x").replace("2*2.0 + 0*x", "2");
+    let text =
+        text.replace("kind = \"neumann\", flux = \"0\"", "kind = \"dirichlet\", value = \"x\"");
+    for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
+        let (_, problem) = on_grid(&text, grid(3, cells))?;
+        let values = outputs(&problem, &solve(&problem, &options())?)?;
+        for (name, exact) in [("heat", 0.0), ("cold", -1.0), ("both", 0.0), ("warm", 0.5)] {
+            let value = values[name].expect("a value");
+            assert!((value - exact).abs() < 1e-12, "{cells:?}: {name}: {value}");
+        }
     }
     Ok(())
 }

@@ -55,12 +55,7 @@ fn over_cell(problem: &Problem) -> Result<f64> {
 }
 
 /// Half-widths on grids of these cells, and those over the errors of the middles.
-fn checked(
-    dt: f64,
-    capacity: &str,
-    mesh: Mesh,
-    of: &str,
-) -> Result<Vec<[f64; 2]>> {
+fn checked(dt: f64, capacity: &str, mesh: Mesh, of: &str) -> Result<Vec<[f64; 2]>> {
     let problem = step(&slab(dt, capacity), mesh)?;
     let found = of_answer(&problem, &(&solve(&problem, &options())?).into());
     let exact = EXACT.into_iter().chain([("middle", over_cell(&problem)?)]);

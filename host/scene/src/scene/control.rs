@@ -1,9 +1,9 @@
-//! Inputs, which a controller sets, and outputs, which it reads.
+//! Inputs, which a controller sets.
 
 use super::entry::Entry;
 use super::range::InputRange;
 use super::table::Table;
-use super::{Boundary, Condition, Field, Input, Located, Output, Quantity, Scene};
+use super::{Boundary, Field, Input, Located, Scene};
 use crate::error::{InputError, Result};
 use crate::expression::Variables;
 
@@ -75,50 +75,8 @@ fn check_field(of: &Entry, entry: &Entry, field: Field, boundaries: &[Boundary])
     Err(entry.error(message).hint(format!("an input may act on its {fields}")).into())
 }
 
-/// The kinds of outputs, with words for each.
-const KINDS: [(&str, (&str, Quantity)); 7] = [
-    ("flux", ("a flux", Quantity::Flux)),
-    ("force", ("a force", Quantity::Force)),
-    ("length", ("a length", Quantity::Length)),
-    ("saturated", ("a saturated length", Quantity::Saturated)),
-    ("probe", ("a probe", Quantity::Probe { at: [0.0; 2] })),
-    ("mean", ("a mean", Quantity::Mean)),
-    ("bound", ("a bound", Quantity::Bound)),
-];
-
-/// Reads `[output.NAME]`.
-pub(super) fn read_output(table: &Table, boundaries: &[Boundary]) -> Result<Output> {
-    let (what, mut quantity) = table.require("kind")?.choice(&KINDS)?.value;
-    let of = match &mut quantity {
-        Quantity::Bound => table.only(what, "kind, unit").map(|()| Vec::new())?,
-        Quantity::Probe { at } => {
-            table.only(what, "kind, at, unit")?;
-            let [x, y] = table.require("at")?.pair("x, y")?;
-            *at = [x.number()?, y.number()?];
-            Vec::new()
-        }
-        Quantity::Mean => {
-            table.only(what, "kind, of, unit")?;
-            let of = table.require("of")?;
-            find_boundary(&of, boundaries)?;
-            vec![of.text()?]
-        }
-        Quantity::Flux => {
-            table.only(what, "kind, of, unit")?;
-            let named = |of: &Entry| find_boundary(of, boundaries).and_then(|_| of.text());
-            one_or_more(&table.require("of")?, named)?
-        }
-        Quantity::Force | Quantity::Length | Quantity::Saturated => {
-            table.only(what, "kind, of, unit")?;
-            let of = table.get("of");
-            of.map_or(Ok(Vec::new()), |of| one_or_more(&of, |of| contact(of, boundaries)))?
-        }
-    };
-    Ok(Output { name: table.name.clone(), quantity, of, unit: read_unit(table)? })
-}
-
 /// A short text that may stand in a comment of any language.
-fn read_unit(table: &Table) -> Result<Option<String>> {
+pub(super) fn read_unit(table: &Table) -> Result<Option<String>> {
     const LONGEST: usize = 24;
     let Some(entry) = table.get("unit") else { return Ok(None) };
     let unit = entry.text()?.value;
@@ -131,40 +89,8 @@ fn read_unit(table: &Table) -> Result<Option<String>> {
     Ok(Some(unit))
 }
 
-/// The names of one boundary or of a list of them, each once.
-fn one_or_more(
-    of: &Entry,
-    named: impl Fn(&Entry) -> Result<Located<String>>,
-) -> Result<Vec<Located<String>>> {
-    let Some(items) = of.array() else { return Ok(vec![named(of)?]) };
-    let mut names: Vec<Located<String>> = Vec::with_capacity(items.len());
-    for item in &items {
-        let name = named(item)?;
-        if names.iter().any(|known| known.value == name.value) {
-            let error = item.error(format_args!("`{}` comes twice", name.value));
-            return Err(error.hint("name each boundary once").into());
-        }
-        names.push(name);
-    }
-    match names.is_empty() {
-        true => Err(of.expected("a boundary, or a list of boundaries").into()),
-        false => Ok(names),
-    }
-}
-
-/// The name of a contact boundary.
-fn contact(of: &Entry, boundaries: &[Boundary]) -> Result<Located<String>> {
-    match &find_boundary(of, boundaries)?.condition {
-        Condition::Contact { .. } => of.text(),
-        other => {
-            let message = format!("expected a contact boundary, this one is {}", other.kind());
-            Err(of.error(message).hint("without `of` it is taken over all contact").into())
-        }
-    }
-}
-
 /// The boundary that `of` names.
-fn find_boundary<'a>(of: &Entry, boundaries: &'a [Boundary]) -> Result<&'a Boundary> {
+pub(super) fn find_boundary<'a>(of: &Entry, boundaries: &'a [Boundary]) -> Result<&'a Boundary> {
     let name = of.text()?.value;
     boundaries.iter().find(|boundary| boundary.name.value == name).ok_or_else(|| {
         let error = of.error(format_args!("no boundary `{name}` in the scene"));
@@ -173,7 +99,7 @@ fn find_boundary<'a>(of: &Entry, boundaries: &'a [Boundary]) -> Result<&'a Bound
     })
 }
 
-fn list<'a>(names: impl Iterator<Item = &'a Located<String>>) -> String {
+pub(super) fn list<'a>(names: impl Iterator<Item = &'a Located<String>>) -> String {
     names.map(|name| name.value.as_str()).collect::<Vec<_>>().join(", ")
 }
 

@@ -9,7 +9,7 @@
 //! | robin | σ·n = coefficient (ambient − u) |
 //! | contact | u ≥ gap, σ·n ≥ flux, (u − gap)(σ·n − flux) = 0; with a limit, u may fall below the gap where σ·n = limit |
 //!
-//! text ─► `table`, `entry` (TOML with places) ─► `read`, `boundary`, `material`, `control`, `setting` (sections
+//! text ─► `table`, `entry` (TOML with places) ─► `read`, `boundary`, `material`, `control`, `output`, `setting` (sections
 //! into the model below); a fragment gives a scene another setting. Every part of the model knows where it stands, so
 //! that whoever finds it wrong later, on the mesh or at a quadrature point, can still point at the line
 //! ([`Scene::error`]).
@@ -20,6 +20,7 @@ mod control;
 mod document;
 mod entry;
 mod material;
+mod output;
 mod range;
 mod read;
 mod setting;
@@ -185,8 +186,14 @@ pub enum Quantity {
     },
     /// The mean of u over a boundary.
     Mean,
-    /// The error bound.
+    /// The mean of u over a material.
+    MeanInside,
+    /// ∫ c u over materials, or over the domain: c is the capacity, taken at its mean over each cell.
+    Content,
+    /// The error bound: in a step of time that of the step.
     Bound,
+    /// The bound over time.
+    Window,
 }
 
 /// A number that the controller reads.
@@ -197,7 +204,8 @@ pub struct Output {
     /// The quantity that it measures.
     pub quantity: Quantity,
     /// Its boundaries, whose parts of it are summed: at least one for a flux, one for a mean; for force and length contact
-    /// boundaries or, where there are none, all of them; otherwise none.
+    /// boundaries or, where there are none, all of them. Of a content its materials, or none for all of them; of a mean inside one
+    /// material; otherwise none.
     pub of: Vec<Located<String>>,
     /// The unit that its value is shown with.
     pub unit: Option<String>,
@@ -234,22 +242,6 @@ pub struct Exact {
     pub u: Datum,
     /// ∂u/∂x, ∂u/∂y.
     pub gradient: [Datum; 2],
-}
-
-impl Output {
-    /// Whether it is about the boundary of this name.
-    pub fn is_of(&self, boundary: &str) -> bool {
-        self.of.iter().any(|of| of.value == boundary)
-    }
-
-    /// Its boundaries in words, each as `written`: `all` where it names none.
-    pub fn place(&self, all: &str, written: impl Fn(&str) -> String) -> String {
-        match &self.of.iter().map(|of| written(&of.value)).collect::<Vec<_>>()[..] {
-            [] => all.to_owned(),
-            [one] => one.clone(),
-            [most @ .., last] => format!("{} and {last}", most.join(", ")),
-        }
-    }
 }
 
 impl Scene {

@@ -11,10 +11,11 @@
 use std::path::{Path, PathBuf};
 
 use super::boundary::read_boundary;
-use super::control::{read_input, read_output};
+use super::control::read_input;
 use super::document::{Document, document, load};
 use super::entry::Entry;
 use super::material::read_material;
+use super::output::read_output;
 use super::setting::read_setting;
 use super::table::Table;
 use super::{Exact, Located, Material, Scene, Target, Time};
@@ -90,10 +91,10 @@ fn read_scene(root: &Table) -> Result<Scene> {
     Ok(Scene {
         title: read_title(root)?,
         mesh: read_mesh(root)?,
-        materials,
         source: read_source(root)?,
         inputs: each(root, "input", |table| read_input(table, &boundaries))?,
-        outputs: each(root, "output", |table| read_output(table, &boundaries))?,
+        outputs: each(root, "output", |table| read_output(table, &boundaries, &materials))?,
+        materials,
         boundaries,
         target: section(root, "target", read_target)?,
         time: root.table("time")?.map(|table| read_time(&table, stores)).transpose()?,

@@ -121,12 +121,10 @@ impl Units {
         scene
     }
 
-    /// The value of an output that is `value` in these units.
-    pub fn output(&self, quantity: Quantity, value: f64) -> f64 {
-        match quantity {
-            Quantity::Probe { .. } | Quantity::Mean => self.value(value),
-            _ => value * self.of_output(quantity),
-        }
+    /// The value of an output that is `value` in these units, and `of_one` for u = 1 there.
+    pub fn output(&self, quantity: Quantity, [value, of_one]: [f64; 2]) -> f64 {
+        let unit = self.of_output(quantity);
+        value * unit + self.zero * (of_one * (unit / self.u))
     }
 
     /// The unit of an output.
@@ -134,8 +132,9 @@ impl Units {
         match quantity {
             Quantity::Flux | Quantity::Force => self.flux(),
             Quantity::Length | Quantity::Saturated => 1.0,
-            Quantity::Probe { .. } | Quantity::Mean => self.u,
-            Quantity::Bound => self.energy(),
+            Quantity::Probe { .. } | Quantity::Mean | Quantity::MeanInside => self.u,
+            Quantity::Content => self.conductivity * self.u,
+            Quantity::Bound | Quantity::Window => self.energy(),
         }
     }
 

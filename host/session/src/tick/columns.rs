@@ -40,27 +40,37 @@ pub fn ticks_csv(scene: &Scene, ticks: &[TickRecord]) -> csv::Result<Vec<u8>> {
 
 /// The text of `output_bounds.csv`: `t`, and `NAME_least` and `NAME_most` of each output whose exact value is known to lie between;
 /// of a probe `NAME_cell_least` and `NAME_cell_most`, around the mean over its cell. Of steps in time these are `NAME_step_…`, about
-/// the step alone.
+/// the step alone, and those without are about the evolution.
 pub fn bounds_csv(scene: &Scene, ticks: &[TickRecord]) -> csv::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let interval = |tick: &TickRecord, at: usize| Some(*tick.intervals.get(at)?.as_ref().ok()?);
-    let is_bounded = |at: &usize| ticks.iter().any(|tick| interval(tick, *at).is_some());
-    let bounded: Vec<usize> = (0..scene.outputs.len()).filter(is_bounded).collect();
-    let names = bounded.iter().flat_map(|&at| {
-        let output = &scene.outputs[at];
-        let of = if matches!(output.quantity, Quantity::Probe { .. }) { "_cell" } else { "" };
-        let step = if scene.stores() { "_step" } else { "" };
-        ["least", "most"].map(|end| format!("{}{of}{step}_{end}", output.name.value))
-    });
+    let columns = bounded(scene, ticks);
+    let names =
+        columns.iter().flat_map(|(name, _)| ["least", "most"].map(|end| format!("{name}_{end}")));
     writer.write_record(std::iter::once("t".to_owned()).chain(names))?;
-    for tick in ticks {
-        let ends = bounded.iter().flat_map(|&at| match interval(tick, at) {
+    for (row, tick) in ticks.iter().enumerate() {
+        let ends = columns.iter().flat_map(|(_, intervals)| match intervals[row] {
             Some(ends) => ends.map(digits),
             None => [String::new(), String::new()],
         });
         writer.write_record(std::iter::once(digits(tick.time)).chain(ends))?;
     }
     writer.into_inner().map_err(|error| error.into_error().into())
+}
+
+/// A name and the interval of each tick, for all that is bounded in some tick.
+fn bounded(scene: &Scene, ticks: &[TickRecord]) -> Vec<(String, Vec<Option<[f64; 2]>>)> {
+    let of_step = if scene.stores() { "_step" } else { "" };
+    let columns = scene.outputs.iter().enumerate().flat_map(|(at, output)| {
+        let cell = if matches!(output.quantity, Quantity::Probe { .. }) { "_cell" } else { "" };
+        let name = &output.name.value;
+        let over_time = ticks.iter().map(|tick| tick.over_time.get(at).copied().flatten());
+        let anew = ticks.iter().map(|tick| tick.intervals.get(at)?.as_ref().ok().copied());
+        [
+            (name.clone(), over_time.collect::<Vec<_>>()),
+            (format!("{name}{cell}{of_step}"), anew.collect()),
+        ]
+    });
+    columns.filter(|(_, intervals)| intervals.iter().any(Option::is_some)).collect()
 }
 
 /// The shortest text that reads back as the same number; −0 is 0.

@@ -2,7 +2,7 @@
 
 use super::record::TickInterval;
 use crate::{Module, Session};
-use signorini_intervals::{Answered, Lasting, of_next};
+use signorini_intervals::{Answered, Lasting, of_next, over_time};
 use signorini_problem::Problem;
 use signorini_scene::error::Result;
 use signorini_solve::Solution;
@@ -46,6 +46,18 @@ impl Intervals<'_> {
                 let outputs = &solution.outputs[..declared];
                 Ok(module.between(session, outputs, bound.as_ref()))
             }
+        }
+    }
+
+    /// Intervals of the evolution that ‖c^½(u − s)‖ ≤ `distance` gives, in the order of the outputs.
+    pub fn over_time(
+        &self,
+        problem: &Problem,
+        (solution, distance): (&Solution, f64),
+    ) -> Result<Vec<Option<[f64; 2]>>> {
+        match self {
+            Self::Unasked => Ok(Vec::new()),
+            Self::Anew(_) | Self::Weighed(_) => over_time(problem, &solution.into(), distance),
         }
     }
 }

@@ -21,6 +21,7 @@ mod tests;
 pub mod window_error;
 
 pub use record::{TickInterval, TickRecord};
+pub use start::warnings;
 
 use std::sync::Arc;
 
@@ -144,7 +145,8 @@ fn play_in<R: Scalar>(
             error = WindowError::begin(&at_start, &solution, of.seconds(), was_steady)?;
         }
         if budget.shows_start {
-            let start = TickRecord::of(&at_start, &solution)?.with_window(evolution.as_ref());
+            let start =
+                TickRecord::of(&at_start, &solution)?.with_window(&given.scene, evolution.as_ref());
             done(&start, Some(&solution))?;
             ticks.push(start);
         }
@@ -303,13 +305,15 @@ impl Play<'_> {
         tick.intervals = self.intervals.of(problem, (&*self.session, &solution))?;
         if let Some(evolution) = &mut self.evolution {
             evolution.advance(&solution.certified.evolution);
+            tick.over_time =
+                self.intervals.over_time(problem, (&solution, evolution.distance()))?;
         }
-        let mut tick = tick.with_window(self.evolution.as_ref());
+        let mut tick = tick.with_window(&problem.scene, self.evolution.as_ref());
         let is_plain = self.units == Units::default();
         let posed = (!is_plain).then(|| Arc::new(problem.clone()));
         problem.advance(solution.state());
         let Some(posed) = posed else { return Ok((tick, Some(solution))) };
-        tick.rescale(&problem.scene, &self.units);
+        tick.rescale(problem, &self.units);
         Ok((tick, Some(in_scene(&posed, &self.units, solution))))
     }
 }

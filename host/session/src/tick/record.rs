@@ -3,10 +3,12 @@
 use signorini_certify::ErrorBound;
 use signorini_certify::evolution::Evolution;
 use signorini_certify::exact::distance;
+use signorini_intervals::zero_rounding;
 use signorini_problem::Problem;
+use signorini_problem::functional::of_one;
 use signorini_scene::error::{Error, Result};
-use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
+use signorini_scene::scene::{Quantity, Scene};
 use signorini_solve::outputs::{Reading, declared};
 use signorini_solve::{Ending, Solution};
 
@@ -39,6 +41,8 @@ pub struct TickRecord {
     /// Intervals in which they lie for the exact solution, of a probe the mean over its cell, or why there is none; empty where
     /// no intervals were asked for.
     pub intervals: Vec<TickInterval>,
+    /// Intervals in which outputs lie for the exact evolution in time; empty where there is none, or none were asked for.
+    pub over_time: Vec<Option<[f64; 2]>>,
 }
 
 /// The ends of an interval, or why there is none.
@@ -72,13 +76,19 @@ impl TickRecord {
             combined: combined.and_then(finite),
             outputs: outputs(problem, solution, bound)?,
             intervals: Vec::new(),
+            over_time: Vec::new(),
         })
     }
 
     /// With what is known of the evolution until then.
-    pub(super) fn with_window(self, evolution: Option<&Evolution>) -> Self {
+    pub(super) fn with_window(mut self, scene: &Scene, evolution: Option<&Evolution>) -> Self {
         let window = evolution.map(|of| [of.energy(), of.seconds()]);
-        Self { window: window.filter(|[energy, _]| energy.is_finite()), ..self }
+        self.window = window.filter(|[energy, _]| energy.is_finite());
+        let windows = self.outputs.iter_mut().zip(&scene.outputs);
+        for (output, _) in windows.filter(|(_, of)| of.quantity == Quantity::Window) {
+            *output = self.window.map(|[energy, _]| energy);
+        }
+        self
     }
 
     /// A tick that was refused with this error.
@@ -96,6 +106,7 @@ impl TickRecord {
             combined: None,
             outputs: vec![None; outputs],
             intervals: vec![Err("the tick was refused".to_owned()); outputs],
+            over_time: Vec::new(),
         }
     }
 
@@ -115,7 +126,7 @@ impl TickRecord {
     }
 
     /// From `units` to those that the scene had before.
-    pub(super) fn rescale(&mut self, scene: &Scene, units: &Units) {
+    pub(super) fn rescale(&mut self, problem: &Problem, units: &Units) {
         let times = |number: &mut Option<f64>, unit: f64| {
             *number = number.map(|x| x * unit).filter(|x| x.is_finite());
         };
@@ -123,14 +134,17 @@ impl TickRecord {
         times(&mut self.combined, units.energy());
         self.bound = self.bound.map(|bound| bound.times(units.energy()));
         self.window = self.window.map(|[energy, seconds]| [energy * units.energy(), seconds]);
-        for (output, of) in self.outputs.iter_mut().zip(&scene.outputs) {
-            *output = output.map(|x| units.output(of.quantity, x)).filter(|x| x.is_finite());
-        }
-        // Another zero of u rounds the ends.
-        let rounding = if units.zero == 0.0 { 0.0 } else { f64::EPSILON };
-        for (interval, of) in self.intervals.iter_mut().zip(&scene.outputs) {
-            if let Ok(ends) = interval {
-                let [least, most] = ends.map(|end| units.output(of.quantity, end));
+        for (at, of) in problem.scene.outputs.iter().enumerate() {
+            let of_one = of_one(problem, of);
+            let scaled = |x: f64| units.output(of.quantity, [x, of_one]);
+            if let Some(output) = self.outputs.get_mut(at) {
+                *output = output.map(scaled).filter(|x| x.is_finite());
+            }
+            let rounding = zero_rounding(units, of.quantity);
+            let interval = self.intervals.get_mut(at).and_then(|found| found.as_mut().ok());
+            let over_time = self.over_time.get_mut(at).and_then(Option::as_mut);
+            for ends in interval.into_iter().chain(over_time) {
+                let [least, most] = ends.map(scaled);
                 *ends = [least - rounding * least.abs(), most + rounding * most.abs()];
             }
         }

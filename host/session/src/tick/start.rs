@@ -11,7 +11,15 @@ use signorini_problem::{Assembled, EdgeKind, Parts, Problem, State, Sum};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::scene::{Datum, Scene};
 use signorini_solve::decay::decay_rate;
-use signorini_solve::{Ending, Options, Solution, read_off, solve, unfit};
+use signorini_solve::{Ending, Options, ScalarKind, Solution, read_off, solve, unfit};
+
+use super::ScheduledTick;
+
+/// A stated u that is moved by no more than this part of itself is not.
+const ROUNDED: f64 = 1e-9;
+
+/// dtλ below which f32 keeps few digits of u: what a step rounds adds up to ε/(dtλ).
+const LEAST_PART: f64 = 1e-5;
 
 /// A problem at the start of its steps, and u there.
 pub(super) struct Start {
@@ -52,12 +60,8 @@ impl Start {
             return Ok(None);
         }
         let step = step_of(&problem.scene)?;
-        // What the command line and a log say of inputs acts from the first step on.
-        let own = Scene::parse(&problem.scene.text, &problem.scene.path)?;
-        let inputs: Vec<_> = own.inputs.iter().map(|input| input.default).enumerate().collect();
-        let mut at_start = problem.clone();
-        at_start.set(&inputs, first - step)?;
-        let stated = problem.scene.time.as_ref().and_then(|time| time.initial.as_ref());
+        let at_start = at_start(problem, first - step)?;
+        let stated = stated(problem);
         let solution = match stated {
             Some(initial) => stated_start(&at_start, step, initial)?,
             None => steady(&at_start)?,
@@ -91,23 +95,89 @@ fn steady(problem: &Problem) -> Result<Solution> {
     solve(problem, &Options::default())
 }
 
-/// The means of the stated u, moved to where u_D and gaps have it.
-fn stated_start(problem: &Problem, dt: f64, initial: &Datum) -> Result<Solution> {
+/// The means of the stated u over the edges, and these where u_D and gaps move them.
+fn stated_means(problem: &Problem, initial: &Datum) -> Result<[Vec<f64>; 2]> {
     let stated = Sum::alone(&problem.scene, initial, 0.0);
     let counts = problem.topology.counts;
-    let mean = |edge: usize| {
-        let mean = stated.mean(problem.segment(edge))?;
-        Ok(match problem.kinds[edge] {
-            EdgeKind::Dirichlet => problem.loads.dirichlet[edge - counts.unknowns()],
-            EdgeKind::Contact => {
-                let at = edge - counts.free;
-                let may_pass = problem.loads.flux_range(at).span().length().is_finite();
-                if may_pass { mean } else { mean.max(problem.loads.gap[at]) }
-            }
-            _ => mean,
-        })
+    let means = (0..problem.ends.len()).map(|edge| stated.mean(problem.segment(edge)));
+    let means: Vec<f64> = means.collect::<Result<_>>()?;
+    let moved = |(edge, &mean): (usize, &f64)| match problem.kinds[edge] {
+        EdgeKind::Dirichlet => problem.loads.dirichlet[edge - counts.unknowns()],
+        EdgeKind::Contact => {
+            let at = edge - counts.free;
+            let may_pass = problem.loads.flux_range(at).span().length().is_finite();
+            if may_pass { mean } else { mean.max(problem.loads.gap[at]) }
+        }
+        _ => mean,
     };
-    let u: Vec<f64> = (0..problem.ends.len()).map(mean).collect::<Result<_>>()?;
+    let moved = means.iter().enumerate().map(moved).collect();
+    Ok([means, moved])
+}
+
+/// How many edges a stated start is moved on, and by how much at most, where it is.
+fn moved_warning(problem: &Problem, initial: &Datum) -> Result<Option<String>> {
+    let [means, moved] = stated_means(problem, initial)?;
+    let size = moved.iter().chain(&means).fold(0.0, |most: f64, u| most.max(u.abs()));
+    let apart = means.iter().zip(&moved).map(|(mean, moved)| (moved - mean).abs());
+    let off: Vec<f64> = apart.filter(|off| *off > ROUNDED * size).collect();
+    let most = off.iter().copied().fold(0.0, f64::max);
+    Ok((!off.is_empty()).then(|| {
+        format!(
+            "{} is moved to the gap or the given u on {} edges, by {most:.2e} at most",
+            initial.key,
+            off.len()
+        )
+    }))
+}
+
+/// Sentences on the start of steps whose first one ends at the first of `moments`, and on their scalar.
+///
+/// # Errors
+/// Those of playing them.
+pub fn warnings(
+    problem: &Problem,
+    moments: &[ScheduledTick],
+    scalar: ScalarKind,
+) -> Result<Vec<String>> {
+    let (false, Some(first)) = (problem.capacities.is_empty(), moments.first()) else {
+        return Ok(Vec::new());
+    };
+    let step = step_of(&problem.scene)?;
+    let at_start = at_start(problem, first.time - step)?;
+    let mut all = Vec::new();
+    if let Some(initial) = stated(problem) {
+        all.extend(moved_warning(&at_start, initial)?);
+    }
+    if scalar == ScalarKind::F32 {
+        let part = step * decay_rate(&at_start)?;
+        all.extend((0.0 < part && part < LEAST_PART).then(|| {
+            format!(
+                "a step of {step} is {part:.1e} of the time in which u decays: in f32 what each step rounds adds up to {:.1e} \
+                 of u; take f64 or a longer step",
+                f64::from(f32::EPSILON) / part
+            )
+        }));
+    }
+    Ok(all)
+}
+
+fn stated(problem: &Problem) -> Option<&Datum> {
+    problem.scene.time.as_ref().and_then(|time| time.initial.as_ref())
+}
+
+/// `problem` at `time`, with the inputs at the scene's own defaults: what the command line and a log say of them acts from the first
+/// step on.
+fn at_start(problem: &Problem, time: f64) -> Result<Problem> {
+    let own = Scene::parse(&problem.scene.text, &problem.scene.path)?;
+    let inputs: Vec<_> = own.inputs.iter().map(|input| input.default).enumerate().collect();
+    let mut at_start = problem.clone();
+    at_start.set(&inputs, time)?;
+    Ok(at_start)
+}
+
+/// The stated u, moved to where u_D and gaps have it.
+fn stated_start(problem: &Problem, dt: f64, initial: &Datum) -> Result<Solution> {
+    let [_, u] = stated_means(problem, initial)?;
     // Its fluxes are those that no storage balances.
     let unfit = unfit::<f64>(&problem.scene);
     let assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;

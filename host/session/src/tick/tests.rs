@@ -172,3 +172,88 @@ fn same(what: &str, near: &[Vec<f64>], far: &[Vec<f64>], allowed: Tolerance) {
         }
     }
 }
+
+/// The left half stores u, the right one does if `right` is not 0; `zero` is in every datum of u.
+fn storing(right: f64, zero: f64, step: f64) -> Scene {
+    let text = format!(
+        r#"
+mesh = "grid"
+material.left = {{ conductivity = "1", capacity = "2" }}
+material.right = {{ conductivity = "3", capacity = "{right:?}" }}
+source.f = "8*sign(cos(9*t))"
+boundary.dirichlet = {{ kind = "robin", coefficient = "5", ambient = "{zero:?} + x" }}
+boundary.contact = {{ kind = "contact", gap = "{zero:?}" }}
+output.heat = {{ kind = "content" }}
+output.cold = {{ kind = "content", of = "left" }}
+output.mean = {{ kind = "mean", of = "right" }}
+output.sure = {{ kind = "window" }}
+output.step = {{ kind = "bound" }}
+time.step = {step}
+"#
+    );
+    Scene::parse(&text, Path::new("storing.toml")).expect("a scene")
+}
+
+/// `parts` steps a tick of length `dt`, with the data at the end of the tick.
+fn stored(right: f64, zero: f64, (n, parts): (u32, u32)) -> Result<Vec<TickRecord>> {
+    let (dt, ticks) = (0.1, 10);
+    let scene = storing(right, zero, dt / f64::from(parts));
+    let problem = Problem::new(&scene, grid(n, Cells::Triangles))?;
+    let moments = (1..=ticks).flat_map(|tick| (0..parts).map(move |_| tick));
+    let moments: Vec<_> = moments
+        .map(|tick| ScheduledTick { time: f64::from(tick) * dt, inputs: Vec::new() })
+        .collect();
+    let budget = Budget { shows_start: false, ..Budget::of(&scene) };
+    let ticks = play(&problem, None, &moments, &budget, |_, _| Ok(()))?;
+    Ok(ticks.into_iter().skip(parts as usize - 1).step_by(parts as usize).collect())
+}
+
+/// A finer mesh with a quarter of the step says what is true. Both begin from the same steady state.
+#[test]
+fn contents_and_means_lie_between_what_the_bound_of_the_evolution_says() -> Result<()> {
+    for (right, zero) in [(1.0, 0.0), (1.0, 273.15), (0.0, 0.0)] {
+        let (coarse, fine) = (stored(right, zero, (4, 1))?, stored(right, zero, (16, 4))?);
+        let mut ratios = Vec::new();
+        for (tick, truth) in coarse.iter().zip(&fine) {
+            for at in 0..3 {
+                let Some([least, most]) = tick.over_time[at] else {
+                    assert!(at == 2 && right == 0.0, "output {at}, {right}");
+                    continue;
+                };
+                let (value, own) = (truth.outputs[at].unwrap(), tick.outputs[at].unwrap());
+                assert!(least <= value && value <= most, "{at}: {value} in [{least}, {most}]");
+                assert!(least <= own && own <= most, "{at}: {own} in [{least}, {most}]");
+                ratios.push(0.5 * (most - least) / (value - 0.5 * (least + most)).abs());
+            }
+            // Where nothing stores u the evolution says nothing of it.
+            assert_eq!(tick.over_time[2].is_some(), right > 0.0);
+            assert_eq!(tick.over_time[3..], [None, None]);
+            assert_eq!(tick.outputs[3], tick.window.map(|[energy, _]| energy));
+            assert_eq!(tick.outputs[4], tick.bound.map(|bound| bound.total));
+        }
+        println!("{right}, {zero}: {ratios:.1?}");
+    }
+    Ok(())
+}
+
+/// What comes in and is not let out is stored: ∫ c u follows the balance of each step.
+#[test]
+fn the_content_follows_the_balance_of_its_steps() -> Result<()> {
+    let scene = storing(1.0, 0.0, 0.1);
+    let text = format!(
+        "{}\noutput.out = {{ kind = \"flux\", of = [\"dirichlet\", \"contact\"] }}\n",
+        scene.text
+    );
+    let problem = Problem::new(&Scene::parse(&text, Path::new("a.toml"))?, grid(4, Cells::Mixed))?;
+    let moments = [0.1, 0.2, 0.5].map(|time| ScheduledTick { time, inputs: Vec::new() });
+    let budget = Budget { intervals: false, ..Budget::of(&problem.scene) };
+    let ticks = play(&problem, None, &moments, &budget, |_, _| Ok(()))?;
+    for (before, after) in ticks.iter().zip(&ticks[1..]) {
+        let of = |tick: &TickRecord, at: usize| tick.outputs[at].expect("a value");
+        let stored = of(after, 0) - of(before, 0);
+        let loads = 16.0 * (9.0 * after.time).cos().signum();
+        let balance = 0.1 * (loads + of(after, 5));
+        assert!((stored - balance).abs() < 1e-3 * stored.abs().max(0.1), "{stored} {balance}");
+    }
+    Ok(())
+}
