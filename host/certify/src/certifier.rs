@@ -31,7 +31,7 @@ pub struct Certifier<R: Scalar> {
     /// Whether the last search has found ways.
     found_ways: bool,
     /// See [`CertifiedFields::evolution`].
-    evolution: Vec<StepTerms>,
+    evolution: Vec<StepTerms<f64>>,
     /// Whether steps in time may hand on along the ways found.
     hands_on: bool,
     fields: Fields<R>,
@@ -53,7 +53,7 @@ pub struct CertifiedFields {
     /// The means of (s − ψ)⁺ and (ψ − s)⁺ along each contact edge, where materials store u.
     pub openings: Vec<[f64; 2]>,
     /// The terms of a step in the bound of the evolution, one for each way to balance its cells.
-    pub evolution: Vec<StepTerms>,
+    pub evolution: Vec<StepTerms<f64>>,
     /// Where s has extensions.
     pub following: Following,
 }
@@ -217,11 +217,9 @@ impl<R: Scalar> Certifier<R> {
             )?;
             fields.open(&discretization, &given, law)?;
             if let Some(certificate) = verdict.certificate() {
-                let begin = &step.begin;
-                let distance = fields.distances(&discretization, &given, law, begin)?;
-                let contact = fields.contacts(&discretization, &given, law, begin);
                 let left = (&residual, data.oscillation() + certificate.rounding);
-                evolution.push(StepTerms::new(step.length, left, distance, contact));
+                let begin = (&step.begin, step.length);
+                evolution.push(fields.terms(&discretization, &given, law, begin, left)?);
             }
             Ok::<_, KernelError>(verdict)
         };

@@ -1,7 +1,7 @@
 //! Owned memory of a baked scene: arrays that can be a `static`, or whatever else lends slices. Of any bits it is memory still:
 //! what a reset or a brown-out has left of it may make a tick wrong, and nothing worse.
 
-use super::{DataMemory, Full, Lengths, Memory, Numbers};
+use super::{DataMemory, Full, HandedOn, Lengths, Memory, Numbers, Past};
 use crate::tick::{self, Progress};
 use signorini_bound::certificate::Curved;
 use signorini_kernel::error::{Array, Error, same_length};
@@ -105,6 +105,7 @@ impl<R: Real, Rows, Floats, Flags, Fluxes, Laws, Bends>
         let numbers = split(lengths, self.numbers.as_mut())?;
         let Numbers { load, u, tau, vertices, bubbles, triangles, quads, contact_flux, .. } =
             numbers;
+        let [old, old_vertices, old_bubbles] = numbers.begin;
         Ok(Memory {
             tick: tick::Memory {
                 rows: self.rows.lay_out(&full.discretization.edges)?,
@@ -129,6 +130,13 @@ impl<R: Real, Rows, Floats, Flags, Fluxes, Laws, Bends>
                 transfer: pairs(numbers.transfer).as_chunks_mut().0,
                 spans: numbers.spans,
             },
+            past: Past {
+                u: old,
+                vertices: old_vertices,
+                bubbles: old_bubbles,
+                diagonal: numbers.diagonal,
+            },
+            handed_on: HandedOn { openings: pairs(numbers.openings), carried: numbers.carried },
             progress: &mut self.progress,
         })
     }
