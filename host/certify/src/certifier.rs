@@ -2,7 +2,7 @@
 
 use signorini_bound::averages;
 use signorini_bound::certificate::{
-    self, Certificate, Discretization, Kept, Verdict, certify_step,
+    self, Certificate, Discretization, Kept, StoredCell, Verdict, certify_step,
 };
 use signorini_bound::conforming;
 use signorini_bound::equilibrium::Iterate;
@@ -200,9 +200,7 @@ impl<R: Scalar> Certifier<R> {
         let discretization = self.ways.discretization(assembled, &self.metric)?;
         let State { vertices, bubbles, .. } = &step.begin;
         let law = assembled.law();
-        let contents: Vec<f64> = step.contents().map(|content| content.wide()).collect();
-        let keep = self.ways.kept(assembled.edges(), &self.metric, &contents);
-        let cells = stored_cells(assembled.problem(), step, &keep);
+        let cells = self.stored_cells(assembled, step);
         let storage = step.storage(assembled.edges())?;
         let of_kernel = certificate::Step { storage, cells: &cells, vertices, bubbles };
         let iterate = Iterate { u, law };
@@ -255,6 +253,13 @@ impl<R: Scalar> Certifier<R> {
             evolution: self.evolution.clone(),
             following: Following::WhereNeeded,
         }
+    }
+
+    /// What each cell stores in `step`, triangles first, as its bound takes it.
+    pub fn stored_cells(&self, assembled: &Assembled<R>, step: &Step<R>) -> Vec<StoredCell<R>> {
+        let contents: Vec<f64> = step.contents().map(|content| content.wide()).collect();
+        let keep = self.ways.kept(assembled.edges(), &self.metric, &contents);
+        stored_cells(assembled.problem(), step, &keep)
     }
 
     /// The discretization that a tick certifies on, whose surplus can leave every cell whatever the iterate.

@@ -77,6 +77,11 @@ impl<R: Scalar> Step<R> {
         triangles.iter().map(of(3)).chain(quads.iter().map(of(4)))
     }
 
+    /// m_T of the triangles, and of the quads.
+    pub fn masses(&self) -> [&[R]; 2] {
+        self.masses.each_ref().map(Vec::as_slice)
+    }
+
     /// As the kernel takes it.
     ///
     /// # Errors

@@ -136,7 +136,7 @@ impl Arguments {
             series.add(tick.time, &vtu(&problem, &Drawn::plain(solution)))
         };
         let ticks = match self.baked {
-            true => replay(&problem, &moments, self.scalar, done),
+            true => replay(&problem, &moments, (self.scalar, budget.shows_start), done),
             false => play(&problem, coarse.as_ref(), &moments, &budget, done)
                 .map(|ticks| ("full, swept".to_owned(), ticks)),
         };

@@ -111,6 +111,11 @@ pub trait Storage<R: Real> {
         &[]
     }
 
+    /// The bound of the evolution until now, of a model that steps in time.
+    fn window(&self, _: &Self::Model<'_>, _: &Self::Setup<'_>) -> Option<Window<R>> {
+        None
+    }
+
     /// Answers for `terms`, the constant 1 and the inputs.
     ///
     /// # Errors
@@ -123,6 +128,15 @@ pub trait Storage<R: Real> {
         limits: Limits<R>,
         deadline: &mut Deadline<F>,
     ) -> Result<Answer<O, R>, Error>;
+}
+
+/// The bound of the evolution until now: the root of the mean of ‖A^½∇(u − s)‖² + ∫_R h(u − s)², whose weights fade into the past.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Window<R> {
+    /// That root at most.
+    pub energy: R,
+    /// How far back the mean reaches, in the unit of time.
+    pub seconds: R,
 }
 
 /// What a tick came to.
@@ -208,7 +222,13 @@ impl<S: Scene> Controller<S> {
         answer.outputs.between(self.storage.combination(), &answer.report)
     }
 
-    /// Forgets all ticks: the next one is the first again.
+    /// The bound of the evolution from the start until the last tick's end; nothing where ticks are no steps in time, or where there is
+    /// no such bound.
+    pub fn window(&self) -> Option<Window<S::Scalar>> {
+        self.scene.lend(|model, setup| self.storage.window(model, setup))
+    }
+
+    /// Forgets all ticks: the next one is the first again, and a step in time begins from the start.
     pub fn reset(&mut self) {
         self.storage.reset();
     }

@@ -16,6 +16,7 @@ use super::data::{Data, refuse_faint};
 use super::factored::Factored;
 use super::limits;
 use super::output::{Output, output};
+use super::storing::Stored;
 use crate::module_api::ModuleApi;
 use crate::range::refuse_answers;
 use crate::setting::checked;
@@ -66,6 +67,8 @@ pub struct Baked<R: Scalar> {
     pub(super) factored: Option<Factored<R>>,
     /// Rows that inputs without a range have to meet.
     pub(super) exclusions: Vec<R>,
+    /// Where ticks are steps in time.
+    pub(super) stored: Option<Stored<R>>,
 }
 
 /// How its ticks are solved.
@@ -171,11 +174,14 @@ impl<R: Scalar> Baked<R> {
         let data = Data::new(problem, &full_terms(problem)?, discretization.stiffness)?;
         data.check().map_err(&unfit)?;
         refuse_faint(&problem.scene, &data)?;
+        let stored = Stored::new(problem, (&certifier, &assembled), &setting)?;
         let data = if setting.certificate { data } else { data.without_bound() };
         let start = assembled.start().first().copied().unwrap_or(R::ZERO);
-        let how = TickOptions::new(&setting, problem.topology.counts.unknowns());
+        let mut how = TickOptions::new(&setting, problem.topology.counts.unknowns());
+        how.cold &= stored.is_none();
         let corners = if how.certified { corners(problem) } else { Vec::new() };
-        let baked = Self { start, outputs, corners, ..Self::of(face, data, &discretization, how) };
+        let baked =
+            Self { start, outputs, corners, stored, ..Self::of(face, data, &discretization, how) };
         match setting.solver {
             Some(Method::Factor) => baked.with_factor(problem),
             _ => Ok(baked),
@@ -224,6 +230,7 @@ impl<R: Scalar> Baked<R> {
             scale: None,
             factored: None,
             exclusions: Vec::new(),
+            stored: None,
         }
     }
 
@@ -268,6 +275,7 @@ impl<R: Scalar> Baked<R> {
             ("limited", !self.data.spans.is_empty()),
             ("robin", !self.data.robin.is_empty()),
             ("transfer", self.data.varies(Field::Coefficient)),
+            ("storage", self.stored.is_some()),
             ("curved", !(self.data.curved.is_empty() && self.data.curved_sums.is_empty())),
             ("micromath", self.how.fast),
         ];

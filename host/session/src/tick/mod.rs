@@ -15,7 +15,6 @@ mod intervals;
 pub mod log;
 mod record;
 pub mod schedule;
-mod start;
 #[cfg(test)]
 mod tests;
 
@@ -35,11 +34,10 @@ use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_scene::setting::Precision;
-use signorini_solve::{Options, ScalarKind, Solution, choose_units, in_scene};
+use signorini_solve::{Options, ScalarKind, Solution, Start, choose_units, in_scene};
 
 use crate::{Session, coarse, kernel_tick, solves, with_module};
 use intervals::Intervals;
-use start::Start;
 
 /// When a tick happens, and what the inputs are then.
 #[derive(Debug, Clone, PartialEq)]
@@ -134,13 +132,10 @@ fn play_in<R: Scalar>(
     let first = moments.first().map_or(0.0, |moment| moment.time);
     let mut evolution = None;
     if let Some(start) = Start::of(given, first)? {
-        let Start { problem: at_start, solution, step, .. } = start;
-        problem = given.stepping(step, solution.state())?;
+        problem = start.stepping(given)?;
         evolution = start.evolution;
         if budget.shows_start {
-            let start = TickRecord::of(&at_start, &solution)?.with_window(evolution.as_ref());
-            done(&start, Some(&solution))?;
-            ticks.push(start);
+            ticks.push(told(&start, &mut done)?);
         }
     }
     let Some(parts) = begun(&mut problem, moments)? else {
@@ -181,21 +176,42 @@ fn play_in<R: Scalar>(
 }
 
 /// Plays `moments` through the controller of `problem`, calling `done` after each, without a solution where the controller
-/// refuses the inputs; also the controller's name in a few words. `asked` is a scalar instead of that of the scene's setting.
+/// refuses the inputs; also the controller's name in a few words. `asked` is a scalar instead of that of the scene's
+/// setting, and whether the start of steps in time has a record of its own.
 ///
 /// # Errors
 /// Those of `bake`; inputs for which the scene's data are not admissible, with their time.
 pub fn replay(
     problem: &Problem,
     moments: &[ScheduledTick],
-    asked: Option<ScalarKind>,
-    done: impl FnMut(&TickRecord, Option<&Solution>) -> Result<()>,
+    (asked, shows_start): (Option<ScalarKind>, bool),
+    mut done: impl FnMut(&TickRecord, Option<&Solution>) -> Result<()>,
 ) -> Result<(String, Vec<TickRecord>)> {
+    let first = moments.first().map_or(0.0, |moment| moment.time);
     with_module(problem, asked, |session, module| {
+        let (mut problem, mut ticks) = (problem.clone(), Vec::new());
+        if let Some(start) = Start::of(&problem, first)? {
+            problem = start.stepping(&problem)?;
+            if shows_start {
+                ticks.push(told(&start, &mut done)?);
+            }
+        }
         let intervals = Intervals::Weighed(module);
         let play = Play { session, intervals, units: Units::default(), evolution: None };
-        Ok((module.name.clone(), play.through(problem, moments, done)?))
+        ticks.extend(play.through(&problem, moments, done)?);
+        Ok((module.name.clone(), ticks))
     })
+}
+
+/// The record of a start, once it is told.
+fn told(
+    start: &Start,
+    done: &mut impl FnMut(&TickRecord, Option<&Solution>) -> Result<()>,
+) -> Result<TickRecord> {
+    let record = TickRecord::of(&start.problem, &start.solution)?;
+    let record = record.with_window(start.evolution.as_ref());
+    done(&record, Some(&start.solution))?;
+    Ok(record)
 }
 
 /// Brings `problem` to the first moment at which it has a solution, where its session begins; the kinds of its parts. `None` where
@@ -293,6 +309,7 @@ impl Play<'_> {
             evolution.advance(&solution.certified.evolution);
         }
         let mut tick = tick.with_window(self.evolution.as_ref());
+        tick.window = tick.window.or_else(|| self.session.window());
         let is_plain = self.units == Units::default();
         let posed = (!is_plain).then(|| Arc::new(problem.clone()));
         problem.advance(solution.state());

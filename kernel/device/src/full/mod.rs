@@ -29,7 +29,7 @@ pub use pattern::{
     AmbientShare, Contribution, DataMemory, EdgeTrace, Pattern, Points, TransferPattern,
 };
 pub use storage::{ArrayStorage, Storage};
-pub use storing::{Begin, HandedOn, Past, Storing, Window};
+pub use storing::{Begin, HandedOn, Past, Storing};
 pub use units::Units;
 
 use crate::tick::{self, Data, Deadline, Ended, IfStoring, Limits, Method, Progress, Report, Tick};

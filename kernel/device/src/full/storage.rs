@@ -154,6 +154,11 @@ impl<R: Real, Rows, Floats, Flags, Fluxes, Laws, Bends>
         })
     }
 
+    /// Whether there has been a tick.
+    pub fn has_begun(&self) -> bool {
+        self.progress.has_begun()
+    }
+
     /// Forgets all ticks: the next one is the first again.
     pub fn reset(&mut self) {
         self.progress = Progress::NONE;

@@ -6,6 +6,7 @@
 //!                      └────────── a refused tick leaves it, bit for bit ◄─────────────┘
 //! ```
 
+use crate::controller::Window;
 use crate::tick::{Data, InStep, Memory, Tick};
 use signorini_bound::certificate::{Carried, Rates, Step, StoredCell};
 use signorini_kernel::mesh::boundary::Robin;
@@ -66,15 +67,6 @@ pub struct HandedOn<'a, R> {
     pub carried: &'a mut [R],
 }
 
-/// The bound of the evolution until now: the root of the mean of ‖A^½∇(u − s)‖² + ∫_R h(u − s)², whose weights fade into the past.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Window<R> {
-    /// That root at most; infinite where nothing is known.
-    pub energy: R,
-    /// How far back the mean reaches.
-    pub seconds: R,
-}
-
 fn copy<T: Copy>(from: &[T], to: &mut [T]) {
     to.iter_mut().zip(from).for_each(|(to, &from)| *to = from);
 }
@@ -87,10 +79,11 @@ fn carried<R: Real>(numbers: &[R]) -> Carried<R> {
 }
 
 impl<R: Real> Storing<'_, R> {
-    /// The bound of the evolution for the `numbers` that are carried, or at the start.
-    pub fn window(&self, numbers: Option<&[R]>) -> Window<R> {
+    /// The bound of the evolution for the `numbers` that are carried, or at the start; nothing where it is infinite.
+    pub(super) fn window(&self, numbers: Option<&[R]>) -> Option<Window<R>> {
         let carried = numbers.map_or(self.begin.carried, carried);
-        Window { energy: self.rates.energy(carried), seconds: self.rates.seconds }
+        let (energy, seconds) = (self.rates.energy(carried), self.rates.seconds);
+        energy.finite().then_some(Window { energy, seconds })
     }
 }
 

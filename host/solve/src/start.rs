@@ -1,5 +1,7 @@
 //! The start of steps in time: the steady state at the inputs' own defaults, or a stated u.
 
+use super::decay::decay_rate;
+use super::{Ending, Options, Solution, read_off, solve, unfit};
 use signorini_certify::cell::Cell;
 use signorini_certify::curved::followed;
 use signorini_certify::evolution::Evolution;
@@ -10,11 +12,10 @@ use signorini_problem::quadrature::gauss;
 use signorini_problem::{Assembled, EdgeKind, Parts, Problem, State, Sum};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::scene::{Datum, Scene};
-use signorini_solve::decay::decay_rate;
-use signorini_solve::{Ending, Options, Solution, read_off, solve, unfit};
 
 /// A problem at the start of its steps, and u there.
-pub(super) struct Start {
+#[derive(Debug)]
+pub struct Start {
     /// The steady problem at the time of the start.
     pub problem: Problem,
     /// The answer that the first step begins from.
@@ -29,7 +30,7 @@ pub(super) struct Start {
 ///
 /// # Errors
 /// A scene that does not say it.
-pub(super) fn step_of(scene: &Scene) -> Result<f64> {
+pub fn step_of(scene: &Scene) -> Result<f64> {
     match &scene.time {
         Some(time) => Ok(time.step),
         None => {
@@ -75,6 +76,14 @@ impl Start {
             }
         };
         Ok(Some(Self { problem: at_start, solution, step, evolution }))
+    }
+
+    /// `problem` as the step that begins here.
+    ///
+    /// # Errors
+    /// Masses that are not finite.
+    pub fn stepping(&self, problem: &Problem) -> Result<Problem> {
+        problem.stepping(self.step, self.solution.state())
     }
 }
 
