@@ -81,6 +81,8 @@ pub(super) struct TickOptions<R> {
     pub cold: bool,
     /// The search for ω takes the fast square root.
     pub fast: bool,
+    /// Each tick is a step in time.
+    pub in_step: bool,
 }
 
 /// Units in which the numbers of a problem are near 1.
@@ -114,6 +116,7 @@ impl<R: Scalar> TickOptions<R> {
             certified: setting.certificate,
             cold: setting.start == Start::Cold,
             fast: setting.math == MathKind::Micromath,
+            in_step: false,
         }
     }
 }
@@ -171,14 +174,19 @@ impl<R: Scalar> Baked<R> {
         let certifier = Certifier::new(&least, &held, &assembled).map_err(&unfit)?;
         let discretization = certifier.discretization(&assembled).map_err(&unfit)?;
         let outputs = functionals(problem)?.iter().map(|of| output(problem, of)).collect();
-        let data = Data::new(problem, &full_terms(problem)?, discretization.stiffness)?;
+        let mut data = Data::new(problem, &full_terms(problem)?, discretization.stiffness)?;
+        if problem.loads.step.is_some() && data.is_curved() {
+            data.no_bound = data.no_bound.or_else(|| Some(NoBound::curved_in_step()));
+        }
         data.check().map_err(&unfit)?;
         refuse_faint(&problem.scene, &data)?;
         let stored = Stored::new(problem, (&certifier, &assembled), &setting)?;
         let data = if setting.certificate { data } else { data.without_bound() };
         let start = assembled.start().first().copied().unwrap_or(R::ZERO);
         let mut how = TickOptions::new(&setting, problem.topology.counts.unknowns());
-        how.cold &= stored.is_none();
+        // What starts cold in a step are its sweeps alone.
+        how.in_step = stored.is_some();
+        how.cold &= !how.in_step;
         let corners = if how.certified { corners(problem) } else { Vec::new() };
         let baked =
             Self { start, outputs, corners, stored, ..Self::of(face, data, &discretization, how) };
@@ -197,8 +205,8 @@ impl<R: Scalar> Baked<R> {
         let Discretization { mesh, edges, stiffness, cells, metric, stability } = discretization;
         let [vertex_weights, edge_weights] = cells.weights();
         let varies = how.certified && !(metric.at_points.is_empty() && metric.factors.is_empty());
-        // Which kind of cell comes next: all of them are triangles with constant A where nobody asks.
-        let needs_order = varies || (how.certified && !cells.quads().is_empty());
+        // Which kind of cell comes next: all of them are triangles with constant A, in a steady problem, where nobody asks.
+        let needs_order = how.certified && (varies || how.in_step || !cells.quads().is_empty());
         Self {
             face,
             counts: edges.counts(),
@@ -276,7 +284,7 @@ impl<R: Scalar> Baked<R> {
             ("robin", !self.data.robin.is_empty()),
             ("transfer", self.data.varies(Field::Coefficient)),
             ("storage", self.stored.is_some()),
-            ("curved", !(self.data.curved.is_empty() && self.data.curved_sums.is_empty())),
+            ("curved", self.data.is_curved()),
             ("micromath", self.how.fast),
         ];
         needs.into_iter().filter(|(_, needed)| *needed).map(|(name, _)| name).collect()

@@ -16,6 +16,8 @@ pub mod log;
 mod record;
 pub mod schedule;
 #[cfg(test)]
+mod steps;
+#[cfg(test)]
 mod tests;
 
 pub use record::{TickInterval, TickRecord};

@@ -1,6 +1,7 @@
 //! A tick that is a step in time, and what the bound of the evolution takes from it.
 //!
-//! Cells keep what they lack of balance, or hand on most of it: the lesser total counts, and its s and τ stay.
+//! Cells hand on most of what they lack of balance, or keep it: the lesser total counts. τ stays that of cells which keep it: where
+//! the tick has converged these are the fluxes of the step itself, which outputs are about.
 
 use super::{Data, Memory, Tick};
 use signorini_bound::certificate::{
@@ -79,7 +80,7 @@ impl<R: Real, I: Index, const WIDTH: usize> Tick<'_, R, I, WIDTH> {
         Motion { begin, end, tau: self.memory.tau }
     }
 
-    /// Certifies both ways, lets `take` have each, and leaves s and τ of the lesser.
+    /// Certifies both ways, lets `take` have each, and leaves s and τ of the second.
     fn lesser(
         &mut self,
         data: &Data<R, I>,
@@ -89,8 +90,7 @@ impl<R: Real, I: Index, const WIDTH: usize> Tick<'_, R, I, WIDTH> {
         take(self, &handed)?;
         let kept = self.judged(data, Kept::All)?;
         take(self, &kept)?;
-        // Where steps are short the second is the lesser one.
-        if total(&handed) < total(&kept) { self.judged(data, Kept::Part) } else { Ok(kept) }
+        Ok(if total(&handed) < total(&kept) { handed } else { kept })
     }
 
     #[inline(never)]
