@@ -197,3 +197,57 @@ fn what_no_controller_steps_is_refused() -> Result<()> {
     assert!(why.contains("time.step: missing"), "{why}");
     Ok(())
 }
+
+/// A state that is restored goes on with the same bits, before the first tick too; a foreign or a damaged one changes nothing.
+#[test]
+fn a_state_goes_on_with_the_same_bits() -> Result<()> {
+    let log: Vec<_> = (1..9).map(|at| format!("{:?}", inputs(at))).collect();
+    let program = format!(
+        "
+const LOG: [[f32; INPUTS]; 8] = [{}];
+
+fn play(controller: &mut Controller, ticks: core::ops::Range<usize>) -> Vec<u32> {{
+    LOG[ticks].iter().flat_map(|inputs| {{
+        let answer = controller.tick(Inputs::from_array(*inputs)).unwrap();
+        let window = controller.window().unwrap().energy;
+        let sweeps = answer.report.sweeps;
+        answer.outputs.to_array().map(f32::to_bits).into_iter().chain([window.to_bits(), sweeps])
+    }}).collect()
+}}
+
+fn main() {{
+    let (mut first, mut second) = (Box::new(Controller::new()), Box::new(Controller::new()));
+    let start = first.state();
+    play(&mut first, 0..4);
+    let state = first.state();
+    let expected = play(&mut first, 4..8);
+    play(&mut second, 2..7);
+    second.restore(&state).unwrap();
+    assert_eq!(play(&mut second, 4..8), expected);
+    assert!(first.state() == second.state());
+    let mut damaged = state;
+    let words = size_of::<State>() / 4;
+    for at in [0, 2, 4, 40, words - 2] {{
+        let bits = &raw mut damaged as *mut u32;
+        unsafe {{ *bits.add(at) ^= 1 << 22 }};
+        let before = second.state();
+        let refused = second.restore(&damaged).unwrap_err();
+        let expected = if at == 0 {{ Error::ForeignState }} else {{ Error::DamagedState }};
+        assert_eq!(refused, expected, \"{{at}}\");
+        assert!(second.state() == before);
+        damaged = state;
+    }}
+    second.restore(&start).unwrap();
+    let mut fresh = Box::new(Controller::new());
+    assert_eq!(play(&mut second, 0..3), play(&mut fresh, 0..3));
+    println!(\"the same\");
+}}
+",
+        log.join(", ")
+    );
+    for cells in [Cells::Triangles, Cells::Mixed] {
+        let baked = stepping::<f32>(&heated(cells, "")?)?;
+        assert_eq!(printed(&(source(&baked) + &program)), "the same\n", "{cells:?}");
+    }
+    Ok(())
+}

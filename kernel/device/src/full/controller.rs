@@ -7,7 +7,7 @@
 
 use core::marker::PhantomData;
 
-use super::{Full, Lengths, Memory, Storage, Units};
+use super::{Full, Lengths, Memory, State, Storage, Units};
 use crate::controller::{self, Answer, Outputs, Reading, Window};
 use crate::sparse::{self, Exact, Factored};
 use crate::tick::{Report, Substitutions, Sweeping};
@@ -173,6 +173,29 @@ where
         let report = units.map_or(report, |units| units.answer(full.outputs, outputs, report));
         let outputs = O::read(&Read(outputs))?;
         Ok(Answer { outputs, report: report.with(()) })
+    }
+}
+
+impl<R, I, Rows, Floats, Flags, Fluxes, Laws, Bends, M, Values, const WIDTH: usize, const N: usize>
+    controller::Saving<R, State<R, N>>
+    for ControllerStorage<Storage<R, Rows, Floats, Flags, Fluxes, Laws, Bends>, M, Values, I, WIDTH>
+where
+    R: Real,
+    Self: for<'m> controller::Storage<R, Setup<'m> = Setup<'m, R, I>>,
+    Floats: AsRef<[R]> + AsMut<[R]>,
+    Flags: AsRef<[u8]> + AsMut<[u8]>,
+{
+    fn save(&self, setup: &Self::Setup<'_>, scene: u64) -> State<R, N> {
+        self.own.save(setup.lengths, scene)
+    }
+
+    fn restore(
+        &mut self,
+        setup: &Self::Setup<'_>,
+        state: &State<R, N>,
+        scene: u64,
+    ) -> Result<(), Error> {
+        self.own.restore(state, setup.lengths, scene)
     }
 }
 

@@ -16,6 +16,7 @@ mod functional;
 mod lengths;
 mod pattern;
 mod ranges;
+mod state;
 mod storage;
 mod storing;
 mod transfer;
@@ -28,6 +29,7 @@ pub use lengths::{Lengths, Numbers};
 pub use pattern::{
     AmbientShare, Contribution, DataMemory, EdgeTrace, Pattern, Points, TransferPattern,
 };
+pub use state::State;
 pub use storage::{ArrayStorage, Storage};
 pub use storing::{Begin, HandedOn, Past, Storing};
 pub use units::Units;
