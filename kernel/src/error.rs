@@ -102,6 +102,10 @@ pub enum Error {
     NotBuilt,
     /// A mesh with other cells than the one that a workspace was built for.
     OtherMesh,
+    /// The state of another scene, or of a controller that was baked otherwise.
+    ForeignState,
+    /// A state of which some numbers have changed since it was sealed.
+    DamagedState,
 }
 
 /// A cell, by kind and number.
@@ -199,6 +203,8 @@ impl fmt::Display for Error {
             Self::Relaxation => write!(f, "the relaxation factor must lie between 0 and 2"),
             Self::NotBuilt => write!(f, "the workspace holds no problem: build it"),
             Self::OtherMesh => write!(f, "the workspace was built for a mesh with other cells"),
+            Self::ForeignState => write!(f, "the state is that of another scene"),
+            Self::DamagedState => write!(f, "the state has changed since it was sealed"),
         }
     }
 }

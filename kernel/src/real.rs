@@ -38,6 +38,9 @@ pub trait Real: Field + Copy + Default + 'static {
     /// √x, correctly rounded (libm).
     fn rounded_sqrt(self) -> Self;
 
+    /// The bits of the number.
+    fn bits(self) -> u64;
+
     /// Neither infinite nor NaN.
     fn finite(self) -> bool;
 
@@ -73,6 +76,10 @@ macro_rules! real {
 
             fn from_count(count: u32) -> Self {
                 count as Self
+            }
+
+            fn bits(self) -> u64 {
+                u64::from(self.to_bits())
             }
 
             fn finite(self) -> bool {

@@ -78,6 +78,19 @@ impl<R: Real> KeptSearch<R> {
     /// Before a search.
     pub const NONE: Self = Self { omega: R::ZERO, best: [R::ZERO; 2], moves: 0, phase: 0 };
 
+    /// The same as numbers, none of which is rounded: counts are small.
+    pub fn numbers(&self) -> [R; 5] {
+        let [best, factor] = self.best;
+        let [moves, phase] = [self.moves, self.phase].map(|count| R::from_count(count.min(MOVES)));
+        [self.omega, best, factor, moves, phase]
+    }
+
+    /// From such numbers.
+    pub fn of_numbers([omega, best, factor, moves, phase]: [R; 5]) -> Self {
+        let count = |x: R| (0..MOVES).find(|&count| R::from_count(count) >= x).unwrap_or(MOVES);
+        Self { omega, best: [best, factor], moves: count(moves), phase: count(phase) }
+    }
+
     /// The search that goes on from here; `None` before one, or where ω is none of a search.
     pub fn search(&self) -> Option<Search<R>> {
         let Self { omega, best: [best, factor], moves, phase } = *self;

@@ -8,10 +8,68 @@
 //! integrate, and keeps the rate on quads. The fluxes out of a cell then add up to k|T| (ū − ū_old) − ∫f for any u, where ū
 //! is the mean over its sides.
 
+#[cfg(not(feature = "storage"))]
+use core::marker::PhantomData;
+
 use crate::Real;
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::index::{Index, read};
 use crate::mesh::edges::Edges;
+
+/// What a step in time has beside a steady problem, or nothing (borrowed). Of no size where the build has no steps.
+#[derive(Debug)]
+pub struct IfStoring<'a, T> {
+    #[cfg(feature = "storage")]
+    of: Option<&'a T>,
+    #[cfg(not(feature = "storage"))]
+    of: PhantomData<&'a T>,
+}
+
+impl<T> Clone for IfStoring<'_, T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for IfStoring<'_, T> {}
+
+impl<T> Default for IfStoring<'_, T> {
+    fn default() -> Self {
+        Self::NOTHING
+    }
+}
+
+#[cfg(feature = "storage")]
+impl<'a, T> IfStoring<'a, T> {
+    /// Nothing: a steady problem.
+    pub const NOTHING: Self = Self { of: None };
+
+    /// What a step has; nothing in a build without steps.
+    pub const fn of(of: &'a T) -> Self {
+        Self { of: Some(of) }
+    }
+
+    /// What a step has.
+    pub const fn get(self) -> Option<&'a T> {
+        self.of
+    }
+}
+
+#[cfg(not(feature = "storage"))]
+impl<'a, T> IfStoring<'a, T> {
+    /// Nothing: a steady problem.
+    pub const NOTHING: Self = Self { of: PhantomData };
+
+    /// What a step has; nothing in a build without steps.
+    pub const fn of(_: &'a T) -> Self {
+        Self::NOTHING
+    }
+
+    /// What a step has.
+    pub const fn get(self) -> Option<&'a T> {
+        None
+    }
+}
 
 /// Masses of all cells, and u at the end of the step before (borrowed, validated).
 #[derive(Debug, Clone, Copy)]
@@ -41,6 +99,16 @@ impl<'a, R: Real> Storage<'a, R> {
             Some(at) => Err(Error::OutOfRange { of: Array::Storage, at }),
             None => Ok(Self { triangles, quads, old }),
         }
+    }
+
+    /// Takes what the host has checked, for a step of a baked scene.
+    pub const fn baked([triangles, quads]: [&'a [R]; 2], old: &'a [R]) -> Self {
+        Self { triangles, quads, old }
+    }
+
+    /// Means of u where the step begins, one per edge.
+    pub const fn old(self) -> &'a [R] {
+        self.old
     }
 
     /// Adds Σ_T m_T to each of the first edges, as many as `diagonal` has entries.

@@ -36,6 +36,12 @@ pub struct OutputIntervals {
 
 /// Those of a chosen model.
 pub fn of_choice<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> OutputIntervals {
+    if problem.scene.stores() {
+        let why = "a controller has no intervals of a step in time yet";
+        let outputs =
+            wanted(&problem.scene).iter().map(|_| Err(why.to_owned())).collect::<Vec<_>>();
+        return OutputIntervals { midpoints: vec![None; outputs.len()], weighed: outputs };
+    }
     let origin = choice.condensed().map(|(_, origin)| origin);
     let open = origin.map(|origin| open(problem, origin)).unwrap_or_default();
     let pressed = origin.map(pressed).unwrap_or_default();

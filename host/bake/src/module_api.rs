@@ -204,6 +204,9 @@ fn hash(problem: &Problem) -> u64 {
     // A fragment's setting is no part of that text.
     problem.scene.setting.iter().for_each(|setting| take(format!("{setting:?}").as_bytes()));
     problem.scene.inputs.iter().for_each(|input| take(&input.default.to_le_bytes()));
+    // The command line may say another one.
+    let step = problem.scene.time.as_ref().filter(|_| problem.scene.stores());
+    step.iter().for_each(|time| take(&time.step.to_le_bytes()));
     let mesh = &problem.mesh;
     mesh.vertices.as_flattened().iter().for_each(|x| take(&x.to_le_bytes()));
     let corners = mesh.triangles.as_flattened().iter().chain(mesh.quads.as_flattened());

@@ -489,7 +489,7 @@ fn replayed(
 ) -> Result<String> {
     let moment = |(at, p): (usize, &f64)| ScheduledTick { time: at as f64, inputs: vec![(0, *p)] };
     let moments: Vec<_> = inputs.iter().enumerate().map(moment).collect();
-    let (model, ticks) = replay(problem, &moments, scalar, |_, _| Ok(()))?;
+    let (model, ticks) = replay(problem, &moments, (scalar, false), |_, _| Ok(()))?;
     for (tick, p) in ticks.iter().zip(inputs) {
         let solved = solve(&problem.with_inputs(&[*p])?, &Options::default())?;
         let bound = |found: Option<ErrorBound>| found.expect("a bound").total;

@@ -87,7 +87,7 @@ fn all_take_the_same_inputs() -> Result<()> {
         });
         let moments: Vec<_> = moments.collect();
         let replayed = |scalar| {
-            replay(&problem, &moments, Some(scalar), |_, _| Ok(())).map(|(_, ticks)| ticks)
+            replay(&problem, &moments, (Some(scalar), false), |_, _| Ok(())).map(|(_, ticks)| ticks)
         };
         let all = [
             directly(&problem, &steps[1]).map(|(_, _, values)| values["power"]),

@@ -2,7 +2,7 @@
 
 use signorini_bound::averages;
 use signorini_bound::certificate::{
-    self, Certificate, Discretization, Kept, Verdict, certify_step_with,
+    self, Certificate, Discretization, Kept, StoredCell, Verdict, certify_step_with,
 };
 use signorini_bound::conforming;
 use signorini_bound::equilibrium::Iterate;
@@ -31,7 +31,7 @@ pub struct Certifier<R: Scalar> {
     /// Whether the last search has found ways.
     found_ways: bool,
     /// See [`CertifiedFields::evolution`].
-    evolution: Vec<StepTerms>,
+    evolution: Vec<StepTerms<f64>>,
     /// Whether steps in time may hand on along the ways found.
     hands_on: bool,
     fields: Fields<R>,
@@ -53,7 +53,7 @@ pub struct CertifiedFields {
     /// The means of (s − ψ)⁺ and (ψ − s)⁺ along each contact edge, where materials store u.
     pub openings: Vec<[f64; 2]>,
     /// The terms of a step in the bound of the evolution, one for each way to balance its cells.
-    pub evolution: Vec<StepTerms>,
+    pub evolution: Vec<StepTerms<f64>>,
     /// Where s has extensions.
     pub following: Following,
 }
@@ -201,9 +201,7 @@ impl<R: Scalar> Certifier<R> {
         let discretization = self.ways.discretization(assembled, &self.metric)?;
         let State { vertices, bubbles, .. } = &step.begin;
         let law = assembled.law();
-        let contents: Vec<f64> = step.contents().map(|content| content.wide()).collect();
-        let keep = self.ways.kept(assembled.edges(), &self.metric, &contents);
-        let cells = stored_cells(assembled.problem(), step, &keep);
+        let cells = self.stored_cells(assembled, step);
         let storage = step.storage(assembled.edges())?;
         let of_kernel = certificate::Step { storage, cells: &cells, vertices, bubbles };
         let iterate = Iterate { u, law };
@@ -219,11 +217,9 @@ impl<R: Scalar> Certifier<R> {
             )?;
             fields.open(&discretization, &given, law)?;
             if let Some(certificate) = verdict.certificate() {
-                let begin = &step.begin;
-                let distance = fields.distances(&discretization, &given, law, begin)?;
-                let contact = fields.contacts(&discretization, &given, law, begin);
                 let left = (&residual, data.oscillation() + certificate.rounding);
-                evolution.push(StepTerms::new(step.length, left, distance, contact));
+                let begin = (&step.begin, step.length);
+                evolution.push(fields.terms(&discretization, &given, law, begin, left)?);
             }
             Ok::<_, KernelError>(verdict)
         };
@@ -259,6 +255,13 @@ impl<R: Scalar> Certifier<R> {
             evolution: self.evolution.clone(),
             following: Following::WhereNeeded,
         }
+    }
+
+    /// What each cell stores in `step`, triangles first, as its bound takes it.
+    pub fn stored_cells(&self, assembled: &Assembled<R>, step: &Step<R>) -> Vec<StoredCell<R>> {
+        let contents: Vec<f64> = step.contents().map(|content| content.wide()).collect();
+        let keep = self.ways.kept(assembled.edges(), &self.metric, &contents);
+        stored_cells(assembled.problem(), step, &keep)
     }
 
     /// The discretization that a tick certifies on, whose surplus can leave every cell whatever the iterate.

@@ -1,6 +1,8 @@
 //! The fields that a certificate is about, in the scalar that it is computed in.
 
-use signorini_bound::certificate::{Buffers, Discretization, LoadCase, Pair};
+use signorini_bound::certificate::{
+    Buffers, Discretization, LoadCase, Motion, Residual, StepTerms,
+};
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::law::Law;
 
@@ -40,9 +42,8 @@ impl<R: Scalar> Fields<R> {
         }
     }
 
-    fn pair(&self) -> Pair<'_, R> {
-        let Self { vertices, bubbles, tau, .. } = self;
-        Pair { vertices, bubbles, tau }
+    fn motion<'a>(&'a self, begin: [&'a [R]; 2]) -> Motion<'a, R> {
+        Motion { begin, end: [&self.vertices, &self.bubbles], tau: &self.tau }
     }
 
     /// Fills in how far s is from ψ.
@@ -57,7 +58,8 @@ impl<R: Scalar> Fields<R> {
     ) -> Result<(), KernelError> {
         let mut openings = std::mem::take(&mut self.openings);
         if !openings.is_empty() {
-            self.pair().openings(of, given, law, &mut openings)?;
+            let end = [&self.vertices[..], &self.bubbles];
+            self.motion(end).openings(of, given, law, &mut openings)?;
         }
         self.openings = openings;
         Ok(())
@@ -69,41 +71,30 @@ impl<R: Scalar> Fields<R> {
         Buffers { vertices, bubbles, tau, indicators }
     }
 
-    /// Distances of τ from A∇s for s at the beginning of a step, in its middle and at its end, squared.
+    /// The terms of a step that began from `begin`, what it leaves of its equation, and its oscillation.
     ///
     /// # Errors
     /// Never for fields of this problem.
-    pub fn distances(
+    pub fn terms(
         &self,
         of: &Discretization<R, u32>,
         given: &LoadCase<R, u32>,
         law: Law<R>,
-        begin: &State<R>,
-    ) -> Result<[R; 3], KernelError> {
-        let middle = |a: &[R], b: &[R]| -> Vec<R> {
-            a.iter().zip(b).map(|(&a, &b)| R::HALF * a + R::HALF * b).collect()
-        };
-        let middle =
-            [middle(&self.vertices, &begin.vertices), middle(&self.bubbles, &begin.bubbles)];
-        let with = |vertices: &[R], bubbles: &[R]| {
-            Pair { vertices, bubbles, tau: &self.tau }.distance(of, given, law)
-        };
-        Ok([
-            with(&begin.vertices, &begin.bubbles)?,
-            with(&middle[0], &middle[1])?,
-            with(&self.vertices, &self.bubbles)?,
-        ])
-    }
-
-    /// Terms of contact for s at the beginning of a step and at its end.
-    pub fn contacts(
-        &self,
-        of: &Discretization<R, u32>,
-        given: &LoadCase<R, u32>,
-        law: Law<R>,
-        begin: &State<R>,
-    ) -> [R; 2] {
-        [&begin.openings, &self.openings]
-            .map(|openings| self.pair().contact(of, given, law, openings))
+        (begin, length): (&State<R>, f64),
+        left: (&Residual<R>, R),
+    ) -> Result<StepTerms<f64>, KernelError> {
+        let motion = self.motion([&begin.vertices, &begin.bubbles]);
+        let distance = motion.distances(of, given)?;
+        let contact = motion.contacts(of, given, law, &begin.openings)?;
+        let StepTerms { distance, contact, oscillation, inside, residual, .. } =
+            StepTerms::new(R::narrow(length), left, distance, contact);
+        Ok(StepTerms {
+            length,
+            distance: distance.map(R::wide),
+            contact: contact.map(R::wide),
+            oscillation: oscillation.wide(),
+            inside: inside.wide(),
+            residual: residual.map(R::wide),
+        })
     }
 }

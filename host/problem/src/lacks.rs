@@ -47,17 +47,6 @@ pub struct Lack {
 }
 
 impl Approach {
-    /// Refuses a scene whose materials store u: controllers answer for the steady state alone.
-    ///
-    /// # Errors
-    /// Such a scene.
-    pub fn check_steady(problem: &Problem) -> Result<()> {
-        match problem.scene.stores() {
-            true => Err(no_steps(problem).into()),
-            false => Ok(()),
-        }
-    }
-
     /// How `problem` is condensed: for every value of a transfer coefficient where one input changes it.
     pub fn condensing(problem: &Problem) -> Self {
         let inputs = problem.scene.inputs.iter();
@@ -147,10 +136,8 @@ impl Approach {
                 }
             },
             Property::Step => match self {
-                Condensation | Modes | Tick | FullModel | FactoredTicks | Export | Baselines => {
-                    Some(no_steps)
-                }
-                Factor => None,
+                Condensation | Modes | Tick | Export | Baselines => Some(no_steps),
+                FullModel | Factor | FactoredTicks => None,
             },
             Property::Window => match self {
                 Condensation | Modes | FullModel => Some(no_window),
@@ -217,11 +204,18 @@ fn one_matrix(problem: &Problem) -> InputError {
 }
 
 /// The material that stores is what a scene states.
-pub(super) fn no_steps(problem: &Problem) -> InputError {
+fn no_steps(problem: &Problem) -> InputError {
     let stores = problem.scene.materials.iter().find(|material| material.stores());
     let place = stores.map(|material| &material.capacity);
-    refused_at(problem, place, "no controller steps in time yet".to_owned())
-        .hint("`signorini tick` steps in time on this machine; without `capacity` the controller is the steady one")
+    refused_at(problem, place, "no condensed model steps in time yet".to_owned())
+        .hint("take the full model (--full, model = \"full\"); without `capacity` the controller is the steady one")
+}
+
+impl Problem {
+    /// The refusal of a condensed model that would step in time.
+    pub fn no_steps(&self) -> InputError {
+        no_steps(self)
+    }
 }
 
 /// No controller carries what its steps leave of their equations.

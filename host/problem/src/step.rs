@@ -94,6 +94,11 @@ impl<R: Scalar> Step<R> {
         }
     }
 
+    /// m_T of the triangles, and of the quads.
+    pub fn masses(&self) -> [&[R]; 2] {
+        self.masses.each_ref().map(Vec::as_slice)
+    }
+
     /// As the kernel takes it.
     ///
     /// # Errors

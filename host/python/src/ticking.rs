@@ -35,7 +35,7 @@ pub fn tick<'py>(py: Python<'py>, scene: GivenScene, ticks: Ticks) -> PyResult<B
         let problem = posed.problem()?;
         let moments = ticks.moments(&posed.scene)?;
         let records = match ticks.baked {
-            true => replay(&problem, &moments, None, |_, _| Ok(()))?.1,
+            true => replay(&problem, &moments, (None, true), |_, _| Ok(()))?.1,
             false => {
                 let own = Budget::of(&posed.scene);
                 let sweeps = ticks.budget_sweeps.unwrap_or(own.sweeps);

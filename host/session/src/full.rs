@@ -55,6 +55,11 @@ impl<R: Scalar, const WIDTH: usize> Session for Full<'_, R, WIDTH> {
         (self.controller, self.last) = (Controller::new(self.baked), None);
     }
 
+    fn window(&self) -> Option<[f64; 2]> {
+        let window = self.controller.window()?;
+        Some([window.energy, window.seconds].map(R::wide))
+    }
+
     fn answer(&self, at: &Problem) -> Result<Solution> {
         let Some((outputs, report)) = &self.last else { return Ok(Solution::default()) };
         let arrays = Arrays {

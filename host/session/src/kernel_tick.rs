@@ -2,7 +2,7 @@
 
 use signorini_certify::{Certifier, NoBound};
 use signorini_device::tick::{
-    CertifiedSweeps, Data, Deadline, Limits, Memory, Progress, Report, Tick,
+    CertifiedSweeps, Data, Deadline, IfStoring, Limits, Memory, Progress, Report, Tick,
 };
 use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
@@ -107,7 +107,7 @@ impl<'p, R: Scalar, const WIDTH: usize> KernelTick<'p, R, WIDTH> {
         let forms = self.data.forms();
         let given = self.data.given(&self.moving, forms.as_slice())?;
         let (law, dirichlet) = (self.moving.law(), self.moving.dirichlet());
-        let mut running = tick.begin(Data { given, law, dirichlet })?;
+        let mut running = tick.begin(Data { given, law, dirichlet, step: IfStoring::NOTHING })?;
         let never = &mut Deadline::never();
         let report = running.advance(CertifiedSweeps(Libm), self.limits, never)?;
         self.last = Some((tick.progress(), report));

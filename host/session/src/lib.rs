@@ -61,6 +61,11 @@ pub trait Session {
         Vec::new()
     }
 
+    /// The bound of the evolution that a controller carries, and how far back its mean reaches.
+    fn window(&self) -> Option<[f64; 2]> {
+        None
+    }
+
     /// Poses `at` and answers for its inputs.
     ///
     /// # Errors

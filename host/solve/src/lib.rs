@@ -25,6 +25,7 @@ mod options;
 pub mod outputs;
 pub mod prolongation;
 mod solution;
+mod start;
 #[cfg(test)]
 mod tests;
 mod tuned;
@@ -37,6 +38,7 @@ pub use level::{FreeLevel, free_levels};
 pub use mixed::{Corrected, Mixed, mixed};
 pub use options::{Options, ScalarKind, SolverKind};
 pub use solution::{Seconds, Solution};
+pub use start::{Start, step_of, warnings};
 pub use tuned::{Trials, tuned_omega};
 pub use units::{Scaled, choose as choose_units, choose_for_inputs, in_scene, times};
 

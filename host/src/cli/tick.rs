@@ -18,7 +18,8 @@ use signorini_scene::scene::{Output, Quantity, Scene, Time};
 use signorini_scene::setting::{Method, ModelKind, Precision, Setting};
 use signorini_session::tick::columns::{bounds_csv, ticks_csv};
 use signorini_session::tick::window_error::of_other_data;
-use signorini_session::tick::{Budget, TickRecord, log, play, replay, schedule, warnings};
+use signorini_session::tick::{Budget, TickRecord, log, play, replay, schedule};
+use signorini_solve::warnings;
 use signorini_solve::{Ending, ScalarKind, Solution};
 
 const EXAMPLES: &str = "\
@@ -128,7 +129,8 @@ impl Arguments {
             shows_start: self.log.is_none(),
         };
         if !self.baked {
-            warn(&warnings(&problem, &moments, budget.scalar)?);
+            let first = moments.first().map_or(0.0, |moment| moment.time);
+            warn(&warnings(&problem, first, budget.scalar)?);
         }
         let bar = steps(moments.len());
         let mut series = self.vtu.then(|| Series::new(&out, "ticks", 4));
@@ -140,7 +142,7 @@ impl Arguments {
             series.add(tick.time, &vtu(&problem, &Drawn::plain(solution)))
         };
         let ticks = match self.baked {
-            true => replay(&problem, &moments, self.scalar, done),
+            true => replay(&problem, &moments, (self.scalar, budget.shows_start), done),
             false => play(&problem, coarse.as_ref(), &moments, &budget, done)
                 .map(|ticks| ("full, swept".to_owned(), ticks)),
         };

@@ -111,6 +111,11 @@ pub trait Storage<R: Real> {
         &[]
     }
 
+    /// The bound of the evolution until now, of a model that steps in time.
+    fn window(&self, _: &Self::Model<'_>, _: &Self::Setup<'_>) -> Option<Window<R>> {
+        None
+    }
+
     /// Answers for `terms`, the constant 1 and the inputs.
     ///
     /// # Errors
@@ -123,6 +128,36 @@ pub trait Storage<R: Real> {
         limits: Limits<R>,
         deadline: &mut Deadline<F>,
     ) -> Result<Answer<O, R>, Error>;
+}
+
+/// The bound of the evolution until now: the root of the mean of ‖A^½∇(u − s)‖² + ∫_R h(u − s)², whose weights fade into the past.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Window<R> {
+    /// That root at most.
+    pub energy: R,
+    /// How far back the mean reaches, in the unit of time.
+    pub seconds: R,
+}
+
+/// Memory of which a part outlives the program.
+pub trait Saving<R: Real, State>: Storage<R> {
+    /// What one tick hands on to the next, sealed.
+    fn save(&self, setup: &Self::Setup<'_>, scene: u64) -> State;
+
+    /// Goes on from there.
+    ///
+    /// # Errors
+    /// A state of another scene, or a damaged one: nothing has changed then.
+    fn restore(&mut self, setup: &Self::Setup<'_>, state: &State, scene: u64) -> Result<(), Error>;
+}
+
+/// A scene that steps in time: what one tick hands on to the next may outlive the program.
+pub trait Lasting: Scene {
+    /// Plain numbers, sealed.
+    type State;
+
+    /// The number of the scene.
+    const HASH: u64;
 }
 
 /// What a tick came to.
@@ -208,9 +243,37 @@ impl<S: Scene> Controller<S> {
         answer.outputs.between(self.storage.combination(), &answer.report)
     }
 
-    /// Forgets all ticks: the next one is the first again.
+    /// The bound of the evolution from the start until the last tick's end; nothing where ticks are no steps in time, or where there is
+    /// no such bound.
+    pub fn window(&self) -> Option<Window<S::Scalar>> {
+        self.scene.lend(|model, setup| self.storage.window(model, setup))
+    }
+
+    /// Forgets all ticks: the next one is the first again, and a step in time begins from the start.
     pub fn reset(&mut self) {
         self.storage.reset();
+    }
+
+    /// All that the next tick takes from the last one. Before the first tick it is the start.
+    pub fn state(&self) -> S::State
+    where
+        S: Lasting,
+        S::Storage: Saving<S::Scalar, S::State>,
+    {
+        self.scene.lend(|_, setup| self.storage.save(setup, S::HASH))
+    }
+
+    /// Goes on from `state` with the bits that the controller would have had from which it was taken.
+    ///
+    /// # Errors
+    /// [`Error::ForeignState`] of another scene, [`Error::DamagedState`] where numbers have changed: the controller has not.
+    pub fn restore(&mut self, state: &S::State) -> Result<(), Error>
+    where
+        S: Lasting,
+        S::Storage: Saving<S::Scalar, S::State>,
+    {
+        let Self { scene, storage } = self;
+        scene.lend(|_, setup| storage.restore(setup, state, S::HASH))
     }
 
     /// What the last tick left.

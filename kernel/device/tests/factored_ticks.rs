@@ -4,11 +4,11 @@ use crate::plate::Side;
 use crate::plate::factor::{Baked, Store};
 use crate::plate::foundation::{Foundation, GAP};
 use signorini_bound::certificate::LoadCase;
-use signorini_device::full::{self, DataMemory, Functional};
+use signorini_device::full::{self, DataMemory, Functional, HandedOn, Past};
 use signorini_device::sparse::Exact;
 use signorini_device::tick::{
-    CertifiedSweeps, Data, Deadline, Ended, Limits, Progress, Report, Running, Substitutions, Tick,
-    UncertifiedSweeps,
+    CertifiedSweeps, Data, Deadline, Ended, IfStoring, Limits, Progress, Report, Running,
+    Substitutions, Tick, UncertifiedSweeps,
 };
 use signorini_kernel::law::Law;
 use signorini_kernel::mesh::boundary::{Boundary, Robin};
@@ -60,7 +60,12 @@ impl Input {
         let mut given = foundation.given()?;
         given.loads.triangles = &self.loads.0;
         given.loads.quads = &self.loads.1;
-        Ok(Data { given, law: Law::above(&self.lower), dirichlet: &foundation.dirichlet })
+        Ok(Data {
+            given,
+            law: Law::above(&self.lower),
+            dirichlet: &foundation.dirichlet,
+            step: IfStoring::NOTHING,
+        })
     }
 }
 
@@ -290,7 +295,13 @@ fn a_full_model_begins_with_memory_of_any_contents() -> Result<(), Error> {
         for round in 0..2 {
             let (tick, mut exact) = store.memory(&foundation, &baked)?;
             let data = DataMemory::default();
-            let memory = full::Memory { tick, data, progress: &mut progress };
+            let memory = full::Memory {
+                tick,
+                data,
+                past: Past::default(),
+                handed_on: HandedOn::default(),
+                progress: &mut progress,
+            };
             let (never, mut outputs, exact) = (&mut Deadline::never(), [0.0; 2], &mut exact);
             let by_factor = Substitutions { exact, sweeps: UncertifiedSweeps(Libm) };
             let report = match has_bound {

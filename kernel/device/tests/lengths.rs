@@ -22,6 +22,10 @@ const POWERS: Numbers<usize> = Numbers {
     dirichlet_ends: 1 << 11,
     transfer: 1 << 12,
     spans: 1 << 13,
+    begin: [1 << 14, 1 << 15, 1 << 16],
+    openings: 1 << 17,
+    carried: 1 << 18,
+    diagonal: 1 << 19,
 };
 
 const LENGTHS: Lengths =
@@ -29,7 +33,7 @@ const LENGTHS: Lengths =
 
 #[test]
 fn all_arrays_count_once() {
-    assert_eq!(POWERS.sum(), (1 << 14) - 1);
+    assert_eq!(POWERS.sum(), (1 << 20) - 1);
 }
 
 /// The type has three lengths of 64 bits here where the target has 32, and is aligned.
@@ -40,7 +44,7 @@ fn bytes_are_those_of_the_type() {
         u16,
         4,
         { LENGTHS.rows },
-        { (1 << 14) - 1 },
+        { (1 << 20) - 1 },
         { LENGTHS.active },
         { LENGTHS.neumann },
         { LENGTHS.robin },

@@ -4,7 +4,7 @@ use crate::owned::TickArrays;
 use crate::plate::Side;
 use crate::plate::foundation::Foundation;
 use signorini_bound::certificate::Verdict;
-use signorini_device::full::{Contribution, DataMemory, Functional, Memory};
+use signorini_device::full::{Contribution, DataMemory, Functional, HandedOn, Memory, Past};
 use signorini_device::tick::{CertifiedSweeps, Deadline, Ended, Limits, Progress, Report};
 use signorini_kernel::{Error, Libm};
 
@@ -21,7 +21,13 @@ fn tick<const N: usize>(
     let mut arrays = TickArrays::new(edges, foundation.plate.vertices.len());
     let (mut progress, mut found) = (Progress::NONE, [0.0; N]);
     let (tick, data) = (arrays.memory(edges)?, DataMemory::default());
-    let memory = Memory { tick, data, progress: &mut progress };
+    let memory = Memory {
+        tick,
+        data,
+        past: Past::default(),
+        handed_on: HandedOn::default(),
+        progress: &mut progress,
+    };
     let never = &mut Deadline::never();
     let limits = Limits::default();
     let report = full.tick(&[], CertifiedSweeps(Libm), limits, never, memory, &mut found)?;

@@ -9,7 +9,7 @@ use crate::plate::foundation::{Foundation, GAP};
 use signorini_bound::certificate::{Certificate, Discretization, LoadCase, Verdict};
 use signorini_bound::conforming::VertexData;
 use signorini_device::tick::{
-    CertifiedSweeps, Data, Deadline, Ended, Limits, Memory, Progress, Report, Tick,
+    CertifiedSweeps, Data, Deadline, Ended, IfStoring, Limits, Memory, Progress, Report, Tick,
     UncertifiedSweeps,
 };
 use signorini_kernel::assembly::CellLoads;
@@ -384,7 +384,12 @@ fn takes(
     let good = foundation.data()?;
     let loads = CellLoads { triangles: &triangles, quads: &quads };
     let given = LoadCase { loads, ..good.given };
-    match tick.begin(Data { given, law: Law::above(&lower), dirichlet: &dirichlet }) {
+    match tick.begin(Data {
+        given,
+        law: Law::above(&lower),
+        dirichlet: &dirichlet,
+        step: IfStoring::NOTHING,
+    }) {
         Ok(mut running) => {
             running.advance(CertifiedSweeps(Libm), Limits::default(), &mut Deadline::never())?;
             Ok(true)

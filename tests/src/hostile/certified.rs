@@ -7,7 +7,7 @@ use signorini_bound::certificate::{
 use signorini_bound::conforming::VertexData;
 use signorini_bound::equilibrium::{Iterate, is_root};
 use signorini_bound::forest::{Forest, ForestBuffers, grow};
-use signorini_device::tick::Data;
+use signorini_device::tick::{Data, IfStoring};
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::flux_range::Spans;
 use signorini_kernel::law::Law;
@@ -193,7 +193,12 @@ impl<R: Bits> Loads<R> {
 
     /// The view that a tick takes.
     pub fn data(&self, edges: &Edges<u16>) -> Result<Data<'_, R, u16>, Error> {
-        Ok(Data { given: self.given(edges)?, law: self.law()?, dirichlet: &self.dirichlet })
+        Ok(Data {
+            given: self.given(edges)?,
+            law: self.law()?,
+            dirichlet: &self.dirichlet,
+            step: IfStoring::NOTHING,
+        })
     }
 
     fn spans(&self) -> Result<Spans<'_, R>, Error> {

@@ -10,7 +10,7 @@ use signorini_certify::NoBound;
 use signorini_problem::Problem;
 use signorini_problem::inputs::InputSpace;
 use signorini_problem::scalar::Scalar;
-use signorini_scene::error::Result;
+use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::units::Units;
 use signorini_solve::Scaled;
 
@@ -23,8 +23,17 @@ pub(super) fn of_full<R: Scalar>(
     excluded: &mut Vec<String>,
 ) -> Result<Vec<Candidate<R>>> {
     let setting = problem.scene.setting.unwrap_or_default();
-    let problem = &Scaled::new(problem, units)?;
+    let posed = full::Posed::new(problem)?;
+    let problem = &Scaled::new(&posed.problem, units)?;
     let baked = full::Baked::<R>::of_scaled(problem)?;
+    let baked = baked.evolving(problem, posed.evolution.as_ref())?;
+    if let Some(why) =
+        baked.no_bound().filter(|_| posed.problem.loads.step.is_some() && baked.is_certified())
+    {
+        let error = InputError::new(format!("there is no error bound: {why}"));
+        let hint = "certificate = false in [setting] leaves the bound out";
+        return Err(error.file(&problem.own.scene.path).hint(hint).into());
+    }
     // Sweeps and shares are for who sweeps.
     let is_open = setting.solver.is_none() && setting.sweeps.is_none() && setting.share.is_none();
     let factored = is_open.then(|| baked.clone().with_factor(problem.problem()));

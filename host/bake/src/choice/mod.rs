@@ -138,16 +138,19 @@ impl<R: Scalar> Choice<R> {
     /// No model fits what the scene declares: by how much the smallest one does not. What keeps a model that
     /// was asked for from existing, or a key of the setting from meaning anything to it.
     pub fn new(problem: &Problem, wanted: Wanted) -> Result<Self> {
-        Approach::check_steady(problem)?;
         let budget = Budget::of(&problem.scene);
         let setting = problem.scene.setting.unwrap_or_default();
-        let (forced, compared) = (wanted.model.or(setting.model_kind()), wanted.is_compared);
+        let (asked, compared) = (wanted.model.or(setting.model_kind()), wanted.is_compared);
+        let forced = if problem.scene.stores() { Some(stepping(problem, asked)?) } else { asked };
         if let Some((model, key)) =
             forced.and_then(|model| Some((model, setting.foreign_to(model)?)))
         {
             return Err(foreign(&problem.scene, model, key).into());
         }
         let (mut candidates, mut excluded, mut origin) = (Vec::new(), Vec::new(), None);
+        if asked.is_none() && forced.is_some() {
+            excluded.push(format!("condensed: {}", problem.no_steps().message()));
+        }
         let units = choose_for_inputs(problem)?;
         refuse_answers::<R>(&problem.scene, &units)?;
         refuse_lengths::<R>(problem)?;
@@ -238,6 +241,14 @@ impl<R: Scalar> Choice<R> {
 /// The share of a mode in the squares of answers that is nothing beside what a program in `R` rounds.
 fn negligible<R: Scalar>() -> f64 {
     (8.0 * R::EPSILON.wide()).powi(2)
+}
+
+/// The model of a scene that steps in time: the full one.
+fn stepping(problem: &Problem, asked: Option<ModelKind>) -> Result<ModelKind> {
+    match asked {
+        Some(ModelKind::Condensed) => Err(problem.no_steps().into()),
+        _ => Ok(ModelKind::Full),
+    }
 }
 
 /// Why no condensed model is worked out where nobody asks for one, if so.

@@ -16,6 +16,7 @@ use super::data::{Data, refuse_faint};
 use super::factored::Factored;
 use super::limits;
 use super::output::{Output, output};
+use super::storing::Stored;
 use crate::module_api::ModuleApi;
 use crate::range::refuse_answers;
 use crate::setting::checked;
@@ -66,6 +67,8 @@ pub struct Baked<R: Scalar> {
     pub(super) factored: Option<Factored<R>>,
     /// Rows that inputs without a range have to meet.
     pub(super) exclusions: Vec<R>,
+    /// Where ticks are steps in time.
+    pub(super) stored: Option<Stored<R>>,
 }
 
 /// How its ticks are solved.
@@ -78,6 +81,8 @@ pub(super) struct TickOptions<R> {
     pub cold: bool,
     /// The search for ω takes the fast square root.
     pub fast: bool,
+    /// Each tick is a step in time.
+    pub in_step: bool,
 }
 
 /// Units in which the numbers of a problem are near 1.
@@ -111,6 +116,7 @@ impl<R: Scalar> TickOptions<R> {
             certified: setting.certificate,
             cold: setting.start == Start::Cold,
             fast: setting.math == MathKind::Micromath,
+            in_step: false,
         }
     }
 }
@@ -168,14 +174,22 @@ impl<R: Scalar> Baked<R> {
         let certifier = Certifier::new(&least, &held, &assembled).map_err(&unfit)?;
         let discretization = certifier.discretization(&assembled).map_err(&unfit)?;
         let outputs = functionals(problem)?.iter().map(|of| output(problem, of)).collect();
-        let data = Data::new(problem, &full_terms(problem)?, discretization.stiffness)?;
+        let mut data = Data::new(problem, &full_terms(problem)?, discretization.stiffness)?;
+        if problem.loads.step.is_some() && data.is_curved() {
+            data.no_bound = data.no_bound.or_else(|| Some(NoBound::curved_in_step()));
+        }
         data.check().map_err(&unfit)?;
         refuse_faint(&problem.scene, &data)?;
+        let stored = Stored::new(problem, (&certifier, &assembled), &setting)?;
         let data = if setting.certificate { data } else { data.without_bound() };
         let start = assembled.start().first().copied().unwrap_or(R::ZERO);
-        let how = TickOptions::new(&setting, problem.topology.counts.unknowns());
+        let mut how = TickOptions::new(&setting, problem.topology.counts.unknowns());
+        // What starts cold in a step are its sweeps alone.
+        how.in_step = stored.is_some();
+        how.cold &= !how.in_step;
         let corners = if how.certified { corners(problem) } else { Vec::new() };
-        let baked = Self { start, outputs, corners, ..Self::of(face, data, &discretization, how) };
+        let baked =
+            Self { start, outputs, corners, stored, ..Self::of(face, data, &discretization, how) };
         match setting.solver {
             Some(Method::Factor) => baked.with_factor(problem),
             _ => Ok(baked),
@@ -191,8 +205,8 @@ impl<R: Scalar> Baked<R> {
         let Discretization { mesh, edges, stiffness, cells, metric, stability } = discretization;
         let [vertex_weights, edge_weights] = cells.weights();
         let varies = how.certified && !(metric.at_points.is_empty() && metric.factors.is_empty());
-        // Which kind of cell comes next: all of them are triangles with constant A where nobody asks.
-        let needs_order = varies || (how.certified && !cells.quads().is_empty());
+        // Which kind of cell comes next: all of them are triangles with constant A, in a steady problem, where nobody asks.
+        let needs_order = how.certified && (varies || how.in_step || !cells.quads().is_empty());
         Self {
             face,
             counts: edges.counts(),
@@ -224,6 +238,7 @@ impl<R: Scalar> Baked<R> {
             scale: None,
             factored: None,
             exclusions: Vec::new(),
+            stored: None,
         }
     }
 
@@ -268,7 +283,8 @@ impl<R: Scalar> Baked<R> {
             ("limited", !self.data.spans.is_empty()),
             ("robin", !self.data.robin.is_empty()),
             ("transfer", self.data.varies(Field::Coefficient)),
-            ("curved", !(self.data.curved.is_empty() && self.data.curved_sums.is_empty())),
+            ("storage", self.stored.is_some()),
+            ("curved", self.data.is_curved()),
             ("micromath", self.how.fast),
         ];
         needs.into_iter().filter(|(_, needed)| *needed).map(|(name, _)| name).collect()

@@ -5,13 +5,17 @@ use signorini_kernel::rows::{QUADS, TRIANGLES};
 use super::arrays::{Baked, Scale};
 use super::controller::Controller;
 use super::factored::Factored;
+use super::storing::short;
 use crate::module_api::ModuleApi;
 use crate::narrow::exclusions;
+use signorini_certify::evolution::Evolution;
+use signorini_kernel::relaxation::Relaxation;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Approach, Problem};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
+use signorini_scene::setting::Omega;
 use signorini_solve::{Scaled, choose_for_inputs};
 
 impl<R: Scalar> Baked<R> {
@@ -37,6 +41,22 @@ impl<R: Scalar> Baked<R> {
         };
         let exclusions = exclusions(&problem.own.exclusions());
         Ok(Self { scale, exclusions, ..Self::in_its_units(problem.problem(), face)? })
+    }
+
+    /// With what the bound of the evolution begins with, and sweeps for steps so short.
+    ///
+    /// # Errors
+    /// A matrix without an ω.
+    pub fn evolving(mut self, problem: &Scaled, evolution: Option<&Evolution>) -> Result<Self> {
+        let Some(stored) = self.stored.take() else { return Ok(self) };
+        if let (Omega::Auto, Some(omega)) = (
+            problem.own.scene.setting.unwrap_or_default().omega,
+            short(problem.problem(), evolution),
+        ) {
+            self.how.relaxation = Relaxation::Adaptive(R::narrow(omega));
+        }
+        self.stored = Some(stored.with_evolution(evolution, &problem.units));
+        Ok(self)
     }
 
     /// What 1 stands for in [`Controller::u`] and the other arrays of a controller.

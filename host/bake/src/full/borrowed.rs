@@ -5,11 +5,13 @@ use signorini_bound::conforming::VertexData;
 use signorini_device::full::{Along, Base, CurvedSum, Full, Functional, Lengths};
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::flux_range::{Room, Spans};
+use signorini_kernel::storage::IfStoring;
 
 use super::arrays::Baked;
 use super::data::Data;
 use super::output::Output;
 use super::pattern::Pattern;
+use super::storing::Stored;
 use signorini_certify::transfer_forms::Forms;
 use signorini_problem::scalar::Scalar;
 
@@ -32,6 +34,7 @@ impl<R: Scalar> Baked<R> {
             .map(|of| CurvedSum { edge: of.edge, parts: &of.parts, energy: &of.energy })
             .collect();
         let rooms: Vec<_> = self.data.rooms.iter().map(|room| room.view()).collect();
+        let storing = self.stored.as_ref().map(Stored::view);
         let along = (&self.data.transfer[..], self.data.view_of_forms());
         take(&Full {
             discretization: self.discretization(),
@@ -43,6 +46,7 @@ impl<R: Scalar> Baked<R> {
             corners: &self.corners,
             start: self.start,
             relaxation: self.how.relaxation,
+            storing: storing.as_ref().map_or(IfStoring::NOTHING, IfStoring::of),
         })
     }
 }

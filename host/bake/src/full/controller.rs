@@ -1,7 +1,7 @@
 //! What the baked module does, on this machine and on the same numbers.
 
 use signorini_bound::certificate::Curved;
-use signorini_device::controller::{self, Scene};
+use signorini_device::controller::{self, Scene, Window};
 use signorini_device::full::controller::{ControllerStorage, Setup, Solver, Task};
 use signorini_device::full::{Full, Lengths, Memory, Numbers, Storage};
 use signorini_device::sparse::{Exact, Solved};
@@ -93,6 +93,16 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
         let units = self.baked.scale.map(|scale| scale.kernel);
         let figures = units.map_or(figures, |units| units.figures(figures));
         Ok((outputs, report.with(figures)))
+    }
+
+    /// The bound of the evolution until the end of the last tick, of steps in time that have one.
+    pub fn window(&self) -> Option<Window<R>> {
+        self.own.window()
+    }
+
+    /// Goes back to before the first tick.
+    pub fn reset(&mut self) {
+        self.own.reset();
     }
 
     /// Certificates of the last tick, where it was swept.

@@ -118,6 +118,11 @@ impl<R: Scalar> Data<R> {
         fit(&mut self.contact_flux, flux, problem.topology.counts.contact);
     }
 
+    /// Whether a gap or a value is not linear along an edge, with inputs or without.
+    pub fn is_curved(&self) -> bool {
+        !(self.curved.is_empty() && self.curved_sums.is_empty())
+    }
+
     /// Whether an input changes this field.
     pub fn varies(&self, field: Field) -> bool {
         self.patterns.iter().any(|pattern| pattern.field == field)

@@ -4,13 +4,14 @@ use std::fmt::Write as _;
 
 use signorini_bound::cells::{Cells, Quad, Triangle};
 use signorini_bound::certificate::{
-    Above, Curved, Discretization, ENTRIES, Factor, Metric, POINTS, TransferForms,
+    Above, Curved, Discretization, ENTRIES, Factor, Metric, POINTS, StoredCell, TransferForms,
 };
-use signorini_device::full::{Along, Base, CurvedPart, CurvedSum, Full, Product};
+use signorini_device::full::{Along, Base, CurvedPart, CurvedSum, Full, Product, Storing};
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::stiffness::Stiffness;
+use signorini_kernel::storage::IfStoring;
 use signorini_kernel::{Index, Tensor};
 
 use super::arrays::Baked;
@@ -29,6 +30,8 @@ pub(super) const NAMES: &str = "\
     bound::certificate::Discretization bound::certificate::Metric bound::certificate::Stability \
     bound::certificate::TransferForms full::Along \
     bound::conforming::VertexData kernel::mesh::edges::EdgeCounts kernel::mesh::edges::Edges \
+    kernel::storage::IfStoring bound::certificate::Carried bound::certificate::Rates \
+    bound::certificate::StoredCell full::Begin full::Storing \
     full::AmbientShare full::Base full::EdgeTrace full::CurvedPart full::CurvedSum full::Full \
     full::Functional full::Pattern full::Points full::TransferPattern full::Product \
     full::Contribution kernel::Mesh kernel::relaxation::Relaxation sparse::Factor \
@@ -56,6 +59,7 @@ fn full<R: Scalar, I: Index>(of: &Full<R, u32>, face: &ModuleApi, to: &mut Stati
     let (discretization, base) = (discretization::<R, I>(&of.discretization, to), base::<R, I>(&of.base, to));
     let corners = to.array::<[I; 2]>("CORNERS", "Where contact meets Dirichlet: an end of either edge.", "[Index; 2]", of.corners);
     let oscillation = to.numbers("OSCILLATION", "What the bound's means leave out of the base, then of a unit of each input.", of.oscillation);
+    let storing = storing(of.storing, to);
     let full = tall_record("Full", 4, [
         ("discretization", discretization),
         ("base", base),
@@ -66,6 +70,7 @@ fn full<R: Scalar, I: Index>(of: &Full<R, u32>, face: &ModuleApi, to: &mut Stati
         ("corners", corners),
         ("start", format!("{:?}", of.start)),
         ("relaxation", format!("Relaxation::{:?}", of.relaxation)),
+        ("storing", storing),
     ]);
     let _ = write!(
         to.text,
@@ -74,6 +79,41 @@ fn full<R: Scalar, I: Index>(of: &Full<R, u32>, face: &ModuleApi, to: &mut Stati
     pub(super) static FULL: Full<'static, Scalar, Index> = {full};
 "
     );
+}
+
+/// What cells store, and the start.
+#[rustfmt::skip] // A table.
+fn storing<R: Scalar>(of: IfStoring<Storing<R>>, to: &mut Statics) -> String {
+    let Some(of) = of.get() else { return "IfStoring::NOTHING".to_owned() };
+    let [triangles, quads] = of.masses;
+    let triangles = to.numbers("STORED_IN_TRIANGLES", "What each triangle stores by each of its sides: a third of c|T|/dt.", triangles);
+    let quads = to.numbers("STORED_IN_QUADS", "What each quad stores by each of its sides: a quarter of c|T|/dt.", quads);
+    let (begin, carried) = (&of.begin, of.begin.carried);
+    let carried = [("bound", number(carried.bound)), ("before", number(carried.before))];
+    let begin = record("Begin", [
+        ("u", to.numbers("U_AT_START", "Means of u over the edges at the start.", begin.u)),
+        ("vertices", to.numbers("VERTICES_AT_START", "The function of the error bound at the start, at the vertices.", begin.vertices)),
+        ("bubbles", to.numbers("BUBBLES_AT_START", "The same on edges of quads.", begin.bubbles)),
+        ("openings", to.array::<[R; 2]>("OPENINGS_AT_START", "How far that is above the gap and below it, the mean of each contact edge.", "[Scalar; 2]", begin.openings)),
+        ("carried", record("Carried", carried)),
+    ]);
+    let fields = [
+        ("length", format!("{:?}", of.length)),
+        ("masses", format!("[{triangles}, {quads}]")),
+        ("diagonal", to.numbers("DIAGONAL_IN_STEP", "What each unknown has on the diagonal beyond the element matrices.", of.diagonal)),
+        ("cells", to.array::<StoredCell<R>>("STORED_CELLS", "What each cell stores, as the error bound takes it.", "StoredCell<Scalar>", of.cells)),
+        ("rates", format!("{:?}", of.rates)),
+        ("begin", begin),
+        ("is_cold", of.is_cold.to_string()),
+    ];
+    let storing = record("Storing", fields);
+    let _ = write!(to.text, "\n    /// A step in time, and the start of the first one.\n    static STORING: Storing<'static, Scalar> = {storing};\n");
+    "IfStoring::of(&STORING)".to_owned()
+}
+
+/// A number that may be infinite.
+fn number<R: Scalar>(x: R) -> String {
+    if x.finite() { format!("{x:?}") } else { "Scalar::INFINITY".to_owned() }
 }
 
 /// Mesh, A and ways out.

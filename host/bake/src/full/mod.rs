@@ -24,6 +24,7 @@ mod output;
 mod pattern;
 mod sizes;
 mod source;
+mod storing;
 #[cfg(test)]
 mod tests;
 
@@ -31,6 +32,7 @@ pub use arrays::Baked;
 pub use controller::Controller;
 pub use sizes::{Sizes, sizes};
 pub use source::source;
+pub use storing::Posed;
 
 /// What the algebraic part of a tick's bound may be of the whole. Outputs follow the iterate: at a tenth, which is
 /// enough for the bound, they are off by some thousandths.

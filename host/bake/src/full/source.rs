@@ -34,7 +34,7 @@ pub fn source<R: Scalar>(baked: &Baked<R>) -> String {
     );
     let mut text = baked.face.source::<R>("full", about, &features);
     let _ = write!(text, "\n/// Positions in the arrays.\ntype Index = {index};\n");
-    let own = lengths(baked) + &controller(baked);
+    let own = lengths(baked) + &controller(baked) + state(baked);
     text += &(required(&features) + &imports(NAMES, &own, "") + &own);
     text + &listed(baked).module(listing::NAMES, "Index, Scalar")
 }
@@ -90,6 +90,24 @@ const LENGTHS: Lengths = Lengths::of(&data::FULL);
 const EXCHANGES: [usize; 3] = sparse::storage::lengths(LENGTHS.active);
 ";
     own.to_owned() + if baked.factored.is_some() { exchanges } else { "" }
+}
+
+/// What outlives the program, of a model that steps in time.
+fn state<R: Scalar>(baked: &Baked<R>) -> &'static str {
+    match baked.stored {
+        None => "",
+        Some(_) => "
+/// All that the next tick takes from the last one: plain numbers, sealed. [`Controller::state`] gives it, and
+/// [`Controller::restore`] goes on from it with the same bits.
+pub type State = signorini_device::full::State<Scalar, { LENGTHS.handed_on() }>;
+
+impl controller::Lasting for Scene {
+    type State = State;
+
+    const HASH: u64 = SCENE_HASH;
+}
+",
+    }
 }
 
 /// The type of the memory, and what it is before the first tick.

@@ -11,9 +11,10 @@ use std::path::Path;
 
 use csv::{Reader, ReaderBuilder, StringRecord, Trim};
 
-use super::{ScheduledTick, schedule::MOST, start::step_of};
+use super::{ScheduledTick, schedule::MOST};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::scene::Scene;
+use signorini_solve::step_of;
 
 const SHAPE: &str = "a log is a CSV file: a line t,NAME,… with inputs of the scene, then numbers";
 

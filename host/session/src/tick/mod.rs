@@ -15,13 +15,13 @@ mod intervals;
 pub mod log;
 mod record;
 pub mod schedule;
-mod start;
+#[cfg(test)]
+mod steps;
 #[cfg(test)]
 mod tests;
 pub mod window_error;
 
 pub use record::{TickInterval, TickRecord};
-pub use start::warnings;
 
 use std::sync::Arc;
 
@@ -37,11 +37,10 @@ use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_scene::setting::Precision;
-use signorini_solve::{Options, ScalarKind, Solution, choose_units, in_scene};
+use signorini_solve::{Options, ScalarKind, Solution, Start, choose_units, in_scene};
 
 use crate::{Session, coarse, kernel_tick, solves, with_module};
 use intervals::Intervals;
-use start::Start;
 use window_error::WindowError;
 
 /// When a tick happens, and what the inputs are then.
@@ -137,18 +136,13 @@ fn play_in<R: Scalar>(
     let first = moments.first().map_or(0.0, |moment| moment.time);
     let (mut evolution, mut error) = (None, None);
     if let Some(start) = Start::of(given, first)? {
-        let Start { problem: at_start, solution, step, .. } = start;
-        problem = given.stepping(step, solution.state())?;
+        problem = start.stepping(given)?;
         evolution = start.evolution;
         if let Some(of) = &evolution {
-            let was_steady = given.scene.time.as_ref().is_some_and(|time| time.initial.is_none());
-            error = WindowError::begin(&at_start, &solution, of.seconds(), was_steady)?;
+            error = WindowError::begin(&start, of.seconds())?;
         }
         if budget.shows_start {
-            let start =
-                TickRecord::of(&at_start, &solution)?.with_window(&given.scene, evolution.as_ref());
-            done(&start, Some(&solution))?;
-            ticks.push(start);
+            ticks.push(told(&start, &mut done)?);
         }
     }
     let Some(parts) = begun(&mut problem, moments)? else {
@@ -189,22 +183,44 @@ fn play_in<R: Scalar>(
 }
 
 /// Plays `moments` through the controller of `problem`, calling `done` after each, without a solution where the controller
-/// refuses the inputs; also the controller's name in a few words. `asked` is a scalar instead of that of the scene's setting.
+/// refuses the inputs; also the controller's name in a few words. `asked` is a scalar instead of that of the scene's
+/// setting, and whether the start of steps in time has a record of its own.
 ///
 /// # Errors
 /// Those of `bake`; inputs for which the scene's data are not admissible, with their time.
 pub fn replay(
     problem: &Problem,
     moments: &[ScheduledTick],
-    asked: Option<ScalarKind>,
-    done: impl FnMut(&TickRecord, Option<&Solution>) -> Result<()>,
+    (asked, shows_start): (Option<ScalarKind>, bool),
+    mut done: impl FnMut(&TickRecord, Option<&Solution>) -> Result<()>,
 ) -> Result<(String, Vec<TickRecord>)> {
+    let first = moments.first().map_or(0.0, |moment| moment.time);
     with_module(problem, asked, |session, module| {
+        let (mut problem, mut ticks) = (problem.clone(), Vec::new());
+        if let Some(start) = Start::of(&problem, first)? {
+            problem = start.stepping(&problem)?;
+            if shows_start {
+                ticks.push(told(&start, &mut done)?);
+            }
+        }
         let intervals = Intervals::Weighed(module);
         let play =
             Play { session, intervals, units: Units::default(), evolution: None, error: None };
-        Ok((module.name.clone(), play.through(problem, moments, done)?))
+        ticks.extend(play.through(&problem, moments, done)?);
+        Ok((module.name.clone(), ticks))
     })
+}
+
+/// The record of a start, once it is told.
+fn told(
+    start: &Start,
+    done: &mut impl FnMut(&TickRecord, Option<&Solution>) -> Result<()>,
+) -> Result<TickRecord> {
+    let record = TickRecord::of(&start.problem, &start.solution)?;
+    let window = start.evolution.as_ref().map(Evolution::window);
+    let record = record.with_window(&start.problem.scene, window);
+    done(&record, Some(&start.solution))?;
+    Ok(record)
 }
 
 /// Brings `problem` to the first moment at which it has a solution, where its session begins; the kinds of its parts. `None` where
@@ -308,7 +324,9 @@ impl Play<'_> {
             tick.over_time =
                 self.intervals.over_time(problem, (&solution, evolution.distance()))?;
         }
-        let mut tick = tick.with_window(&problem.scene, self.evolution.as_ref());
+        let window = self.evolution.as_ref().map(Evolution::window);
+        let window = window.or_else(|| self.session.window());
+        let mut tick = tick.with_window(&problem.scene, window);
         let is_plain = self.units == Units::default();
         let posed = (!is_plain).then(|| Arc::new(problem.clone()));
         problem.advance(solution.state());

@@ -1,7 +1,6 @@
 //! One tick as `ticks.csv` has it.
 
 use signorini_certify::ErrorBound;
-use signorini_certify::evolution::Evolution;
 use signorini_certify::exact::distance;
 use signorini_intervals::zero_rounding;
 use signorini_problem::Problem;
@@ -81,8 +80,7 @@ impl TickRecord {
     }
 
     /// With what is known of the evolution until then.
-    pub(super) fn with_window(mut self, scene: &Scene, evolution: Option<&Evolution>) -> Self {
-        let window = evolution.map(|of| [of.energy(), of.seconds()]);
+    pub(super) fn with_window(mut self, scene: &Scene, window: Option<[f64; 2]>) -> Self {
         self.window = window.filter(|[energy, _]| energy.is_finite());
         let windows = self.outputs.iter_mut().zip(&scene.outputs);
         for (output, _) in windows.filter(|(_, of)| of.quantity == Quantity::Window) {

@@ -61,7 +61,7 @@ fn same_bits(name: &str, setting: Option<Setting>) -> Result<String> {
     let scene = Scene { setting, ..Scene::read(&path)? };
     let problem = Problem::new(&scene, mesh::read(&scene.mesh.value)?)?;
     let moments = log(scene.inputs.len());
-    let (model, ticks) = replay(&problem, &moments, None, |_, _| Ok(()))?;
+    let (model, ticks) = replay(&problem, &moments, (None, false), |_, _| Ok(()))?;
 
     let choice = Choice::<f32>::new(&problem, Wanted::default())?;
     let module = match &choice.candidate().model {
@@ -143,7 +143,7 @@ fn a_constant_in_all_data_of_u_is_added_to_u_alone() -> Result<()> {
         for &setting in settings {
             let replayed = |c: f64| -> Result<Vec<Vec<f64>>> {
                 let problem = slab(c)?.with_setting(setting);
-                let (_, ticks) = replay(&problem, &log(1), Some(scalar), |_, _| Ok(()))?;
+                let (_, ticks) = replay(&problem, &log(1), (Some(scalar), false), |_, _| Ok(()))?;
                 Ok(ticks.iter().map(|tick| heights(tick, c)).collect())
             };
             same(&format!("{scalar:?}, {c}, {setting:?}"), &replayed(0.0)?, &replayed(c)?, allowed);

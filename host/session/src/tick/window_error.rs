@@ -13,7 +13,7 @@ use signorini_problem::Problem;
 use signorini_problem::quadrature::gauss;
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Condition, Datum, Exact, Scene};
-use signorini_solve::Solution;
+use signorini_solve::{Solution, Start};
 
 /// Points in a tick.
 const POINTS: usize = 6;
@@ -65,22 +65,21 @@ pub(super) struct WindowError {
 }
 
 impl WindowError {
-    /// From the answer at the start; `was_steady` where that stood before it.
+    /// From the start; a steady one stood before it.
     pub(super) fn begin(
-        problem: &Problem,
-        start: &Solution,
+        Start { problem, solution, .. }: &Start,
         seconds: f64,
-        was_steady: bool,
     ) -> Result<Option<Self>> {
-        let Some(exact) = problem.scene.exact.clone().filter(|_| has_window_error(&problem.scene))
-        else {
+        let scene = &problem.scene;
+        let Some(exact) = scene.exact.clone().filter(|_| has_window_error(scene)) else {
             return Ok(None);
         };
-        let last = [start.certified.vertices.clone(), start.certified.bubbles.clone()];
+        let last = [solution.certified.vertices.clone(), solution.certified.bubbles.clone()];
         let problem = problem.clone();
+        let was_steady = scene.time.as_ref().is_some_and(|time| time.initial.is_none());
         let mut begun = Self { problem, exact, seconds, integral: 0.0, weights: 0.0, last };
         if was_steady {
-            begun.integral = seconds * begun.square(start, 1.0, begun.problem.time)?;
+            begun.integral = seconds * begun.square(solution, 1.0, begun.problem.time)?;
             begun.weights = seconds;
         }
         Ok(Some(begun))

@@ -2,13 +2,14 @@
 
 use super::extension::{Curved, extension, is_clear, jump, of_means, of_s};
 use super::parts::Parts;
-use super::transfer::Transfer;
+pub(super) use super::transfer::Transfer;
 use super::{Continuous, Discretization, LoadCase};
 use crate::equilibrium::Iterate;
 use signorini_kernel::excess::Excess;
 use signorini_kernel::flux_range::FluxRange;
 use signorini_kernel::index::{Index, read};
 use signorini_kernel::law::Law;
+use signorini_kernel::mesh::boundary::Robin;
 use signorini_kernel::mesh::edges::Side;
 use signorini_kernel::{Real, features};
 
@@ -47,13 +48,7 @@ pub(super) fn add<R: Real, I: Index>(
             s: ends(discretization, s, edge),
             bubble: read(s.bubbles, edge),
         };
-        let forms = if features::PIECES { given.forms.first() } else { None };
-        let by_form = forms.and_then(|forms| transfer.by_form(forms, at));
-        let [term, terms, open] = match (by_form, given.transfer.get(at)) {
-            (Some(known), _) => known,
-            (None, Some(points)) => [transfer.at_points(points), R::ZERO, R::ZERO],
-            (None, None) => [transfer.constant(law.coefficient, law.ambient), R::ZERO, R::ZERO],
-        };
+        let [term, terms, open] = of_transfer(given, (at, law), &transfer);
         take(parts, edge, term, terms);
         if features::PIECES {
             parts.open += open;
@@ -77,6 +72,22 @@ pub(super) fn add<R: Real, I: Index>(
         let (term, terms) = extension(&in_cell, tau, curved);
         take(parts, edge, term, terms);
         jump(&in_cell, of_means(discretization, u, edge).as_ref(), curved, parts);
+    }
+}
+
+/// The term of the transfer law `at`, the size of its terms, and the square of what is beyond it.
+#[inline(always)]
+pub(super) fn of_transfer<R: Real, I: Index>(
+    given: &LoadCase<R, I>,
+    (at, law): (usize, &Robin<R, I>),
+    transfer: &Transfer<R>,
+) -> [R; 3] {
+    let forms = if features::PIECES { given.forms.first() } else { None };
+    let by_form = forms.and_then(|forms| transfer.by_form(forms, at));
+    match (by_form, given.transfer.get(at)) {
+        (Some(known), _) => known,
+        (None, Some(points)) => [transfer.at_points(points), R::ZERO, R::ZERO],
+        (None, None) => [transfer.constant(law.coefficient, law.ambient), R::ZERO, R::ZERO],
     }
 }
 
@@ -158,7 +169,7 @@ fn cleared<R: Real, I: Index>(
     is_clear(excess, curved.peak).then(|| charge(range, contact, read(tau, edge), means))
 }
 
-fn ends<R: Real, I: Index>(
+pub(super) fn ends<R: Real, I: Index>(
     discretization: &Discretization<R, I>,
     s: Continuous<R>,
     edge: usize,

@@ -41,10 +41,11 @@
 
 mod boundary;
 mod change;
+mod evolution;
 mod extension;
 mod factor;
 mod metric;
-mod pair;
+mod motion;
 mod parts;
 mod quad;
 mod stability;
@@ -54,18 +55,22 @@ mod transfer;
 mod triangle;
 mod walk;
 
+pub use evolution::{Carried, PHI, Rates, StepTerms, THETA};
 pub use extension::{Curved, is_clear};
 pub use factor::{Above, ENTRIES, Factor};
 pub use metric::{Metric, POINTS, of_quad, of_triangle};
-pub use pair::Pair;
+pub use motion::Motion;
 pub use signorini_kernel::verdict::{Certificate, Verdict};
 pub use stability::stability;
 pub use step::{Kept, Step, StoredCell, certify_step, certify_step_with};
 pub use stored::Residual;
 pub use transfer::TransferForms;
 
+use parts::CellTerms;
+use quad::Values;
+
 use crate::averages;
-use crate::cells::Cells;
+use crate::cells::{Cells, Quad, pick};
 use crate::conforming::{self, VertexData};
 use crate::equilibrium::{self, Iterate};
 use signorini_kernel::assembly::CellLoads;
@@ -229,5 +234,12 @@ impl<R: Real> Continuous<'_, R> {
 
     fn on<I: Index, const N: usize>(&self, edges: &[I; N]) -> [R; N] {
         edges.map(|edge| read(self.bubbles, edge.at()))
+    }
+
+    /// The same on a quad, as it is packed.
+    #[inline(always)]
+    fn in_quad<I: Index>(&self, cell: &Quad<R, I>) -> Option<Values<R>> {
+        let corners = pick(&cell.vertices, self.vertices)?;
+        Some(Values { corners, bubbles: pick(&cell.edges, self.bubbles)? })
     }
 }

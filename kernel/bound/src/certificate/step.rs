@@ -198,9 +198,10 @@ impl<R: Real, I: Index> OverCells<'_, R, I> {
         let (number, metric) = (cell.number.at(), self.discretization.metric);
         let source = read(self.given.loads.triangles, number);
         let [now, old] = [self.s.vertices, self.step.vertices];
-        let change = of_triangle(pick(&cell.vertices, now)?, pick(&cell.vertices, old)?);
+        let now = pick(&cell.vertices, now)?;
+        let change = of_triangle(now, pick(&cell.vertices, old)?);
         let (balance, out) = self.balanced(cell, source, &change, tau)?;
-        let mut share = share_of_triangle(metric, cell, self.s, self.u, (balance.load, out))?;
+        let mut share = share_of_triangle(metric, cell, now, self.u, (balance.load, out))?;
         let own = on_triangle(&cell.k, &pick(&cell.edges, self.u)?, source);
         let kept = self.step.storage.in_triangle(number, &cell.edges, self.u);
         share.algebraic =
@@ -230,7 +231,8 @@ impl<R: Real, I: Index> OverCells<'_, R, I> {
         let change = of_quad(now, old, self.stored_in(number).tilt);
         let (balance, out) = self.balanced(cell, source, &change, tau)?;
         let by_sides = (balance.load, out);
-        let mut share = share_of_quad(metric, (cell, quad), self.s, self.u, by_sides)?;
+        let s = self.s.in_quad(cell)?;
+        let mut share = share_of_quad(metric, (cell, quad), s, self.u, by_sides)?;
         let own = on_quad(&cell.k, &pick(&cell.edges, self.u)?, source);
         let kept = self.step.storage.in_quad(quad, &cell.edges, self.u);
         share.algebraic = quad::energy(cell, metric.varying(number), minus(minus(out, own), kept));

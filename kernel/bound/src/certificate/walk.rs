@@ -81,19 +81,19 @@ fn of_triangle_cell<R: Real, I: Index>(
         return None;
     }
     let out = cell.settle(load, tau)?;
-    share_of_triangle(metric, cell, s, u, (load, out))
+    share_of_triangle(metric, cell, pick(&cell.vertices, s.vertices)?, u, (load, out))
 }
 
-/// A triangle's share for the fluxes `out` that balance `load`.
+/// A triangle's share for s at its vertices and the fluxes `out` that balance `load`.
 #[inline(always)]
 pub(super) fn share_of_triangle<R: Real, I: Index>(
     metric: Metric<R>,
     cell: &Triangle<R, I>,
-    s: Continuous<R>,
+    s: [R; 3],
     u: &[R],
     (load, out): (R, [R; 3]),
 ) -> Option<CellTerms<R>> {
-    let (s, u) = (pick(&cell.vertices, s.vertices)?, pick(&cell.edges, u)?);
+    let u = pick(&cell.edges, u)?;
     let Some(varying) = metric.varying(cell.number.at()) else {
         return Some(triangle::share(cell, s, out, u, load));
     };
@@ -124,23 +124,23 @@ fn of_quad_cell<R: Real, I: Index>(
         return None;
     }
     let out = cell.settle(load, tau)?;
-    share_of_quad(metric, (cell, number), s, u, (load, out))
+    share_of_quad(metric, (cell, number), s.in_quad(cell)?, u, (load, out))
 }
 
-/// A quad's share for the fluxes `out` that balance `load`.
+/// A quad's share for s on it and the fluxes `out` that balance `load`.
 #[inline(always)]
 pub(super) fn share_of_quad<R: Real, I: Index>(
     metric: Metric<R>,
     (cell, number): (&Quad<R, I>, usize),
-    s: Continuous<R>,
+    s: Values<R>,
     u: &[R],
     (load, out): (R, [R; 4]),
 ) -> Option<CellTerms<R>> {
-    let (corners, u) = (pick(&cell.vertices, s.vertices)?, pick(&cell.edges, u)?);
-    let bubbles = pick(&cell.edges, s.bubbles)?;
+    let u = pick(&cell.edges, u)?;
     let Some(varying) = metric.varying(cell.number.at()) else {
-        return Some(quad::share(cell, Values { corners, bubbles }, out, u, load));
+        return Some(quad::share(cell, s, out, u, load));
     };
+    let Values { corners, bubbles } = s;
     let difference = cell.sides_in_mesh(quad::difference(cell, out, u, load));
     let (corners, bubbles) = (cell.vertices_in_mesh(corners), cell.sides_in_mesh(bubbles));
     let [out, means] = [out, u].map(|packed| cell.sides_in_mesh(packed));

@@ -7,8 +7,8 @@
 
 use core::marker::PhantomData;
 
-use super::{Full, Lengths, Memory, Storage, Units};
-use crate::controller::{self, Answer, Outputs, Reading};
+use super::{Full, Lengths, Memory, State, Storage, Units};
+use crate::controller::{self, Answer, Outputs, Reading, Window};
 use crate::sparse::{self, Exact, Factored};
 use crate::tick::{Report, Substitutions, Sweeping};
 use signorini_bound::certificate::Curved;
@@ -133,7 +133,7 @@ where
     R: Real,
     I: Index,
     Rows: LayOut<R, I, WIDTH>,
-    Floats: AsMut<[R]>,
+    Floats: AsRef<[R]> + AsMut<[R]>,
     Flags: AsMut<[u8]>,
     Fluxes: AsMut<[Neumann<R, I>]>,
     Laws: AsMut<[Robin<R, I>]>,
@@ -146,6 +146,13 @@ where
 
     fn reset(&mut self) {
         self.own.reset();
+    }
+
+    fn window(&self, full: &Self::Model<'_>, setup: &Self::Setup<'_>) -> Option<Window<R>> {
+        let numbers = self.own.numbers(setup.lengths).filter(|_| self.own.has_begun());
+        let window = full.storing.get()?.window(numbers.map(|numbers| numbers.carried))?;
+        let unit = setup.units.map_or(R::ONE, |units| units.energy);
+        Some(Window { energy: (window.energy * unit).or_larger(R::TINY), ..window })
     }
 
     #[inline(always)]
@@ -166,6 +173,29 @@ where
         let report = units.map_or(report, |units| units.answer(full.outputs, outputs, report));
         let outputs = O::read(&Read(outputs))?;
         Ok(Answer { outputs, report: report.with(()) })
+    }
+}
+
+impl<R, I, Rows, Floats, Flags, Fluxes, Laws, Bends, M, Values, const WIDTH: usize, const N: usize>
+    controller::Saving<R, State<R, N>>
+    for ControllerStorage<Storage<R, Rows, Floats, Flags, Fluxes, Laws, Bends>, M, Values, I, WIDTH>
+where
+    R: Real,
+    Self: for<'m> controller::Storage<R, Setup<'m> = Setup<'m, R, I>>,
+    Floats: AsRef<[R]> + AsMut<[R]>,
+    Flags: AsRef<[u8]> + AsMut<[u8]>,
+{
+    fn save(&self, setup: &Self::Setup<'_>, scene: u64) -> State<R, N> {
+        self.own.save(setup.lengths, scene)
+    }
+
+    fn restore(
+        &mut self,
+        setup: &Self::Setup<'_>,
+        state: &State<R, N>,
+        scene: u64,
+    ) -> Result<(), Error> {
+        self.own.restore(state, setup.lengths, scene)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::curved::CurvedSum;
 use super::pattern::{DataMemory, Pattern};
-use crate::tick::Data;
+use crate::tick::{Data, IfStoring};
 use signorini_bound::certificate::{Curved, LoadCase, TransferForms};
 use signorini_bound::conforming::VertexData;
 use signorini_kernel::assembly::CellLoads;
@@ -145,7 +145,8 @@ impl<R: Real, I: Index> DataMemory<'_, R, I> {
             oscillation,
         };
         let law = Law::above(own_or(self.gap, base.gap)).with_spans(spans);
-        Ok(Data { given, law, dirichlet: own_or(self.dirichlet, base.dirichlet) })
+        let dirichlet = own_or(self.dirichlet, base.dirichlet);
+        Ok(Data { given, law, dirichlet, step: IfStoring::NOTHING })
     }
 
     /// The ranges of fluxes on contact edges.

@@ -38,6 +38,14 @@ pub struct Numbers<T> {
     pub transfer: T,
     /// ∫(hi − lo) of contact edges.
     pub spans: T,
+    /// Where a step in time begins: u, s at the vertices and its bubbles.
+    pub begin: [T; 3],
+    /// How far s was from ψ then, at contact edges.
+    pub openings: T,
+    /// What the bound of the evolution carries.
+    pub carried: T,
+    /// What K_ii has beyond the element matrices in a step whose transfer coefficients change.
+    pub diagonal: T,
 }
 
 /// The lengths of all arrays that change; data that no input changes have none.
@@ -75,6 +83,13 @@ impl<T> Numbers<T> {
             dirichlet_ends: each(self.dirichlet_ends)?,
             transfer: each(self.transfer)?,
             spans: each(self.spans)?,
+            begin: {
+                let [u, vertices, bubbles] = self.begin;
+                [each(u)?, each(vertices)?, each(bubbles)?]
+            },
+            openings: each(self.openings)?,
+            carried: each(self.carried)?,
+            diagonal: each(self.diagonal)?,
         })
     }
 }
@@ -85,7 +100,10 @@ impl Numbers<usize> {
         let of_tick = self.load + self.u + self.tau + self.vertices + self.bubbles;
         let of_cells = self.triangles + self.quads;
         let of_contact = self.contact_flux + self.gap + self.gap_ends + self.spans;
-        of_tick + of_cells + of_contact + self.dirichlet + self.dirichlet_ends + self.transfer
+        let [u, vertices, bubbles] = self.begin;
+        let of_step = u + vertices + bubbles + self.openings + self.carried + self.diagonal;
+        let given = self.dirichlet + self.dirichlet_ends + self.transfer;
+        of_tick + of_cells + of_contact + given + of_step
     }
 }
 
@@ -94,12 +112,23 @@ impl Lengths {
     pub const fn of<R: Real, I: Index>(full: &Full<R, I>) -> Self {
         let mut lengths = Self::without_inputs(full);
         lengths.curved = full.base.curved_sums.len();
+        lengths.store(full);
         let mut left = full.patterns;
         while let Some((pattern, rest)) = left.split_first() {
             lengths.add(pattern, full);
             left = rest;
         }
         lengths
+    }
+
+    /// Memory for what a step hands on.
+    const fn store<R: Real, I: Index>(&mut self, full: &Full<R, I>) {
+        let numbers = &mut self.numbers;
+        if full.storing.get().is_some() {
+            numbers.begin = [numbers.u, numbers.vertices, numbers.bubbles];
+            numbers.openings = 2 * self.active;
+            numbers.carried = 2;
+        }
     }
 
     const fn without_inputs<R: Real, I: Index>(full: &Full<R, I>) -> Self {
@@ -119,6 +148,10 @@ impl Lengths {
             dirichlet_ends: 0,
             transfer: 0,
             spans: 0,
+            begin: [0; 3],
+            openings: 0,
+            carried: 0,
+            diagonal: 0,
         };
         let (rows, active) = (counts.unknowns(), counts.contact);
         Self { rows, active, numbers, neumann: 0, robin: 0, curved: 0 }
@@ -148,6 +181,9 @@ impl Lengths {
                 numbers.dirichlet_ends = base.ends.given.as_flattened().len();
             }
             Pattern::Ambient { .. } | Pattern::Coefficient(_) => {
+                if full.storing.get().is_some() && matches!(pattern, Pattern::Coefficient(_)) {
+                    numbers.diagonal = numbers.load;
+                }
                 self.robin = base.robin.len();
                 numbers.transfer = base.transfer.points().as_flattened().as_flattened().len();
             }

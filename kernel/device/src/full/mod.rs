@@ -16,7 +16,9 @@ mod functional;
 mod lengths;
 mod pattern;
 mod ranges;
+mod state;
 mod storage;
+mod storing;
 mod transfer;
 mod units;
 
@@ -27,16 +29,17 @@ pub use lengths::{Lengths, Numbers};
 pub use pattern::{
     AmbientShare, Contribution, DataMemory, EdgeTrace, Pattern, Points, TransferPattern,
 };
+pub use state::State;
 pub use storage::{ArrayStorage, Storage};
+pub use storing::{Begin, HandedOn, Past, Storing};
 pub use units::Units;
 
-use crate::tick::{self, Deadline, Ended, Limits, Method, Progress, Report, Tick};
+use crate::tick::{self, Data, Deadline, Ended, IfStoring, Limits, Method, Progress, Report, Tick};
 use functional::TickState;
 use signorini_bound::certificate::{Discretization, Verdict};
 use signorini_bound::conforming::VertexData;
 use signorini_kernel::error::{Array, Error, all_finite, same_length};
 use signorini_kernel::index::{Index, read};
-use signorini_kernel::law::Law;
 use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::{Real, features};
 
@@ -61,6 +64,8 @@ pub struct Full<'a, R, I> {
     pub start: R,
     /// How ω is chosen.
     pub relaxation: Relaxation<R>,
+    /// Where ticks are steps in time.
+    pub storing: IfStoring<'a, Storing<'a, R>>,
 }
 
 /// Memory of a baked scene (borrowed).
@@ -70,6 +75,10 @@ pub struct Memory<'a, R, I, const WIDTH: usize> {
     pub tick: tick::Memory<'a, R, I, WIDTH>,
     /// Loads and boundary data that inputs change.
     pub data: DataMemory<'a, R, I>,
+    /// Where a step in time begins.
+    pub past: Past<'a, R>,
+    /// What else of the last step there is.
+    pub handed_on: HandedOn<'a, R>,
     /// What the last tick left.
     pub progress: &'a mut Progress<R>,
 }
@@ -89,10 +98,10 @@ impl<R: Real, I: Index> Full<'_, R, I> {
     // Inlined, as all on the way to it from a module's tick: whatever the compiler decides by itself depends on how many checks come
     // before, and what stays apart loses its knowledge of the statics.
     #[inline(always)]
-    pub fn tick<const WIDTH: usize, F: FnMut() -> u32>(
+    pub fn tick<M: Method<R, I>, const WIDTH: usize, F: FnMut() -> u32>(
         &self,
         inputs: &[R],
-        mut method: impl Method<R, I>,
+        mut method: M,
         limits: Limits<R>,
         deadline: &mut Deadline<F>,
         memory: Memory<R, I, WIDTH>,
@@ -104,21 +113,28 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         same_length(Array::Inputs, inputs.len(), self.patterns.len())?;
         same_length(Array::Outputs, outputs.len(), self.outputs.len())?;
         all_finite(Array::Inputs, inputs)?;
-        let Memory { tick: of_tick, data: mut of_data, progress } = memory;
+        let Memory { tick: of_tick, data: mut of_data, mut past, mut handed_on, progress } = memory;
         let moved = of_data.evaluate(&self.base, self.patterns, inputs)?;
         let oscillation = self.oscillation(inputs);
         let (edges, forms) = (&self.discretization.edges, self.base.transfer.forms(inputs));
         let forms = if features::PIECES { forms.as_slice() } else { &[] };
+        if let Some(storing) = self.storing.get() {
+            if !progress.has_begun() {
+                past.begin(&storing.begin);
+                handed_on.begin(&storing.begin);
+            }
+            past.weigh(storing, of_data.robin);
+        }
+        let step = self.storing.get().map(|storing| past.step(storing));
         let data = of_data.view(&self.base, edges, forms, (oscillation, moved))?;
+        let data = Data { step: step.as_ref().map_or(IfStoring::NOTHING, IfStoring::of), ..data };
         let known = match progress.has_begun() {
             true => *progress,
             false => Progress::new(self.relaxation)?,
         };
         let mut tick = Tick::resume(self.discretization, of_tick, known)?;
         let size = tick.admit(&data)?;
-        if !progress.has_begun() {
-            self.start(data.law, tick.memory());
-        }
+        self.start(&data, progress.has_begun(), tick.memory());
         // All of it in one function: in parts it lost the compiler's knowledge of the statics, and cost 3 % more.
         let report = tick.enter(data, size).advance(method, limits, deadline)?;
         *progress = tick.progress();
@@ -130,7 +146,20 @@ impl<R: Real, I: Index> Full<'_, R, I> {
             // Without a bound its output is infinite, and nothing else is.
             is_known &= output.finite() || *functional == Functional::Bound;
         }
-        Ok(if is_known { report } else { Report { ended: Ended::NotFinite, ..report } })
+        let report = if is_known { report } else { Report { ended: Ended::NotFinite, ..report } };
+        if let Some(storing) = self.storing.get() {
+            if report.ended == Ended::NotFinite {
+                // Nothing has advanced.
+                tick.memory().u.copy_from_slice(past.u);
+                return Ok(report);
+            }
+            if M::CERTIFIES {
+                let has_bound = report.verdict.certificate().is_some();
+                handed_on.advance(storing, &mut tick, &data, has_bound)?;
+            }
+            past.advance(tick.memory());
+        }
+        Ok(report)
     }
 
     /// The verdict that the data allow for.
@@ -163,11 +192,25 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         rest.iter().zip(inputs).fold(first, |sum, (&of_one, p)| sum + of_one * p.magnitude())
     }
 
-    /// A cold start: on the gap, elsewhere at one value.
-    fn start<const WIDTH: usize>(&self, law: Law<R>, memory: &mut tick::Memory<R, I, WIDTH>) {
+    /// Where sweeps begin: in a first tick, and in every one of a cold step, on the gap and elsewhere at one value; else a step begins
+    /// from the last answer, or from the start.
+    fn start<const WIDTH: usize>(
+        &self,
+        data: &Data<R, I>,
+        has_begun: bool,
+        memory: &mut tick::Memory<R, I, WIDTH>,
+    ) {
+        let is_cold = self.storing.get().is_some_and(|storing| storing.is_cold);
+        if has_begun && !is_cold {
+            return;
+        }
+        memory.active.fill(false);
+        if let (false, Some(step)) = (is_cold, data.step.get()) {
+            memory.u.copy_from_slice(step.step.storage.old());
+            return;
+        }
         memory.u.fill(self.start);
         let on_contact = memory.u.iter_mut().skip(self.discretization.edges.counts().free);
-        on_contact.zip(law.edges()).for_each(|(u, law)| *u = law.gap());
-        memory.active.fill(false);
+        on_contact.zip(data.law.edges()).for_each(|(u, law)| *u = law.gap());
     }
 }

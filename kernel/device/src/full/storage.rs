@@ -1,7 +1,7 @@
 //! Owned memory of a baked scene: arrays that can be a `static`, or whatever else lends slices. Of any bits it is memory still:
 //! what a reset or a brown-out has left of it may make a tick wrong, and nothing worse.
 
-use super::{DataMemory, Full, Lengths, Memory, Numbers};
+use super::{DataMemory, Full, HandedOn, Lengths, Memory, Numbers, Past, State};
 use crate::tick::{self, Progress};
 use signorini_bound::certificate::Curved;
 use signorini_kernel::error::{Array, Error, same_length};
@@ -105,6 +105,7 @@ impl<R: Real, Rows, Floats, Flags, Fluxes, Laws, Bends>
         let numbers = split(lengths, self.numbers.as_mut())?;
         let Numbers { load, u, tau, vertices, bubbles, triangles, quads, contact_flux, .. } =
             numbers;
+        let [old, old_vertices, old_bubbles] = numbers.begin;
         Ok(Memory {
             tick: tick::Memory {
                 rows: self.rows.lay_out(&full.discretization.edges)?,
@@ -129,6 +130,13 @@ impl<R: Real, Rows, Floats, Flags, Fluxes, Laws, Bends>
                 transfer: pairs(numbers.transfer).as_chunks_mut().0,
                 spans: numbers.spans,
             },
+            past: Past {
+                u: old,
+                vertices: old_vertices,
+                bubbles: old_bubbles,
+                diagonal: numbers.diagonal,
+            },
+            handed_on: HandedOn { openings: pairs(numbers.openings), carried: numbers.carried },
             progress: &mut self.progress,
         })
     }
@@ -144,6 +152,45 @@ impl<R: Real, Rows, Floats, Flags, Fluxes, Laws, Bends>
             rest = others;
             Some(first)
         })
+    }
+
+    /// What the last tick has left, sealed; `scene` is the hash of the scene. One with room for other numbers than
+    /// [`Lengths::handed_on`] is restored nowhere.
+    pub fn save<const N: usize>(&self, lengths: &Lengths, scene: u64) -> State<R, N>
+    where
+        Floats: AsRef<[R]>,
+        Flags: AsRef<[u8]>,
+    {
+        let numbers = self.numbers(lengths).unwrap_or_default();
+        State::seal(scene, &self.progress, &numbers, self.active.as_ref())
+    }
+
+    /// Goes on from a state.
+    ///
+    /// # Errors
+    /// That of another scene, or a damaged one: nothing has changed then.
+    pub fn restore<const N: usize>(
+        &mut self,
+        state: &State<R, N>,
+        lengths: &Lengths,
+        scene: u64,
+    ) -> Result<(), Error>
+    where
+        Floats: AsMut<[R]>,
+        Flags: AsMut<[u8]>,
+    {
+        let numbers = split(lengths, self.numbers.as_mut())?;
+        self.progress = state.open(scene, numbers, self.active.as_mut())?;
+        // A step begins where the last one has ended.
+        let numbers = split(lengths, self.numbers.as_mut())?;
+        let [u, ..] = numbers.begin;
+        numbers.u.iter_mut().zip(u).for_each(|(to, from)| *to = *from);
+        Ok(())
+    }
+
+    /// Whether there has been a tick.
+    pub fn has_begun(&self) -> bool {
+        self.progress.has_begun()
     }
 
     /// Forgets all ticks: the next one is the first again.

@@ -3,8 +3,7 @@
 use super::method::{Method, Sweeping};
 use super::running::FEWEST;
 use super::{Deadline, Ended, Limits, Report, Running, Tick};
-use signorini_bound::certificate::{Buffers, Certificate, Verdict, certify};
-use signorini_bound::equilibrium::Iterate;
+use signorini_bound::certificate::{Certificate, Verdict, certify};
 use signorini_kernel::{Error, Index, Math, Real};
 
 /// Sweeps until one of the limits or the deadline ends it, and certifies what it then has. The square root of `M`
@@ -83,15 +82,14 @@ impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, R, I, WIDTH> {
         if let Some(verdict) = self.verdict {
             return Ok(verdict);
         }
-        let Tick { discretization, memory, .. } = &mut *self.tick;
-        let buffers = Buffers {
-            vertices: memory.vertices,
-            bubbles: memory.bubbles,
-            tau: memory.tau,
-            indicators: &mut [],
+        let verdict = match self.data.step.get() {
+            Some(_) => self.tick.of_step(&self.data)?.0,
+            None => {
+                let Tick { discretization, memory, .. } = &mut *self.tick;
+                let (iterate, buffers) = memory.certified(self.data.law);
+                certify(discretization, &self.data.given, iterate, buffers)?
+            }
         };
-        let iterate = Iterate { u: memory.u, law: self.data.law };
-        let verdict = certify(discretization, &self.data.given, iterate, buffers)?;
         self.verdict = Some(verdict);
         Ok(verdict)
     }

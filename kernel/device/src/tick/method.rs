@@ -14,6 +14,9 @@ use signorini_kernel::{Error, Index, Real};
 
 /// Brings a tick that has begun to its answer.
 pub trait Method<R: Real, I: Index> {
+    /// Whether answers have a bound.
+    const CERTIFIES: bool = true;
+
     /// Forgets all earlier ticks, before the first one of a control loop.
     ///
     /// # Errors

@@ -23,6 +23,7 @@ mod method;
 mod range;
 mod resume;
 mod running;
+mod step;
 mod substitutions;
 mod uncertified;
 
@@ -32,13 +33,14 @@ pub use resume::Progress;
 pub use running::{Figures, Report, Running};
 pub use signorini_kernel::limits::{Deadline, Limits};
 pub use signorini_kernel::report::Ended;
+pub use signorini_kernel::storage::IfStoring;
+pub use step::InStep;
 pub use substitutions::Substitutions;
 pub use uncertified::UncertifiedSweeps;
 
 use signorini_bound::certificate::{Discretization, LoadCase};
 use signorini_kernel::error::{Array, Error, all_finite, same_length};
 use signorini_kernel::law::Law;
-use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::EdgeCounts;
 use signorini_kernel::relaxation::{Relaxation, Search};
@@ -82,6 +84,18 @@ pub struct Data<'a, R, I> {
     pub law: Law<'a, R>,
     /// Means of u_D, one a Dirichlet edge.
     pub dirichlet: &'a [R],
+    /// Where the tick is a step in time.
+    pub step: IfStoring<'a, InStep<'a, R>>,
+}
+
+impl<'a, R: Real, I: Index> Data<'a, R, I> {
+    /// Terms on the diagonal beyond the element matrices.
+    pub(crate) fn diagonal(&self) -> DiagonalTerms<'a, R, I> {
+        match self.step.get() {
+            Some(step) => DiagonalTerms::in_step(step.diagonal),
+            None => DiagonalTerms::new(&self.given.boundary),
+        }
+    }
 }
 
 impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
@@ -121,16 +135,18 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
         check(data, &self.discretization)?;
         let (edges, given) = (&self.discretization.edges, &data.given);
         assembly::load(edges, given.loads, &given.boundary, self.memory.load)?;
-        self.lay_out_rows(&given.boundary)?;
+        if let Some(step) = data.step.get() {
+            step.step.storage.add_to_load(edges, self.memory.load);
+        }
+        self.lay_out_rows(data)?;
         range::size(data, &self.memory)
     }
 
     /// The rows for the present load and ω.
-    fn lay_out_rows(&mut self, boundary: &Boundary<R, I>) -> Result<(), Error> {
+    fn lay_out_rows(&mut self, data: &Data<R, I>) -> Result<(), Error> {
         let Self { discretization, memory, search, .. } = self;
         let (edges, stiffness) = (&discretization.edges, discretization.stiffness);
-        let diagonal = DiagonalTerms::new(boundary);
-        memory.rows.gather(edges, stiffness, diagonal, memory.load, search.omega)
+        memory.rows.gather(edges, stiffness, data.diagonal(), memory.load, search.omega)
     }
 
     /// Begins with data that have been admitted.
@@ -200,7 +216,7 @@ fn check<R: Real, I: Index>(
     discretization: &Discretization<R, I>,
 ) -> Result<(), Error> {
     let counts = discretization.edges.counts();
-    let Data { given, law, dirichlet } = data;
+    let Data { given, law, dirichlet, .. } = data;
     law.check_length(counts)?;
     same_length(Array::Dirichlet, dirichlet.len(), counts.dirichlet)?;
     same_length(Array::Contact, given.ends.gap.len(), counts.contact)?;

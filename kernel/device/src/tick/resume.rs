@@ -25,6 +25,16 @@ impl<R: Real> Progress<R> {
         self.search.search().is_some()
     }
 
+    /// As plain numbers.
+    pub fn numbers(&self) -> [R; 5] {
+        self.search.numbers()
+    }
+
+    /// From such numbers.
+    pub fn of_numbers(numbers: [R; 5]) -> Self {
+        Self { search: KeptSearch::of_numbers(numbers) }
+    }
+
     /// That of a first tick; `relaxation` is where ω starts.
     ///
     /// # Errors

@@ -93,7 +93,7 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         // Another ω asks for other rows.
         match self.tick.search.omega == before {
             true => Ok(()),
-            false => self.tick.lay_out_rows(&self.data.given.boundary),
+            false => self.tick.lay_out_rows(&self.data),
         }
     }
 

@@ -14,7 +14,6 @@ use super::range::largest_useful;
 use super::{Deadline, Limits, Report, Running};
 use crate::sparse::contact::SLACK;
 use crate::sparse::{Balance, Exact};
-use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::{Error, Index, Real, psor};
 
 /// Solves with a factor, whose answer gets a bound where `sweeps` give one.
@@ -27,6 +26,8 @@ pub struct Substitutions<'e, 'a, R, I, S> {
 }
 
 impl<R: Real, I: Index, S: Sweeping<R, I>> Method<R, I> for Substitutions<'_, '_, R, I, S> {
+    const CERTIFIES: bool = S::CERTIFIES;
+
     fn restart(&mut self) -> Result<(), Error> {
         self.exact.restart()
     }
@@ -56,7 +57,7 @@ impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, R, I, WIDTH> {
         let balance = Balance {
             edges: &discretization.edges,
             stiffness: discretization.stiffness,
-            diagonal: DiagonalTerms::new(&data.given.boundary),
+            diagonal: data.diagonal(),
             load: memory.load,
         };
         let places = memory.tau.get_mut(..counts.unknowns()).unwrap_or(&mut []);

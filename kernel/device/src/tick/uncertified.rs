@@ -14,6 +14,8 @@ use signorini_kernel::{Error, Index, Math, Real, flux};
 pub struct UncertifiedSweeps<M>(pub M);
 
 impl<R: Real, I: Index, M: Math<R>> Method<R, I> for UncertifiedSweeps<M> {
+    const CERTIFIES: bool = false;
+
     // Inlined: see `Running::advance`.
     #[inline(always)]
     fn advance<F: FnMut() -> u32, const WIDTH: usize>(
@@ -61,15 +63,12 @@ impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, R, I, WIDTH> {
     /// τ of the present iterate.
     fn recover(&mut self) -> Result<(), Error> {
         let (discretization, memory) = (&self.tick.discretization, &mut self.tick.memory);
-        let loads = self.data.given.loads;
-        flux::recover(
-            &discretization.edges,
-            discretization.stiffness,
-            loads,
-            memory.u,
-            &[],
-            memory.tau,
-        )
-        .map(|_| ())
+        let (loads, edges) = (self.data.given.loads, &discretization.edges);
+        let (k, u, tau) = (discretization.stiffness, &*memory.u, &mut *memory.tau);
+        let recovered = match self.data.step.get() {
+            Some(step) => flux::recover_in_step(edges, k, (loads, step.step.storage), u, &[], tau),
+            None => flux::recover(edges, k, loads, u, &[], tau),
+        };
+        recovered.map(|_| ())
     }
 }

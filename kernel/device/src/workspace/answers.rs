@@ -4,7 +4,8 @@
 use super::bound::BoundSupport;
 use super::{Workspace, ends, stiffness_of};
 use crate::tick::{
-    CertifiedSweeps, Data, Deadline, Limits, Memory, Progress, Report, Tick, UncertifiedSweeps,
+    CertifiedSweeps, Data, Deadline, IfStoring, Limits, Memory, Progress, Report, Tick,
+    UncertifiedSweeps,
 };
 use signorini_bound::certificate::{LoadCase, Verdict};
 use signorini_kernel::assembly::CellLoads;
@@ -126,6 +127,7 @@ impl<
             },
             law: Law::above(&self.gap),
             dirichlet: &self.dirichlet,
+            step: IfStoring::NOTHING,
         };
         if !self.progress.has_begun() {
             self.progress = Progress::new(Relaxation::for_unknowns(counts.unknowns()))?;

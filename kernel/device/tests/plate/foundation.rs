@@ -4,7 +4,7 @@ use signorini_bound::certificate::{self, Discretization, LoadCase, Metric};
 use signorini_bound::conforming::VertexData;
 use signorini_bound::equilibrium::is_root;
 use signorini_device::full::{Base, Full, Functional};
-use signorini_device::tick::Data;
+use signorini_device::tick::{Data, IfStoring};
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::element::rannacher_turek;
 use signorini_kernel::law::Law;
@@ -106,7 +106,7 @@ impl Foundation {
     /// Data of a tick.
     pub fn data(&self) -> Result<Data<'_, f64, u16>, Error> {
         let law = Law::above(&self.lower);
-        Ok(Data { given: self.given()?, law, dirichlet: &self.dirichlet })
+        Ok(Data { given: self.given()?, law, dirichlet: &self.dirichlet, step: IfStoring::NOTHING })
     }
 
     /// The full model, without inputs.
@@ -135,6 +135,7 @@ impl Foundation {
             corners: &[],
             start: 0.0,
             relaxation: Relaxation::Adaptive(1.0),
+            storing: IfStoring::NOTHING,
         })
     }
 }

@@ -4,9 +4,11 @@ use signorini_bound::certificate::Curved;
 use signorini_bound::conforming::VertexData;
 use signorini_device::full::{
     Along, Base, Contribution, CurvedPart, CurvedSum, DataMemory, EdgeTrace, Full, Functional,
-    Lengths, Memory, Pattern, Points, Product, Storage,
+    HandedOn, Lengths, Memory, Past, Pattern, Points, Product, Storage,
 };
-use signorini_device::tick::{CertifiedSweeps, Deadline, Limits, Progress, UncertifiedSweeps};
+use signorini_device::tick::{
+    CertifiedSweeps, Deadline, IfStoring, Limits, Progress, UncertifiedSweeps,
+};
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::rows::{QUADS, Row};
@@ -102,6 +104,7 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
         corners: if counts.dirichlet > 0 { &corners } else { &[] },
         start: R::HALF,
         relaxation: Relaxation::Adaptive(R::of(1.5)),
+        storing: IfStoring::NOTHING,
     };
     play(arrays, &full, 9, journal)?;
     // u_D next to ψ where they meet: as good as equal, then too low; then data that allow for no bound.
@@ -189,6 +192,8 @@ fn play<R: Scalar>(
                 transfer: &mut own.transfer,
                 spans: &mut [],
             },
+            past: Past::default(),
+            handed_on: HandedOn::default(),
             progress: &mut progress,
         };
         let limits = Limits { share: R::of(0.0625), error: R::ZERO, sweeps: 10 + 30 * (at % 4) };

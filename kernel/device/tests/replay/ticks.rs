@@ -3,7 +3,7 @@
 use signorini_bound::certificate::LoadCase;
 use signorini_bound::conforming::VertexData;
 use signorini_device::tick::{
-    CertifiedSweeps, Data, Deadline, Limits, Report, Tick, UncertifiedSweeps,
+    CertifiedSweeps, Data, Deadline, IfStoring, Limits, Report, Tick, UncertifiedSweeps,
 };
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::law::Law;
@@ -115,6 +115,6 @@ impl<R: Scalar> Input<R> {
             ..LoadCase::default()
         };
         let dirichlet = &arrays.start[arrays.counts.unknowns()..];
-        Ok(Data { given, law: Law::above(&self.lower), dirichlet })
+        Ok(Data { given, law: Law::above(&self.lower), dirichlet, step: IfStoring::NOTHING })
     }
 }

@@ -38,5 +38,8 @@ pub fn play(
             }
         }
         answer.report.tell(journal);
+        if let Some(window) = controller.window() {
+            journal.scalar("window", window.energy);
+        }
     }
 }

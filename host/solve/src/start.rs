@@ -1,5 +1,7 @@
 //! The start of steps in time: the steady state at the inputs' own defaults, or a stated u.
 
+use super::decay::decay_rate;
+use super::{Ending, Options, ScalarKind, Solution, read_off, solve, unfit};
 use signorini_certify::cell::Cell;
 use signorini_certify::curved::followed;
 use signorini_certify::evolution::Evolution;
@@ -10,10 +12,6 @@ use signorini_problem::quadrature::gauss;
 use signorini_problem::{Assembled, EdgeKind, Parts, Problem, State, Sum};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::scene::{Datum, Scene};
-use signorini_solve::decay::decay_rate;
-use signorini_solve::{Ending, Options, ScalarKind, Solution, read_off, solve, unfit};
-
-use super::ScheduledTick;
 
 /// A stated u that is moved by no more than this part of itself is not.
 const ROUNDED: f64 = 1e-9;
@@ -22,7 +20,8 @@ const ROUNDED: f64 = 1e-9;
 const LEAST_PART: f64 = 1e-5;
 
 /// A problem at the start of its steps, and u there.
-pub(super) struct Start {
+#[derive(Debug)]
+pub struct Start {
     /// The steady problem at the time of the start.
     pub problem: Problem,
     /// The answer that the first step begins from.
@@ -37,7 +36,7 @@ pub(super) struct Start {
 ///
 /// # Errors
 /// A scene that does not say it.
-pub(super) fn step_of(scene: &Scene) -> Result<f64> {
+pub fn step_of(scene: &Scene) -> Result<f64> {
     match &scene.time {
         Some(time) => Ok(time.step),
         None => {
@@ -79,6 +78,14 @@ impl Start {
             }
         };
         Ok(Some(Self { problem: at_start, solution, step, evolution }))
+    }
+
+    /// `problem` as the step that begins here.
+    ///
+    /// # Errors
+    /// Masses that are not finite.
+    pub fn stepping(&self, problem: &Problem) -> Result<Problem> {
+        problem.stepping(self.step, self.solution.state())
     }
 }
 
@@ -130,20 +137,16 @@ fn moved_warning(problem: &Problem, initial: &Datum) -> Result<Option<String>> {
     }))
 }
 
-/// Sentences on the start of steps whose first one ends at the first of `moments`, and on their scalar.
+/// Sentences on the start of steps whose first one ends at `first`, and on their scalar.
 ///
 /// # Errors
 /// Those of playing them.
-pub fn warnings(
-    problem: &Problem,
-    moments: &[ScheduledTick],
-    scalar: ScalarKind,
-) -> Result<Vec<String>> {
-    let (false, Some(first)) = (problem.capacities.is_empty(), moments.first()) else {
+pub fn warnings(problem: &Problem, first: f64, scalar: ScalarKind) -> Result<Vec<String>> {
+    if problem.capacities.is_empty() {
         return Ok(Vec::new());
-    };
+    }
     let step = step_of(&problem.scene)?;
-    let at_start = at_start(problem, first.time - step)?;
+    let at_start = at_start(problem, first - step)?;
     let mut all = Vec::new();
     if let Some(initial) = stated(problem) {
         all.extend(moved_warning(&at_start, initial)?);

@@ -1,0 +1,253 @@
+//! Steps in time by the controller that `bake` writes: beside this machine's own, and bit for bit with the module.
+
+use super::{Budget, ScheduledTick, TickRecord, play, replay};
+use signorini_bake::choice::{Choice, Model, Wanted};
+use signorini_bake::compiled::printed;
+use signorini_bake::full::{Baked, Controller, source};
+use signorini_kernel::rows::{QUADS, TRIANGLES};
+use signorini_problem::Problem;
+use signorini_problem::fixtures::on_grid;
+use signorini_problem::scalar::Scalar;
+use signorini_scene::error::Result;
+use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_solve::ScalarKind;
+
+/// A heater below a Robin side and between Dirichlet ones, all of which inputs change; sweeps go on to rounding.
+const HEATED: &str = r#"
+mesh = "grid"
+material.default = { conductivity = "1", capacity = "2" }
+boundary.dirichlet = { kind = "robin", coefficient = "0", ambient = "1" }
+boundary.left = { kind = "dirichlet", value = "0" }
+boundary.right = { kind = "neumann", flux = "0.1" }
+boundary.contact = { kind = "contact", gap = "-0.1", flux = "0", limit = "0.6" }
+input.heat = { of = "source", field = "f", pattern = "1 - y", default = -1.0, range = [-3.0, 3.0] }
+input.wind = { of = "dirichlet", field = "coefficient", pattern = "1", default = 1.0, range = [0.1, 2.0] }
+input.level = { of = "left", field = "value", pattern = "1 - y", default = 0.2, range = [0.0, 1.0] }
+input.lift = { of = "contact", field = "gap", pattern = "1", default = 0.0, range = [-0.1, 0.1] }
+input.supply = { of = "contact", field = "limit", pattern = "1", default = 0.0, range = [-0.5, 0.5] }
+output.force = { kind = "force" }
+output.saturated = { kind = "saturated" }
+output.flux = { kind = "flux", of = "dirichlet" }
+output.face = { kind = "mean", of = "contact" }
+output.bound = { kind = "bound" }
+time.step = 0.05
+setting.share = 1e-9
+"#;
+
+fn heated(cells: Cells, other: &str) -> Result<Problem> {
+    Ok(on_grid(&format!("{HEATED}{other}"), grid(4, cells))?.1)
+}
+
+/// The values of the inputs in a step.
+fn inputs(at: u32) -> [f64; 5] {
+    let (t, jump) = (f64::from(at), f64::from(at / 7 % 2));
+    [
+        3.0 * (0.4 * t).sin(),
+        1.0 + 0.9 * (0.3 * t).cos(),
+        0.5 * jump + 0.2,
+        0.1 * (0.2 * t).sin(),
+        0.4 - 0.9 * jump,
+    ]
+}
+
+fn moments(count: u32) -> Vec<ScheduledTick> {
+    let of = |at: u32| ScheduledTick {
+        time: 0.05 * f64::from(at),
+        inputs: inputs(at).map(|x| x.clamp(-3.0, 3.0)).into_iter().enumerate().collect(),
+    };
+    (1..=count).map(of).collect()
+}
+
+fn near(what: &str, found: f64, expected: f64, part: f64) {
+    assert!(
+        (found - expected).abs() <= part * expected.abs().max(1.0),
+        "{what}: {found} {expected}"
+    );
+}
+
+/// 30 steps with all inputs moving: the numbers of this machine's own play but for what either leaves to its sweeps.
+#[test]
+fn a_controller_steps_as_this_machine_does() -> Result<()> {
+    for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
+        let problem = heated(cells, "")?;
+        let moments = moments(30);
+        let budget = Budget { intervals: false, ..Budget::of(&problem.scene) };
+        let own = play(&problem, None, &moments, &budget, |_, _| Ok(()))?;
+        let asked = (Some(ScalarKind::F64), true);
+        let (model, baked) = replay(&problem, &moments, asked, |_, _| Ok(()))?;
+        assert!(model.starts_with("full"), "{model}");
+        assert_eq!((own.len(), baked.len()), (31, 31));
+        for (own, baked) in own.iter().zip(&baked) {
+            let what = format!("{cells:?} at {}", own.time);
+            for (at, (own, baked)) in own.outputs.iter().zip(&baked.outputs).enumerate() {
+                near(
+                    &format!("{what}, {at}"),
+                    baked.expect("a number"),
+                    own.expect("a number"),
+                    1e-8,
+                );
+            }
+            let total = |of: &TickRecord| of.bound.expect("a bound").total;
+            near(&format!("{what}, total"), total(baked), total(own), 1e-6);
+            let [[found, seconds], [expected, same]] =
+                [baked, own].map(|of| of.window.expect("a window"));
+            near(&format!("{what}, window"), found, expected, 1e-6);
+            near(&what, seconds, same, 1e-12);
+        }
+    }
+    Ok(())
+}
+
+/// Outputs, total and window of ticks from `first` on.
+fn played<R: Scalar, const WIDTH: usize>(
+    controller: &mut Controller<R, WIDTH>,
+    ticks: std::ops::Range<u32>,
+) -> Vec<Vec<R>> {
+    let tick = |at| {
+        let inputs = inputs(at).map(R::narrow);
+        let (mut numbers, report) = controller.tick(&inputs).expect("a tick");
+        numbers.push(report.verdict.certificate().expect("a bound").total);
+        numbers.push(controller.window().expect("a window").energy);
+        numbers
+    };
+    ticks.map(tick).collect()
+}
+
+fn stepping<R: Scalar>(problem: &Problem) -> Result<Baked<R>> {
+    match Choice::<R>::new(problem, Wanted::default())?.candidates.pop().expect("a model").model {
+        Model::Full(baked) => Ok(*baked),
+        Model::Condensed(_) => panic!("a condensed model"),
+    }
+}
+
+/// A tick that is refused leaves u, s and B, and a reset goes back to the start.
+#[test]
+fn a_refused_tick_advances_nothing_and_a_reset_all() -> Result<()> {
+    let baked = stepping::<f32>(&heated(Cells::Mixed, "")?)?;
+    let mut controller = Controller::<f32, QUADS>::new(&baked);
+    let whole = played(&mut controller, 1..9);
+    controller.reset();
+    let start = controller.window();
+    let first = played(&mut controller, 1..5);
+    for refused in
+        [[9.0, 1.0, 0.2, 0.0, 0.0], [f32::NAN, 1.0, 0.2, 0.0, 0.0], [0.0, 1.0, 0.2, 0.0, -0.6]]
+    {
+        let before = controller.window();
+        assert!(controller.tick(&refused).is_err());
+        assert_eq!(controller.window(), before);
+    }
+    let then = played(&mut controller, 5..9);
+    assert_eq!([first, then].concat(), whole);
+    controller.reset();
+    assert_eq!(controller.window(), start);
+    assert_eq!(Controller::<f32, QUADS>::new(&baked).window(), start);
+    Ok(())
+}
+
+/// The bits of a module are those of this machine's controller, in both scalars.
+#[test]
+fn a_module_steps_with_the_same_bits() -> Result<()> {
+    let main = |scalar: &str| {
+        let log: Vec<_> = (1..9).map(|at| format!("{:?}", inputs(at))).collect();
+        format!(
+            "
+fn main() {{
+    let mut controller = Box::new(Controller::new());
+    for inputs in [{}] {{
+        let answer = controller.tick(Inputs::from_array(inputs.map(|x: f64| x as {scalar}))).unwrap();
+        let total = answer.report.verdict.certificate().unwrap().total;
+        let window = controller.window().unwrap().energy;
+        println!(\"{{:?}} {{total:?}} {{window:?}}\", answer.outputs.to_array());
+    }}
+}}
+",
+            log.join(", ")
+        )
+    };
+    let told =
+        |numbers: &[f64], total: f64, window: f64| format!("{numbers:?} {total:?} {window:?}\n");
+    let problem = heated(Cells::Triangles, "")?;
+    let baked = stepping::<f64>(&problem)?;
+    let mut controller = Controller::<f64, TRIANGLES>::new(&baked);
+    let expected: String = played(&mut controller, 1..9)
+        .iter()
+        .map(|numbers| match &numbers[..] {
+            [outputs @ .., total, window] => told(outputs, *total, *window),
+            _ => String::new(),
+        })
+        .collect();
+    assert_eq!(printed(&(source(&baked) + &main("f64"))), expected);
+    Ok(())
+}
+
+/// The full model alone: another that is asked for is refused, and so are data that leave a step no bound.
+#[test]
+fn what_no_controller_steps_is_refused() -> Result<()> {
+    let refused = |stated: &str, instead: &str| -> Result<String> {
+        let scene = HEATED.replace(stated, instead);
+        let problem = on_grid(&scene, grid(4, Cells::Triangles))?.1;
+        let choice = Choice::<f64>::new(&problem, Wanted::default());
+        Ok(choice.err().map_or_else(String::new, |error| error.to_string()))
+    };
+    let why = refused("setting.share = 1e-9", "setting.model = \"condensed\"")?;
+    assert!(why.contains("no condensed model steps in time yet"), "{why}");
+    let why = refused("gap = \"-0.1\"", "gap = \"-0.1*x^2\"")?;
+    assert!(why.contains("not linear along an edge"), "{why}");
+    let why = refused("time.step = 0.05", "")?;
+    assert!(why.contains("time.step: missing"), "{why}");
+    Ok(())
+}
+
+/// A state that is restored goes on with the same bits, before the first tick too; a foreign or a damaged one changes nothing.
+#[test]
+fn a_state_goes_on_with_the_same_bits() -> Result<()> {
+    let log: Vec<_> = (1..9).map(|at| format!("{:?}", inputs(at))).collect();
+    let program = format!(
+        "
+const LOG: [[f32; INPUTS]; 8] = [{}];
+
+fn play(controller: &mut Controller, ticks: core::ops::Range<usize>) -> Vec<u32> {{
+    LOG[ticks].iter().flat_map(|inputs| {{
+        let answer = controller.tick(Inputs::from_array(*inputs)).unwrap();
+        let window = controller.window().unwrap().energy;
+        let sweeps = answer.report.sweeps;
+        answer.outputs.to_array().map(f32::to_bits).into_iter().chain([window.to_bits(), sweeps])
+    }}).collect()
+}}
+
+fn main() {{
+    let (mut first, mut second) = (Box::new(Controller::new()), Box::new(Controller::new()));
+    let start = first.state();
+    play(&mut first, 0..4);
+    let state = first.state();
+    let expected = play(&mut first, 4..8);
+    play(&mut second, 2..7);
+    second.restore(&state).unwrap();
+    assert_eq!(play(&mut second, 4..8), expected);
+    assert!(first.state() == second.state());
+    let mut damaged = state;
+    let words = size_of::<State>() / 4;
+    for at in [0, 2, 4, 40, words - 2] {{
+        let bits = &raw mut damaged as *mut u32;
+        unsafe {{ *bits.add(at) ^= 1 << 22 }};
+        let before = second.state();
+        let refused = second.restore(&damaged).unwrap_err();
+        let expected = if at == 0 {{ Error::ForeignState }} else {{ Error::DamagedState }};
+        assert_eq!(refused, expected, \"{{at}}\");
+        assert!(second.state() == before);
+        damaged = state;
+    }}
+    second.restore(&start).unwrap();
+    let mut fresh = Box::new(Controller::new());
+    assert_eq!(play(&mut second, 0..3), play(&mut fresh, 0..3));
+    println!(\"the same\");
+}}
+",
+        log.join(", ")
+    );
+    for cells in [Cells::Triangles, Cells::Mixed] {
+        let baked = stepping::<f32>(&heated(cells, "")?)?;
+        assert_eq!(printed(&(source(&baked) + &program)), "the same\n", "{cells:?}");
+    }
+    Ok(())
+}

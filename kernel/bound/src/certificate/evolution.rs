@@ -1,0 +1,133 @@
+//! The bound of the evolution: one number that is carried from step to step.
+//!
+//! A tick holds f, g, q, limits, u_ext and h at their values, and lets u_D and ψ go linearly from those of the last tick. u is exact in
+//! continuous time, s linear between ticks, E = ‖c^½(u − s)‖ and G² = ‖A^½∇(u − s)‖² + ∫_R h(u − s)². With the terms of a step
+//! ```text
+//!   ζ² = mean over the step of ‖A^½∇s − A^{−½}τ‖² + ∫_R …       ct = mean of ½ of the terms of contact at both ends
+//!   o: oscillation of data, and R′ or nothing of it              ρ = ‖c^{−½}R̄‖, or ‖c^{−½}R‖
+//!   γ = η²/(2(1 − θ − φ)) + 2ct,     (η, r) = (ζ + o + ρ/√λ, 0) or (ζ + o, ρ)
+//!   B_n = dt r + (e^{−2θλdt} B² + dt γ)^½ ≥ (E² + 2φ∫e^{−2θλ(t_n − t)} G² dt)^½
+//! ```
+//! for any admissible s and τ, however they were found; the least of all is taken. λ is guaranteed by the host.
+//!
+//! Rounding: what it hides in the terms of a step is in their oscillation. All that the formula adds up is not negative, and B² is
+//! multiplied, added to and rooted once: it loses 2ε of itself at most in a step, and 16ε of γ. Both are added, and the constants are
+//! rounded up. Where 2θλdt is not far above that, in f32 below λdt of 1e−5, B grows by it.
+
+use super::stored::Residual;
+use signorini_kernel::Real;
+
+/// How fast the past fades, in parts of λ: θ.
+pub const THETA: f64 = 0.1;
+
+/// The part of the energy's mean: φ.
+pub const PHI: f64 = 0.45;
+
+/// Constants of steps of one length, each rounded up; the caller has the exponential.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Rates<R> {
+    /// e^{−2θλdt}
+    pub fading: R,
+    /// (1 − e^{−2θλdt})/(2θλ)
+    pub reach: R,
+    /// λ^{−½}
+    pub softness: R,
+    /// (θλ/φ)^½
+    pub of_energy: R,
+    /// 1/(2(1 − θ − φ))
+    pub of_square: R,
+    /// 1/(2θλ), how far back the mean of the energy reaches, in the unit of time.
+    pub seconds: R,
+}
+
+/// What is carried from step to step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Carried<R> {
+    /// B
+    pub bound: R,
+    /// The part of the weights that falls before the start: 0 where the steady state stood there, of whose mean B knows.
+    pub before: R,
+}
+
+/// Terms of one step, for one way to balance its cells.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StepTerms<R> {
+    /// dt
+    pub length: R,
+    /// ζ² for s at the beginning of the step, in the mean of the step, and at its end.
+    pub distance: [R; 3],
+    /// ct at both ends.
+    pub contact: [R; 2],
+    /// The part of o that data vary by, with what rounding may hide.
+    pub oscillation: R,
+    /// The part of o that s changes by inside cells.
+    pub inside: R,
+    /// ‖c^{−½}R̄‖ and ‖c^{−½}R′‖
+    pub residual: [R; 2],
+}
+
+impl<R: Real> StepTerms<R> {
+    /// Of squared distances for s at the beginning, in the middle and at the end, and of terms of contact at both ends.
+    pub fn new(
+        length: R,
+        (residual, oscillation): (&Residual<R>, R),
+        distance: [R; 3],
+        contact: [R; 2],
+    ) -> Self {
+        let root = |square: R| square.or_larger(R::ZERO).rounded_sqrt();
+        let [begin, middle, end] = distance.map(|square| square.or_larger(R::ZERO));
+        // The square of an affine function of time: Simpson's rule is exact.
+        let mean = (begin + R::from_count(4) * middle + end) / R::from_count(6);
+        let of_time = root(length);
+        Self {
+            length,
+            distance: [begin, mean, end],
+            contact: contact.map(|term| R::HALF * term),
+            oscillation,
+            inside: root(residual.loose),
+            residual: [residual.mean, residual.rest].map(|square| root(square) / of_time),
+        }
+    }
+}
+
+impl<R: Real> Rates<R> {
+    /// What is carried on from a step, by the best of the ways to balance it. ∞ from a step without terms on.
+    pub fn advance(&self, carried: Carried<R>, terms: &[StepTerms<R>]) -> Carried<R> {
+        let bounds = terms.iter().map(|terms| self.after(carried.bound, terms));
+        let before = self.fading * carried.before * (R::ONE + R::TWO * R::EPSILON);
+        Carried {
+            bound: bounds.fold(R::INFINITY, R::or_smaller),
+            before: before.or_smaller(R::ONE),
+        }
+    }
+
+    fn after(&self, bound: R, terms: &StepTerms<R>) -> R {
+        let StepTerms { length: dt, distance, contact, oscillation, inside, residual } = *terms;
+        let up = |epsilons: u32| R::ONE + R::from_count(epsilons) * R::EPSILON;
+        let with = |beside: R, r: R| {
+            let gamma = |square: R, ct: R| {
+                let eta = square.rounded_sqrt() + oscillation + beside;
+                (self.of_square * eta * eta + R::TWO * ct) * up(16)
+            };
+            let [begin, of_step, end] = distance;
+            let plainly = dt * gamma(of_step, R::HALF * (contact[0] + contact[1]));
+            // γ is convex in time: where it has long faded its largest value counts.
+            let most = gamma(begin, contact[0]).or_larger(gamma(end, contact[1]));
+            let added = plainly.or_smaller(self.reach * most);
+            let square = self.fading * (bound * bound) + added;
+            (dt * r + square.or_larger(R::ZERO).rounded_sqrt()) * up(2)
+        };
+        let [mean, rest] = residual;
+        let all = (mean * mean + rest * rest).rounded_sqrt() * up(2);
+        let weak = |rho: R| rho * self.softness;
+        let ways =
+            [(inside + weak(mean), R::ZERO), (inside, mean), (weak(all), R::ZERO), (R::ZERO, all)];
+        ways.into_iter().map(|(beside, r)| with(beside, r)).fold(R::INFINITY, R::or_smaller)
+    }
+
+    /// The root of the mean of G² with weights that fade by e^{−2θλt} into the past, at most; ∞ where a step had no bound.
+    pub fn energy(&self, carried: Carried<R>) -> R {
+        let weights = (R::ONE - carried.before).or_larger(R::ZERO).rounded_sqrt();
+        carried.bound * self.of_energy / weights * (R::ONE + R::from_count(4) * R::EPSILON)
+    }
+}
