@@ -14,6 +14,7 @@ use super::data::Data;
 use super::evolution::StepTerms;
 use super::fields::Fields;
 use super::forest::EquilibrationForest;
+use super::lifted::Lifts;
 use super::metric::Metric;
 use super::no_bound::NoBound;
 use super::relaxed::relaxed;
@@ -34,6 +35,8 @@ pub struct Certifier<R: Scalar> {
     evolution: Vec<StepTerms<f64>>,
     /// Whether steps in time may hand on along the ways found.
     hands_on: bool,
+    /// Where s has extensions, and what these are.
+    followed: (Following, Lifts),
     fields: Fields<R>,
     /// Why the last iterate has no bound, apart from its data.
     refusal: Option<NoBound>,
@@ -56,6 +59,8 @@ pub struct CertifiedFields {
     pub evolution: Vec<StepTerms<f64>>,
     /// Where s has extensions.
     pub following: Following,
+    /// What these are, where materials store u.
+    pub lifts: Lifts,
 }
 
 impl CertifiedFields {
@@ -63,6 +68,22 @@ impl CertifiedFields {
     pub fn admissible(&self) -> Admissible<'_> {
         let Self { vertices, bubbles, tau, following, .. } = self;
         Admissible { vertices, bubbles, tau, following }
+    }
+}
+
+/// The terms of a step with what the extensions of curved data add at most, `before` being ‖A^½∇·‖ of those at its beginning.
+fn lifted(terms: StepTerms<f64>, lifts: &Lifts, before: f64) -> StepTerms<f64> {
+    let energy = lifts.energy.max(before);
+    if energy == 0.0 && lifts.moved == 0.0 {
+        return terms;
+    }
+    let moved = lifts.moved / terms.length.sqrt();
+    let [mean, rest] = terms.residual;
+    let (mean, all) = (mean + moved, mean.hypot(rest) + moved);
+    StepTerms {
+        distance: terms.distance.map(|square| (square.sqrt() + energy).powi(2)),
+        residual: [mean, (all * all - mean * mean).max(0.0).sqrt()],
+        ..terms
     }
 }
 
@@ -89,6 +110,7 @@ impl<R: Scalar> Certifier<R> {
             found_ways: false,
             evolution: Vec::new(),
             hands_on: true,
+            followed: (Following::WhereNeeded, Lifts::default()),
             fields: Fields::new(problem),
             refusal: None,
         };
@@ -122,6 +144,11 @@ impl<R: Scalar> Certifier<R> {
         data: &Data<R>,
         u: &[R],
     ) -> Result<Option<Certificate<R>>, KernelError> {
+        let following = match assembled.step() {
+            Some(_) => Following::default(),
+            None => Following::WhereNeeded,
+        };
+        self.followed = (following, data.lifts().clone());
         if !self.has_ways(parts, assembled, u)? || !data.has_bound() {
             self.average(assembled, data, u)?;
             return Ok(None);
@@ -219,7 +246,8 @@ impl<R: Scalar> Certifier<R> {
             if let Some(certificate) = verdict.certificate() {
                 let left = (&residual, data.oscillation() + certificate.rounding);
                 let begin = (&step.begin, step.length);
-                evolution.push(fields.terms(&discretization, &given, law, begin, left)?);
+                let terms = fields.terms(&discretization, &given, law, begin, left)?;
+                evolution.push(lifted(terms, data.lifts(), step.begin.lifted));
             }
             Ok::<_, KernelError>(verdict)
         };
@@ -253,7 +281,8 @@ impl<R: Scalar> Certifier<R> {
             indicators: wide(&self.fields.indicators),
             openings: self.fields.openings.iter().map(|pair| pair.map(|x| x.wide())).collect(),
             evolution: self.evolution.clone(),
-            following: Following::WhereNeeded,
+            following: self.followed.0.clone(),
+            lifts: self.followed.1.clone(),
         }
     }
 

@@ -7,6 +7,7 @@ use signorini_kernel::Error as KernelError;
 use super::curved::{Curved as Bent, curved_edges};
 use super::ends::Ends;
 use super::imbalance::carried;
+use super::lifted::Lifts;
 use super::no_bound::NoBound;
 use super::oscillation::{Oscillation, oscillation};
 use super::robin::{RobinPoints, robin};
@@ -24,6 +25,7 @@ pub struct Data<R> {
     transfer: Vec<[[R; 2]; 8]>,
     forms: Forms<R>,
     oscillation: R,
+    lifts: Lifts,
     unresolved: f64,
     no_bound: Option<NoBound>,
 }
@@ -41,7 +43,9 @@ pub struct Evaluated {
     pub forms: Forms<f64>,
     /// √Σ osc², and what is left out of ψ and u_D.
     pub oscillation: f64,
-    /// The part of it that was enclosed and not resolved.
+    /// Extensions of curved data, where materials store u.
+    pub lifts: Lifts,
+    /// The part of the oscillation that was enclosed and not resolved.
     pub unresolved: f64,
     /// Why these data allow for no bound.
     pub no_bound: Option<NoBound>,
@@ -68,7 +72,15 @@ impl Evaluated {
     fn with(problem: &Problem, moved: fn(&Ends, &Problem) -> f64) -> Result<Self> {
         let time = problem.time;
         let ends = Ends::at_time(problem, time)?;
-        let curved_edges = curved_edges(problem, time)?;
+        let mut curved_edges = curved_edges(problem, time)?;
+        let lifts = match problem.capacities.is_empty() {
+            true => Lifts::default(),
+            false => Lifts::new(problem, &curved_edges)?,
+        };
+        if problem.loads.step.is_some() {
+            // s follows all of them: from step to step it may not change its mind.
+            curved_edges.records.iter_mut().for_each(|record| record.peak = f64::INFINITY);
+        }
         // s is off by that much, and once more where u_h is compared with it.
         let left_out = 2.0 * (curved_edges.left_out + moved(&ends, problem));
         let curved = curved_edges.records;
@@ -95,6 +107,7 @@ impl Evaluated {
             forms,
             // There is no bound where it is infinite.
             oscillation: left_out + if whole.is_finite() { whole + carried } else { 0.0 },
+            lifts,
             unresolved: whole - resolved + carried,
             no_bound: no_bound.or(no_way),
         })
@@ -130,6 +143,7 @@ impl<R: Scalar> Data<R> {
             transfer: transfer.iter().map(|edge| edge.map(|point| point.map(R::narrow))).collect(),
             forms: data.forms.narrowed(),
             oscillation: R::narrow(data.oscillation),
+            lifts: data.lifts,
             unresolved: data.unresolved,
             no_bound: data.no_bound,
         }
@@ -144,6 +158,11 @@ impl<R: Scalar> Data<R> {
     /// Oscillation: the part of f, g, q, ψ and u_D that their means leave out.
     pub fn oscillation(&self) -> R {
         self.oscillation
+    }
+
+    /// Extensions of curved data, where materials store u.
+    pub fn lifts(&self) -> &Lifts {
+        &self.lifts
     }
 
     /// The part of the oscillation that was enclosed and not resolved.
@@ -179,7 +198,7 @@ impl<R: Scalar> Data<R> {
             curved: &self.curved,
             transfer: &self.transfer,
             forms,
-            oscillation: self.oscillation,
+            oscillation: self.oscillation + R::narrow(self.lifts.moved),
         })
     }
 }

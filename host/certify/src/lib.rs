@@ -31,6 +31,7 @@ mod fields;
 pub mod forest;
 mod imbalance;
 mod legendre;
+pub mod lifted;
 mod local_flux;
 pub mod metric;
 mod no_bound;

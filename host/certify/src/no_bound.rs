@@ -22,17 +22,14 @@ impl NoBound {
         Self(reason.into())
     }
 
-    /// A gap or a value that is not linear along an edge, in a step of time.
+    /// A gap or a value that is not linear along an edge, in a step of a controller.
     pub fn curved_in_step() -> Self {
-        let why = "a step in time has no error bound yet where a gap or a value is not linear along an edge";
+        let why = "a controller's step in time has no error bound where a gap or a value is not linear along an edge";
         Self::new(why)
     }
 
     /// Why these data allow for no bound, whatever the iterate.
     pub fn of_data(problem: &Problem, ends: &Ends, curved: &[Curved]) -> Option<Self> {
-        if problem.loads.step.is_some() && !curved.is_empty() {
-            return Some(Self::curved_in_step());
-        }
         let rough = || curved.iter().find_map(|edge| Self::rough(problem, edge));
         let jump = || ends.jump(problem).map(|jump| Self::values_differ(problem, jump));
         let of_tensor = || Self::not_definite(problem);

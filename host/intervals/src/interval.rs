@@ -72,6 +72,10 @@ impl Known<'_> {
     }
 
     fn bounded(&self, output: &Output) -> Result<Found> {
+        if self.answer.certified.lifts.moved > 0.0 {
+            let why = "a gap or a value that is not linear along an edge moves in this step";
+            return Ok(Err(why.to_owned()));
+        }
         let goal = match Goal::of(self.problem, self.answer, self.deviations, output)? {
             Ok(goal) => goal,
             Err(why) => return Ok(Err(why)),

@@ -58,7 +58,7 @@ pub use loads::Loads;
 pub use property::Property;
 pub use room::{Room, rooms};
 pub use solvability::{BALANCE, Parts};
-pub use step::{State, Step};
+pub use step::{State, Step, Trace};
 pub use sum::Sum;
 pub use topology::{EdgeKind, Topology};
 pub use transfer::TransferPattern;

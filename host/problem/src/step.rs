@@ -32,6 +32,36 @@ pub struct State<R = f64> {
     pub bubbles: Vec<R>,
     /// The means of (s − ψ)⁺ and (ψ − s)⁺ along each contact edge.
     pub openings: Vec<[R; 2]>,
+    /// What s followed of curved data that may move.
+    pub traces: Vec<Trace>,
+    /// ‖A^½∇·‖ of all that s followed of curved data.
+    pub lifted: f64,
+}
+
+/// By how much a gap or a value was off its chord along an edge.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Trace {
+    /// The edge.
+    pub edge: u32,
+    /// Place along the edge, weight, and w there.
+    pub samples: Vec<[f64; 3]>,
+    /// ∫₀¹ w² of what these points miss of it.
+    pub missed: f64,
+}
+
+impl Trace {
+    /// (∫₀¹ w²)^½ at most.
+    pub fn size(&self) -> f64 {
+        let square: f64 = self.samples.iter().map(|[_, weight, w]| weight * w * w).sum();
+        square.sqrt() + self.missed.sqrt()
+    }
+
+    /// With `unit` for 1.
+    #[must_use]
+    pub fn in_unit(self, unit: f64) -> Self {
+        let samples = self.samples.into_iter().map(|[t, weight, w]| [t, weight, w / unit]);
+        Self { samples: samples.collect(), missed: self.missed / unit / unit, ..self }
+    }
 }
 
 impl State {
@@ -40,7 +70,7 @@ impl State {
         let edges = vec![0.0; problem.ends.len()];
         let vertices = vec![0.0; problem.mesh.vertices.len()];
         let openings = vec![[0.0; 2]; problem.topology.counts.contact];
-        Self { u: edges.clone(), vertices, bubbles: edges, openings }
+        Self { u: edges.clone(), vertices, bubbles: edges, openings, ..Self::default() }
     }
 
     fn in_units(self, units: &Units) -> Self {
@@ -50,6 +80,8 @@ impl State {
             vertices: of_u(self.vertices),
             bubbles: self.bubbles.into_iter().map(|x| x / units.u).collect(),
             openings: self.openings.into_iter().map(|pair| pair.map(|x| x / units.u)).collect(),
+            traces: self.traces.into_iter().map(|trace| trace.in_unit(units.u)).collect(),
+            lifted: self.lifted / units.energy(),
         }
     }
 
@@ -60,6 +92,8 @@ impl State {
             vertices: all(&self.vertices),
             bubbles: all(&self.bubbles),
             openings: self.openings.iter().map(|pair| pair.map(R::narrow)).collect(),
+            traces: self.traces.clone(),
+            lifted: self.lifted,
         }
     }
 }

@@ -92,12 +92,14 @@ impl Solution {
 
     /// What a step in time hands on to the next one.
     pub fn state(&self) -> State {
-        let CertifiedFields { vertices, bubbles, openings, .. } = &self.certified;
+        let CertifiedFields { vertices, bubbles, openings, lifts, .. } = &self.certified;
         State {
             u: self.u.clone(),
             vertices: vertices.clone(),
             bubbles: bubbles.clone(),
             openings: openings.clone(),
+            traces: lifts.traces.clone(),
+            lifted: lifts.energy,
         }
     }
 

@@ -3,7 +3,7 @@
 use super::decay::decay_rate;
 use super::{Ending, Options, ScalarKind, Solution, read_off, solve, unfit};
 use signorini_certify::cell::Cell;
-use signorini_certify::curved::followed;
+use signorini_certify::deviation::Deviations;
 use signorini_certify::evolution::Evolution;
 use signorini_certify::{Certified, Data, NoBound};
 use signorini_kernel::solver::{Outcome, Status};
@@ -73,7 +73,9 @@ impl Start {
                 Evolution::begin(rate, None, error)
             }
             None => {
+                // In steps s follows curved data everywhere.
                 let total = solution.bound.map(|bound| bound.total);
+                let total = total.map(|total| total + solution.certified.lifts.energy);
                 total.and_then(|total| Evolution::begin(rate, Some(total), 0.0))
             }
         };
@@ -203,7 +205,7 @@ fn stated_start(problem: &Problem, dt: f64, initial: &Datum) -> Result<Solution>
 fn stated_error(problem: &Problem, start: &Solution, initial: &Datum) -> Result<f64> {
     let stated = Sum::alone(&problem.scene, initial, 0.0);
     let s = start.certified.admissible();
-    let deviations = followed(problem, &s)?;
+    let deviations = Deviations::at_time(problem, problem.time)?;
     let mut squares = [0.0; 2];
     for at in 0..problem.cells() {
         let (cell, on_cell) = (Cell::of(problem, at), s.on_cell(problem, at, &deviations));

@@ -187,6 +187,7 @@ pub fn times(units: &Units, mut solution: Solution) -> Solution {
     values(&mut certified.vertices);
     times(&mut certified.bubbles, units.u);
     times(certified.openings.as_flattened_mut(), units.u);
+    certified.lifts = std::mem::take(&mut certified.lifts).in_units(units);
     times(&mut certified.tau, units.flux());
     times(&mut certified.indicators, units.energy() * units.energy());
     solution

@@ -73,6 +73,15 @@ pub fn curved(problem: &Problem, time: f64) -> Result<Vec<Curved>> {
     Ok(curved_edges(problem, time)?.records)
 }
 
+/// Points along an edge with their weights, and ∫(w − w̃)² of what they miss.
+///
+/// # Errors
+/// Data that are not finite.
+pub fn points_along(deviation: &Deviation) -> Result<(Vec<[f64; 2]>, f64)> {
+    let panels = Panels::along(deviation)?;
+    Ok((panels.rule(), panels.missed[0]))
+}
+
 /// The records, and what they leave out.
 #[derive(Debug, Clone)]
 pub struct CurvedEdges {

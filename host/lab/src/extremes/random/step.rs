@@ -91,8 +91,7 @@ pub(super) fn finer(problem: &Problem, levels: u32) -> Result<Problem> {
     let bubbles: Vec<f64> = (0..finer.ends.len()).map(bubble).collect::<Result<_>>()?;
     let means = bubbles.iter().enumerate().map(|(edge, bubble)| chord(edge) + bubble / 1.5);
     let means: Vec<f64> = means.collect();
-    let openings = Vec::new();
-    finer.stepping(step.length, State { u: means, vertices, bubbles, openings })
+    finer.stepping(step.length, State { u: means, vertices, bubbles, ..State::default() })
 }
 
 #[cfg(test)]

@@ -163,15 +163,27 @@ impl Drawing {
         time
     }
 
-    /// An input of its own for a datum, affine in the place and, where `rough` says so, another function of it.
-    fn input(&mut self, of: &str, field: &str, size: f64, rough: Option<Rough>) {
+    /// A term of this size at most: affine in the place, a wave, or a kink.
+    fn bend(&mut self, size: f64) -> String {
+        let [a, b] = [0.5; 2].map(|most| size * self.random.between(-most, most));
+        match self.random.below(6) {
+            0 => format!("+{size:e}*sin({:e}*x+3*y)", self.random.between(1.0, 6.0)),
+            1 => format!("+{size:e}*(abs(x-{:e})-1)", self.random.between(-0.9, 0.9)),
+            _ => format!("+{a:e}*x+{b:e}*y"),
+        }
+    }
+
+    /// An input of its own for a datum, affine in the place or another function of it.
+    fn input(&mut self, of: &str, field: &str, size: f64, rough: Rough) {
         let [a, b] = [0.2; 2].map(|most| size * self.random.between(-most, most));
-        let pattern = match rough {
-            Some(rough) if self.random.chance(0.4) => {
-                Function::draw(&mut self.random, self.frame, rough, 5.0).times(size).value()
-            }
-            _ => format!("{:e}+{a:e}*x+{b:e}*y", 0.6 * size),
+        let pattern = match self.random.chance(0.4) {
+            true => Function::draw(&mut self.random, self.frame, rough, 5.0).times(size).value(),
+            false => format!("{:e}+{a:e}*x+{b:e}*y", 0.6 * size),
         };
+        self.input_of(of, field, &pattern);
+    }
+
+    fn input_of(&mut self, of: &str, field: &str, pattern: &str) {
         let _ = writeln!(
             self.text,
             "[input.p{}]\nof = \"{of}\"\nfield = \"{field}\"\npattern = \"{pattern}\"\ndefault = 0",
@@ -190,7 +202,7 @@ impl Drawing {
         let f = self.random.between(-3.0, 3.0);
         let _ = writeln!(self.text, "[source]\nf = {f:e}");
         if self.random.chance(0.8) {
-            self.input("source", "f", 10.0, Some(Rough::Jumping));
+            self.input("source", "f", 10.0, Rough::Jumping);
         }
         let holding = self.random.below(names.len() as u32) as usize;
         for (at, name) in names.iter().enumerate() {
@@ -206,11 +218,14 @@ impl Drawing {
         hold
     }
 
-    /// Between 0 and 1.6, above every gap that has no limit.
+    /// Above every gap.
     fn dirichlet(&mut self, name: &str) {
-        let _ = writeln!(self.text, "[boundary.{name}]\nkind = \"dirichlet\"\nvalue = \"0.8\"");
+        let bend = self.bend(0.3);
+        let _ =
+            writeln!(self.text, "[boundary.{name}]\nkind = \"dirichlet\"\nvalue = \"1.1{bend}\"");
         if self.random.chance(0.6) {
-            self.input(name, "value", 0.8, None);
+            let pattern = self.bend(0.2);
+            self.input_of(name, "value", &format!("0.5{pattern}"));
         }
     }
 
@@ -221,7 +236,7 @@ impl Drawing {
             "[boundary.{name}]\nkind = \"robin\"\ncoefficient = {h:e}\nambient = {ambient:e}"
         );
         match self.random.below(3) {
-            0 => self.input(name, "ambient", 1.0, Some(Rough::Kinked)),
+            0 => self.input(name, "ambient", 1.0, Rough::Kinked),
             1 => {
                 let (of, number) = (name, self.on_line.len());
                 // h stays above a tenth of itself.
@@ -240,7 +255,7 @@ impl Drawing {
         let flux = self.random.between(-0.5, 0.5);
         let _ = writeln!(self.text, "[boundary.{name}]\nkind = \"neumann\"\nflux = {flux:e}");
         if self.random.chance(0.5) {
-            self.input(name, "flux", 1.0, Some(Rough::Jumping));
+            self.input(name, "flux", 1.0, Rough::Jumping);
         }
     }
 
@@ -249,17 +264,20 @@ impl Drawing {
             Ends::Below => Ends::Both,
             ends => ends,
         };
+        let bend = self.bend(0.2);
         let limit = match ends {
             Ends::Both => format!("flux = -0.3\nlimit = {:e}\n", self.random.log(0.1, 10.0)),
             _ => String::new(),
         };
         let _ = writeln!(
             self.text,
-            "[boundary.{name}]\nkind = \"contact\"\ngap = -0.3\n{}",
+            "[boundary.{name}]\nkind = \"contact\"\ngap = \"-0.5{}\"\n{}",
+            bend,
             limit.trim_end()
         );
         if self.random.chance(0.5) {
-            self.input(name, "gap", 0.3, None);
+            let pattern = self.bend(0.15);
+            self.input_of(name, "gap", &format!("0.15{pattern}"));
         }
     }
 }

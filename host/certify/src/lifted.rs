@@ -1,0 +1,136 @@
+//! What s follows of curved data from step to step.
+//!
+//! ```text
+//!   S = s + L,   L = Σ v_E,   v_E = (1 − η) w(t) in the cell of E,   w = data less their chord
+//! ```
+//! S follows all curved data in a step of time, wherever it is open: L goes linearly in time from that of the step before, as the data
+//! do. It adds k(L − L_old) to what the step leaves of its equation:
+//! ```text
+//!   |∫ k(L − L_old) e| ≤ (Σ k‖L − L_old‖²)^½ ‖k^½ e‖,      ‖v_E‖² = |T|/2 ∫w² on triangles, at most max|J|/3 ∫w² on quads
+//! ```
+//! which is 0 where data do not move. What points of an edge miss of both w counts.
+
+use std::collections::BTreeMap;
+
+use super::cell::Cell;
+use super::curved::{CurvedEdges, points_along};
+use super::deviation::{Deviation, Deviations};
+use signorini_problem::{Problem, Trace};
+use signorini_scene::error::Result;
+use signorini_scene::scene::units::Units;
+use signorini_scene::scene::{Condition, Field};
+
+/// The extensions of a time, and how far they are from those of the step before.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Lifts {
+    /// ‖A^½∇L‖
+    pub energy: f64,
+    /// (Σ k‖L − L_old‖²)^½, 0 outside of steps.
+    pub moved: f64,
+    /// w along the edges on which data may move.
+    pub traces: Vec<Trace>,
+}
+
+impl Lifts {
+    /// Of `problem`, whose materials store u; `curved` are its records.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn new(problem: &Problem, curved: &CurvedEdges) -> Result<Self> {
+        let energy: f64 = curved.records.iter().map(|record| record.energy).sum();
+        let energy = energy.max(0.0).sqrt() + curved.left_out;
+        let deviations = Deviations::at_time(problem, problem.time)?;
+        let moving = deviations.found.iter().filter(|of| may_move(problem, of.edge));
+        let traces: Vec<Trace> = moving.map(trace).collect::<Result<_>>()?;
+        let moved = match &problem.loads.step {
+            Some(step) => {
+                let masses = |cell: usize| step.content(cell);
+                moved(problem, &deviations, [&step.begin.traces, &traces], masses)?
+            }
+            None => 0.0,
+        };
+        Ok(Self { energy, moved, traces })
+    }
+
+    /// From `units` to those that the problem had before.
+    #[must_use]
+    pub fn in_units(self, units: &Units) -> Self {
+        Self {
+            energy: self.energy * units.energy(),
+            moved: self.moved * units.energy(),
+            traces: self.traces.into_iter().map(|trace| trace.in_unit(units.u.recip())).collect(),
+        }
+    }
+}
+
+/// Whether time or an input changes ψ or u_D on an edge.
+fn may_move(problem: &Problem, edge: usize) -> bool {
+    let Some(boundary) = problem.boundary_of(edge) else { return false };
+    let datum = match &boundary.condition {
+        Condition::Dirichlet { value } => value,
+        Condition::Contact { gap, .. } => gap,
+        Condition::Neumann { .. } | Condition::Robin { .. } => return false,
+    };
+    let mut inputs = problem.scene.inputs.iter();
+    let has_input = inputs.any(|input| {
+        let is_own = input.of.value == boundary.name.value;
+        is_own && matches!(input.field.value, Field::Value | Field::Gap)
+    });
+    datum.value.uses_time() || has_input
+}
+
+fn trace(deviation: &Deviation) -> Result<Trace> {
+    let (points, missed) = points_along(deviation)?;
+    let sample = |[t, weight]: [f64; 2]| Ok([t, weight, deviation.at(t)?[0]]);
+    let samples = points.into_iter().map(sample).collect::<Result<_>>()?;
+    Ok(Trace { edge: deviation.edge as u32, samples, missed })
+}
+
+/// (Σ k‖L − L_old‖²)^½ for traces of before and now.
+fn moved(
+    problem: &Problem,
+    deviations: &Deviations,
+    [before, now]: [&[Trace]; 2],
+    content: impl Fn(usize) -> f64,
+) -> Result<f64> {
+    let mut of_cells = BTreeMap::new();
+    let mut edges: Vec<u32> = before.iter().chain(now).map(|trace| trace.edge).collect();
+    edges.sort_unstable();
+    edges.dedup();
+    for edge in edges {
+        let of = |all: &[Trace]| all.iter().position(|trace| trace.edge == edge);
+        let [old, new] = [of(before).map(|at| &before[at]), of(now).map(|at| &now[at])];
+        let root = match (old, new, deviations.on(edge as usize)) {
+            (Some(old), Some(new), Some(deviation)) => apart(old, new, deviation)?,
+            (one, other, _) => one.into_iter().chain(other).map(Trace::size).sum(),
+        };
+        let (cell, _) = problem.topology.first_side(edge as usize);
+        *of_cells.entry(cell).or_insert(0.0) +=
+            (share(problem, cell) * content(cell)).sqrt() * root;
+    }
+    Ok(of_cells.values().fold(0.0_f64, |sum, of| sum.hypot(*of)))
+}
+
+/// (∫(w − w_old)²)^½
+fn apart(old: &Trace, new: &Trace, deviation: &Deviation) -> Result<f64> {
+    let is_same = |(a, b): (&[f64; 3], &[f64; 3])| a[0] == b[0];
+    if old.samples.len() != new.samples.len() || !old.samples.iter().zip(&new.samples).all(is_same)
+    {
+        // What one rule misses of the other's data is not known.
+        return Ok(old.size() + new.size());
+    }
+    let square = |&[t, weight, w]: &[f64; 3]| Ok(weight * (deviation.at(t)?[0] - w).powi(2));
+    let sum: f64 = old.samples.iter().map(square).sum::<Result<f64>>()?;
+    Ok(sum.sqrt() + old.missed.sqrt() + new.missed.sqrt())
+}
+
+/// ‖v_E‖² over |T|∫w² at most.
+fn share(problem: &Problem, at: usize) -> f64 {
+    let cell = Cell::of(problem, at);
+    if cell.corners().len() == 3 {
+        return 0.5;
+    }
+    let element = |[x, y]: [f64; 2]| cell.local([x, y, 0.0]).determinant;
+    let most = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(element);
+    most.into_iter().fold(0.0, f64::max) / (3.0 * element([0.5, 0.5]))
+}
