@@ -29,9 +29,12 @@ fn named<'m>(materials: impl Iterator<Item = &'m Material>) -> String {
     tables.collect::<Vec<_>>().join(", ")
 }
 
-/// Materials of which some store u and some do not.
+/// Materials of cells of which some store u and some do not.
 fn in_parts(problem: &Problem) -> Option<String> {
-    let all = || problem.scene.materials.iter();
+    let has_cell = |number: usize| problem.binding.materials.contains(&(number as u32));
+    let all = problem.scene.materials.iter().enumerate();
+    let all: Vec<_> = all.filter(|(number, _)| has_cell(*number)).map(|(_, of)| of).collect();
+    let all = || all.iter().copied();
     let without = named(all().filter(|material| !material.stores()));
     (!without.is_empty()).then(|| {
         let with = named(all().filter(|material| material.stores()));

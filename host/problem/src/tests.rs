@@ -300,5 +300,9 @@ fn what_may_not_be_meant_of_a_capacity_is_said() -> Result<()> {
         "{short:?}"
     );
     assert_eq!(short.len(), 1);
+    let rest = "2\"\n[output.rest]\nkind = \"content\"\nof = \"default\"\n[material.default]\nconductivity = 1\n\
+                capacity = \"1";
+    let idle = stored("1", rest, 1.0)?;
+    assert_eq!(idle[0], "[output.rest] is about no cell that counts in [material.default]");
     Ok(())
 }

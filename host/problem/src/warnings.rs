@@ -1,5 +1,6 @@
 //! Warnings on a scene and its mesh: what may not be meant, though it is no error.
 
+use super::functional::of_cells;
 use super::solvability::floating;
 use super::stored;
 use super::{EdgeKind, Problem};
@@ -13,6 +14,7 @@ pub(super) fn warnings(problem: &Problem) -> Vec<String> {
         .chain(floating(problem))
         .chain(idle_default(problem))
         .chain(idle_loads(problem))
+        .chain(idle_contents(problem))
         .chain(stored::warnings(problem))
         .collect()
 }
@@ -71,6 +73,16 @@ fn idle_loads(problem: &Problem) -> Vec<String> {
         format!("[{}] is about no edge: [boundary.{}] covers none", name.key, of.value)
     })
     .collect()
+}
+
+/// Contents and means over materials without a cell, or without one that stores u.
+fn idle_contents(problem: &Problem) -> impl Iterator<Item = String> {
+    let inside = problem.scene.outputs.iter().filter(|output| output.quantity.is_inside());
+    let idle = inside.filter(|output| of_cells(problem, output).iter().all(|w| *w == 0.0));
+    idle.map(|output| {
+        let place = output.place("the domain", |name| format!("[material.{name}]"));
+        format!("[{}] is about no cell that counts in {place}", output.name.key)
+    })
 }
 
 /// Whether a boundary of the scene covers no edge; only a default can.
