@@ -101,7 +101,7 @@ pub fn of_answer(problem: &Problem, answer: &Answered) -> BTreeMap<String, Found
 #[derive(Default)]
 pub struct Lasting {
     /// The factor of its matrix.
-    factor: Option<SharedFactor>,
+    factor: Option<Box<SharedFactor>>,
     /// ∫h of the laws of transfer in it.
     transfers: Vec<f64>,
     /// z and ζ of the outputs by their names, where there is no contact.
@@ -117,7 +117,7 @@ impl Lasting {
         let laws = problem.loads.robin.iter();
         let transfers: Vec<f64> = laws.map(|law| law.coefficient).collect();
         if self.factor.is_none() || self.transfers != transfers {
-            let factor = SharedFactor::of(problem)?;
+            let factor = SharedFactor::of(problem)?.map(Box::new);
             *self = Self { factor, transfers, weights: Mutex::default() };
         }
         Ok(())

@@ -119,7 +119,8 @@ impl<'p> Residual<'p> {
         let cells: BTreeSet<usize> = deviations.found.iter().map(cell).collect();
         let lifted = cells.into_iter().map(|at| Ok((at, gradients(problem, &s, deviations, at)?)));
         let lifted = lifted.collect::<Result<_>>()?;
-        Ok(Self { problem, s, laws: None, deviations, lifted, stored: Stored::of(problem) })
+        let stored = Stored::of(problem, answer.scalar);
+        Ok(Self { problem, s, laws: None, deviations, lifted, stored })
     }
 
     /// These with other fluxes through the edges of transfer laws, in their order.

@@ -14,9 +14,10 @@ use signorini_certify::stored::stored_cells;
 use signorini_problem::field::CellField;
 use signorini_problem::quadrature::{DATA_POINTS, Point, gauss};
 use signorini_problem::{Problem, Step};
+use signorini_solve::ScalarKind;
 
-/// Roundings of the terms of a sum over a point.
-const ROUNDINGS: f64 = 32.0 * f64::EPSILON;
+/// Roundings of the terms of a sum over a cell.
+const ROUNDINGS: f64 = 32.0;
 
 /// What the cells of a step store.
 pub(super) struct Stored<'p> {
@@ -24,6 +25,8 @@ pub(super) struct Stored<'p> {
     step: &'p Step,
     /// k|T| of each cell, and k/(k + π²α/h²).
     cells: Vec<[f64; 2]>,
+    /// What the scalar of s and τ rounds of the terms of R: a cell that is in balance but for that counts as such.
+    rounding: f64,
 }
 
 /// R and R_z at a point of a cell, z there, the size of what R is summed from, and the area that they stand for.
@@ -37,11 +40,11 @@ struct AtPoint {
 
 impl<'p> Stored<'p> {
     /// Of a step; nothing where the problem is none.
-    pub fn of(problem: &'p Problem) -> Option<Self> {
+    pub fn of(problem: &'p Problem, scalar: ScalarKind) -> Option<Self> {
         let step = problem.loads.step.as_ref()?;
         let cells = stored_cells(problem, step, &vec![0.0; problem.cells()]);
         let cells = cells.into_iter().map(|of| [of.content, of.shed]).collect();
-        Some(Self { problem, step, cells })
+        Some(Self { problem, step, cells, rounding: ROUNDINGS * scalar.epsilon() })
     }
 
     /// The products of cell `at` for s and τ, z and ζ.
@@ -58,12 +61,14 @@ impl<'p> Stored<'p> {
         let k = content / area;
         let [residual, of_z] = [sum(&|at| at.residual), sum(&|at| at.of_z)].map(|x| x / area);
         let inside = sum(&|at| (at.of_z - of_z).powi(2)) / k;
-        let terms = |at: &AtPoint| at.terms * (at.z.abs() + of_z.abs() / k);
+        let rounded = self.rounding * sum(&|at| at.terms) / area;
+        let surely = (residual.abs() - rounded).max(0.0);
+        let terms = |at: &AtPoint| at.terms * at.z.abs();
         Products {
-            residual: area * residual * residual / k,
+            residual: area * surely * surely / k,
             weights: area * of_z * of_z / k,
             both: 2.0 * sum(&|at| at.residual * at.z) + area * residual * of_z / k,
-            off: ROUNDINGS * sum(&terms),
+            off: ROUNDINGS * f64::EPSILON * sum(&terms) + area * rounded * of_z.abs() / k,
             sizes: [sum(&|at| k * at.z * at.z), sum(&|at| (k * at.z + at.of_z).powi(2) / k)],
             inside: [inside, shed * inside],
         }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::columns::bounds_csv;
 use super::{Budget, ScheduledTick, TickRecord, play, replay};
 use signorini_bake::choice::{Choice, Model, Wanted};
 use signorini_bake::compiled::printed;
@@ -255,5 +256,56 @@ fn the_content_follows_the_balance_of_its_steps() -> Result<()> {
         let balance = 0.1 * (loads + of(after, 5));
         assert!((stored - balance).abs() < 1e-3 * stored.abs().max(0.1), "{stored} {balance}");
     }
+    Ok(())
+}
+
+/// A plate that cools above a heater, `a` times as conductive and as heavy as another one.
+fn cooling(a: f64) -> Result<Vec<TickRecord>> {
+    let text = format!(
+        r#"
+mesh = "grid"
+material.default = {{ conductivity = "{a:?}", capacity = "{a:?}" }}
+source.f = "0"
+boundary.dirichlet = {{ kind = "robin", coefficient = "{:?}", ambient = "-8*x - 4*t" }}
+boundary.left = {{ kind = "dirichlet", value = "2" }}
+boundary.right = {{ kind = "dirichlet", value = "2" }}
+boundary.contact = {{ kind = "contact", gap = "0", flux = "0" }}
+time = {{ step = 0.1, end = 0.4 }}
+output.skin = {{ kind = "mean", of = "contact" }}
+output.inside = {{ kind = "probe", at = [0.21, 0.37] }}
+output.out = {{ kind = "flux", of = "dirichlet" }}
+"#,
+        20.0 * a
+    );
+    let (scene, problem) = on_grid(&text, grid(4, Cells::Mixed))?;
+    let moments: Vec<_> =
+        [0.1, 0.2, 0.3].map(|time| ScheduledTick { time, inputs: Vec::new() }).into();
+    let ticks = play(&problem, None, &moments, &Budget::of(&scene), |_, _| Ok(()))?;
+    let names = String::from_utf8(bounds_csv(&scene, &ticks).expect("a table")).expect("text");
+    let header = "t,skin_step_least,skin_step_most,inside_cell_step_least,inside_cell_step_most";
+    assert!(names.starts_with(header), "{names}");
+    Ok(ticks)
+}
+
+#[test]
+fn intervals_of_steps_are_those_of_any_units() -> Result<()> {
+    let (plain, heavy) = (cooling(1.0)?, cooling(1e9)?);
+    let mut found = 0;
+    for (plain, heavy) in plain.iter().zip(&heavy) {
+        for (at, unit) in [1.0, 1.0, 1e9].into_iter().enumerate() {
+            let [Some(Ok(plain)), Some(Ok(heavy))] =
+                [plain, heavy].map(|tick| tick.intervals.get(at))
+            else {
+                continue;
+            };
+            found += 1;
+            for (plain, heavy) in plain.iter().zip(heavy) {
+                let off = (plain - heavy / unit).abs();
+                assert!(off < 1e-6 * (plain.abs() + 1.0), "{at}: {plain} {heavy}");
+            }
+        }
+    }
+    // The start has none.
+    assert_eq!(found, 9);
     Ok(())
 }

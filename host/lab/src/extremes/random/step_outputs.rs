@@ -8,7 +8,7 @@ use signorini_problem::Problem;
 use signorini_problem::field::CellField;
 use signorini_problem::functional::Functional;
 use signorini_problem::quadrature::gauss;
-use signorini_scene::mesh::structured::{Cells, Trapezoids, grid, trapezoids};
+use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{Curve, Mesh};
 use signorini_scene::scene::Scene;
 use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
@@ -99,9 +99,13 @@ fn check(scene: &Scene, mesh: Mesh, scalar: ScalarKind, sweeps: Option<u32>, of:
             continue;
         };
         let output = scene.outputs.iter().find(|output| output.name.value == name).unwrap();
-        let [value, slack] = match Functional::of(&problem, output).unwrap() {
-            Functional::Probe(cell, _) => [mean_over(&problem, cell, (&fine, &truth)), 0.0],
-            _ => its[&name].as_ref().map_or([f64::NAN; 2], |of| [of.center, of.plus_minus]),
+        let [value, slack] = match (Functional::of(&problem, output).unwrap(), &its[&name]) {
+            (Functional::Probe(cell, _), _) => [mean_over(&problem, cell, (&fine, &truth)), 0.0],
+            (_, Ok(finer)) => [finer.center, finer.plus_minus],
+            (_, Err(why)) => {
+                println!("  {of} {name} on the finer mesh: {why}");
+                continue;
+            }
         };
         let off = (value - center).abs();
         println!(
@@ -109,7 +113,7 @@ fn check(scene: &Scene, mesh: Mesh, scalar: ScalarKind, sweeps: Option<u32>, of:
             plus_minus / off
         );
         assert!(
-            !(off - slack > plus_minus),
+            off - slack <= plus_minus,
             "{of} {name}: {value} ± {slack}, {center} ± {plus_minus}"
         );
         ratios.push(plus_minus / off);
@@ -128,6 +132,38 @@ fn intervals_of_steps_hold_at_every_step_length() {
     }
 }
 
+/// Half of the domain may store nothing, sweeps may end anywhere, and contact alone may hold the domain.
+#[test]
+fn intervals_of_steps_hold_with_limits_layers_and_few_sweeps() {
+    let layer = "(1 + sign(y - 0.5))/2";
+    let layers = format!("conductivity = \"1 - 0.9*{layer}\"\ncapacity = \"1 + 19*{layer}\"");
+    let none_below = format!("conductivity = 1\ncapacity = \"{layer}\"");
+    let mut ratios = Vec::new();
+    for (name, material, contact, left) in [
+        ("limits", PLAIN, "limit = 0.8", HELD),
+        ("both", PLAIN, "flux = -0.4\nlimit = 0.4", ROBIN),
+        ("layers", &layers, "", HELD),
+        ("none below", &none_below, "limit = 0.8", ROBIN),
+        ("moving gap", PLAIN, "gap = \"0.1*sin(1e3*t)\"", WALL),
+    ] {
+        let meshes = [
+            grid(4, Cells::Triangles),
+            grid(4, Cells::Mixed),
+            trapezoids(4, Trapezoids::Everywhere),
+        ];
+        for (number, mesh) in meshes.into_iter().enumerate() {
+            for (dt, sweeps) in [(1e-4, Some(1)), (1e-2, None), (1e-2, Some(3)), (1.0, Some(10))] {
+                let scene = scene(dt, material, contact, left);
+                let of = format!("{name} {number} dt {dt:e} {sweeps:?}");
+                ratios.extend(check(&scene, mesh.clone(), ScalarKind::F64, sweeps, &of));
+            }
+        }
+    }
+    ratios.sort_by(f64::total_cmp);
+    println!("{} intervals, median {}", ratios.len(), ratios[ratios.len() / 2]);
+    assert!(ratios.len() > 250 && ratios[ratios.len() / 2] < 60.0, "{ratios:?}");
+}
+
 /// A long step is the steady problem.
 #[test]
 fn intervals_of_long_steps_are_those_of_the_steady_problem() {
@@ -140,11 +176,16 @@ fn intervals_of_long_steps_are_those_of_the_steady_problem() {
         let at_rest = solve(&steady, &options).unwrap();
         let expected = of_answer(&steady, &(&at_rest).into());
         for (name, found) in of_answer(&step, &(&answer).into()) {
-            let [found, expected] = [found, expected[&name].clone()].map(|found| found.unwrap());
+            let (found, expected) = match (found, expected[&name].clone()) {
+                (Ok(found), Ok(expected)) => (found, expected),
+                (found, expected) => {
+                    assert_eq!(found, expected);
+                    continue;
+                }
+            };
             let by = (found.center - expected.center)
                 .abs()
                 .max((found.plus_minus - expected.plus_minus).abs());
-            println!("{cells:?} {name}: {found:?} {expected:?}");
             assert!(by < 1e-6 * expected.plus_minus, "{cells:?} {name}: {found:?} {expected:?}");
         }
     }
