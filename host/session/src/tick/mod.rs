@@ -137,7 +137,8 @@ fn play_in<R: Scalar>(
         problem = start.stepping(given)?;
         evolution = start.evolution;
         if budget.shows_start {
-            ticks.push(told(&start, &mut done)?);
+            ticks.push(TickRecord::of_start(&start)?);
+            done(&ticks[0], Some(&start.solution))?;
         }
     }
     let Some(parts) = begun(&mut problem, moments)? else {
@@ -195,7 +196,8 @@ pub fn replay(
         if let Some(start) = Start::of(&problem, first)? {
             problem = start.stepping(&problem)?;
             if shows_start {
-                ticks.push(told(&start, &mut done)?);
+                ticks.push(TickRecord::of_start(&start)?);
+                done(&ticks[0], Some(&start.solution))?;
             }
         }
         let intervals = Intervals::Weighed(module);
@@ -203,17 +205,6 @@ pub fn replay(
         ticks.extend(play.through(&problem, moments, done)?);
         Ok((module.name.clone(), ticks))
     })
-}
-
-/// The record of a start, once it is told.
-fn told(
-    start: &Start,
-    done: &mut impl FnMut(&TickRecord, Option<&Solution>) -> Result<()>,
-) -> Result<TickRecord> {
-    let record = TickRecord::of(&start.problem, &start.solution)?;
-    let record = record.with_window(start.evolution.as_ref());
-    done(&record, Some(&start.solution))?;
-    Ok(record)
 }
 
 /// Brings `problem` to the first moment at which it has a solution, where its session begins; the kinds of its parts. `None` where

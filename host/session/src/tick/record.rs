@@ -8,7 +8,7 @@ use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_solve::outputs::{Reading, declared};
-use signorini_solve::{Ending, Solution};
+use signorini_solve::{Ending, Solution, Start};
 
 use signorini_device::codes::Refusal;
 use signorini_kernel::report::Ended;
@@ -70,6 +70,12 @@ impl TickRecord {
             outputs: outputs(problem, solution, bound)?,
             intervals: Vec::new(),
         })
+    }
+
+    /// The row of a start.
+    pub(super) fn of_start(start: &Start) -> Result<Self> {
+        let record = Self::of(&start.problem, &start.solution)?;
+        Ok(record.with_window(start.evolution.as_ref()))
     }
 
     /// With what is known of the evolution until then.
