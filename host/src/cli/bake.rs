@@ -130,10 +130,11 @@ impl Arguments {
         };
         let Emitted { source, chosen } = &emitted;
         if let Some(promise) = promise {
-            note(&of_the_box(
-                promise.goal,
-                chosen.ranges.and_then(|ranges| ranges.largest_error_bound),
-            ));
+            let proved = chosen.ranges.and_then(|ranges| ranges.largest_error_bound);
+            note(&match scene.stores() {
+                true => OF_STEPS.to_owned(),
+                false => of_the_box(promise.goal, proved),
+            });
         }
         if let Some(folder) = &self.c {
             self.machines().try_for_each(|on| match self.board.len() {
@@ -177,7 +178,7 @@ impl Arguments {
         })?;
         if let Some(promise) = promise {
             let all = promise.allowed.len();
-            if ticked < all {
+            if ticked < all && !problem.scene.stores() {
                 note(&format!(
                     "the controller's own bound was tried with {ticked} of these {all} inputs"
                 ));
@@ -202,6 +203,10 @@ impl Arguments {
         Ok(emit(problem, &choice))
     }
 }
+
+/// A promised error where ticks are steps in time.
+const OF_STEPS: &str =
+    "setting.error has made the mesh for the steady state; nothing is promised of steps in time";
 
 /// Whether a promised error holds for all inputs within their ranges, and not only for those tried.
 fn of_the_box(goal: Goal, proved: Option<f64>) -> String {
