@@ -39,7 +39,7 @@ pub trait Real: Field + Copy + Default + 'static {
     fn rounded_sqrt(self) -> Self;
 
     /// The bits of the number.
-    fn bits(self) -> u64;
+    fn as_bits(self) -> u64;
 
     /// Neither infinite nor NaN.
     fn finite(self) -> bool;
@@ -78,7 +78,7 @@ macro_rules! real {
                 count as Self
             }
 
-            fn bits(self) -> u64 {
+            fn as_bits(self) -> u64 {
                 u64::from(self.to_bits())
             }
 

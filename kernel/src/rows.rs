@@ -225,15 +225,17 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Rows<'a, R, I, WIDTH> {
             }
         }
         if features::LIMITED {
-            self.soften(edges, stiffness, omega);
+            self.soften(edges, stiffness, diagonal.of_step(), omega);
         }
         Ok(())
     }
 
-    /// ω / K_ii of the contact edges.
-    fn soften(&mut self, edges: &Edges<I>, stiffness: Stiffness<R>, omega: R) {
+    /// ω / K_ii of the contact edges; `stored` is what K_ii has beyond the element matrices there, in a step of time.
+    fn soften(&mut self, edges: &Edges<I>, stiffness: Stiffness<R>, stored: &[R], omega: R) {
         for (edge, row) in self.rows.iter_mut().enumerate().skip(self.counts.free) {
-            row.soften(omega / stiffness.of_boundary_edge(edges, edge));
+            let own = stiffness.of_boundary_edge(edges, edge);
+            let own = if features::STORAGE { own + read(stored, edge) } else { own };
+            row.soften(omega / own);
         }
     }
 

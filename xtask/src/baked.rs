@@ -28,6 +28,8 @@ pub struct Recipe {
     pub model: Option<String>,
     /// `NAME=VALUE`, as they were given.
     pub inputs: Vec<String>,
+    /// Another length of a step in time.
+    pub step: Option<String>,
     /// Whether edges that never change sides are kept.
     pub full_edges: bool,
 }
@@ -67,6 +69,7 @@ impl Recipe {
             scalar: Some("f32".to_owned()),
             model: Some(model.to_owned()),
             inputs: Vec::new(),
+            step: None,
             full_edges: false,
         }
     }
@@ -80,6 +83,7 @@ impl Recipe {
         let scalar = self.scalar.iter().map(|scalar| format!("_{scalar}"));
         let inputs = self.inputs.iter().map(|input| format!("_{input}"));
         let edges = self.full_edges.then(|| "--full-edges".to_owned());
+        let edges = edges.into_iter().chain(self.step.iter().map(|step| format!("_dt{step}")));
         let asked: String = scalar.chain(self.model.clone()).chain(inputs).chain(edges).collect();
         let name = format!("{}-{:08x}{asked}", self.scene_name(), self.place());
         name.replace(['/', '\\'], "_")
@@ -102,6 +106,9 @@ impl Recipe {
         }
         if self.full_edges {
             command.arg("--full-edges");
+        }
+        if let Some(step) = &self.step {
+            command.args(["--step", step]);
         }
         for input in &self.inputs {
             command.args(["--input", input]);

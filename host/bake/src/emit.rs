@@ -44,6 +44,7 @@ pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Emitted {
         instructions: candidate.needs.instructions(),
         ranges: ranges.filter(|_| ranges::declared(&problem.scene)),
         worst_case,
+        step: problem.scene.time.as_ref().filter(|_| problem.scene.stores()).map(|time| time.step),
         outputs: wanted(&problem.scene).iter().map(described).collect(),
         without_interval: known.weighed.iter().map(|of| of.as_ref().err().cloned()).collect(),
     };

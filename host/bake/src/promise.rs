@@ -66,7 +66,8 @@ pub fn kept<R: Scalar>(
 /// # Errors
 /// The bound that it has instead, with the inputs.
 pub fn check<R: Scalar>(scene: &Scene, choice: &Choice<R>, promise: &Promise) -> Result<usize> {
-    if scene.setting.is_some_and(|setting| !setting.certificate) {
+    // The mesh is that of the steady state, and bounds of steps are others.
+    if scene.setting.is_some_and(|setting| !setting.certificate) || scene.stores() {
         return Ok(0);
     }
     let ticks = match &choice.candidates[choice.chosen].model {

@@ -21,6 +21,9 @@ pub struct Chosen {
     pub ranges: Option<Ranges>,
     /// The worst case, which no tick exceeds.
     pub worst_case: WorstCase,
+    /// The length of a step, of a model that steps in time.
+    #[serde(default)]
+    pub step: Option<f64>,
     /// The meaning of each output.
     #[serde(default)]
     pub outputs: Vec<String>,

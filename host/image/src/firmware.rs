@@ -71,6 +71,10 @@ pub struct Firmware {
     pub stack_bytes: u64,
     /// How many ticks there were.
     pub ticks: usize,
+    /// The length of a step, of a model that steps in time.
+    pub step: Option<f64>,
+    /// States of a condensed model in time; 0 of others.
+    pub memory: u32,
     /// Features that the kernel was built with.
     pub kernel_features: Vec<String>,
     /// The sides of the contact edges, as the bake says.
@@ -125,6 +129,8 @@ impl Firmware {
             flash_bytes: statics.flash(),
             stack_bytes: stack,
             ticks: TICKS,
+            step: module.chosen.step,
+            memory: 0,
             kernel_features: module.chosen.kernel_features.clone(),
             ranges: module.chosen.ranges,
             worst_case: module.chosen.worst_case,

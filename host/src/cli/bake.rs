@@ -6,6 +6,7 @@ use clap::{ArgGroup, Args};
 
 use super::bake_c;
 use super::scene_arguments::{promised_problem_of, scene_at};
+use super::tick::{length_of_step, step_by};
 use super::write_beside;
 use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::emit::{Emitted, emit};
@@ -34,6 +35,8 @@ and win over the scene's [setting]. A full model is solved by sweeps or by a fac
 a condensed one by exchanges to the exact solution, where they are proved to end, else by these \
 or by sweeps to a tolerance: whichever takes fewer instructions for inputs drawn from their \
 ranges. setting.solver asks for one of them: sweeps, factor, exact.
+
+Where a material has a capacity, a tick is a step in time of length time.step: the full model alone does so.
 
 With error = \"5%\" in [setting] the mesh is refined first, until the error bound is that small for \
 the default inputs, all corners of their ranges and 1000 inputs drawn from them. An error without \
@@ -101,6 +104,9 @@ pub struct Arguments {
     /// Scalar type of the firmware [default: the scene's setting.scalar, else f32]
     #[arg(long, value_enum)]
     scalar: Option<ScalarKind>,
+    /// Another length of a step in time than the scene's time.step, in seconds
+    #[arg(long, value_name = "DT", value_parser = length_of_step, allow_negative_numbers = true)]
+    step: Option<f64>,
     /// Another default of an input; repeatable
     #[arg(long, value_name = "NAME=VALUE")]
     input: Vec<String>,
@@ -113,7 +119,8 @@ fn known_machines() -> [&'static str; MACHINES.len()] {
 
 impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
-        let scene = scene_at(&self.scene, &self.input)?;
+        let mut scene = scene_at(&self.scene, &self.input)?;
+        step_by(&mut scene, self.step);
         let (problem, promise) = promised_problem_of(&scene)?;
         let promise = promise.as_ref();
         warn(&problem.warnings);
@@ -123,10 +130,11 @@ impl Arguments {
         };
         let Emitted { source, chosen } = &emitted;
         if let Some(promise) = promise {
-            note(&of_the_box(
-                promise.goal,
-                chosen.ranges.and_then(|ranges| ranges.largest_error_bound),
-            ));
+            let proved = chosen.ranges.and_then(|ranges| ranges.largest_error_bound);
+            note(&match scene.stores() {
+                true => OF_STEPS.to_owned(),
+                false => of_the_box(promise.goal, proved),
+            });
         }
         if let Some(folder) = &self.c {
             self.machines().try_for_each(|on| match self.board.len() {
@@ -170,7 +178,7 @@ impl Arguments {
         })?;
         if let Some(promise) = promise {
             let all = promise.allowed.len();
-            if ticked < all {
+            if ticked < all && !problem.scene.stores() {
                 note(&format!(
                     "the controller's own bound was tried with {ticked} of these {all} inputs"
                 ));
@@ -195,6 +203,10 @@ impl Arguments {
         Ok(emit(problem, &choice))
     }
 }
+
+/// A promised error where ticks are steps in time.
+const OF_STEPS: &str =
+    "setting.error has made the mesh for the steady state; nothing is promised of steps in time";
 
 /// Whether a promised error holds for all inputs within their ranges, and not only for those tried.
 fn of_the_box(goal: Goal, proved: Option<f64>) -> String {

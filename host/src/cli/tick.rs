@@ -86,7 +86,17 @@ pub struct Arguments {
     vtu: bool,
 }
 
-fn length_of_step(text: &str) -> std::result::Result<f64, String> {
+/// Gives `scene` another length of a step, where there is one.
+pub(super) fn step_by(scene: &mut Scene, step: Option<f64>) {
+    if let Some(step) = step {
+        let time = scene.time.take();
+        let (end, initial) = time.map_or((None, None), |time| (time.end, time.initial));
+        scene.time = Some(Time { step, end, initial });
+    }
+}
+
+/// Reads the length of a step.
+pub(super) fn length_of_step(text: &str) -> std::result::Result<f64, String> {
     match super::solve::tolerance(text) {
         Ok(step) if step > 0.0 => Ok(step),
         _ => Err("expected a finite number > 0, such as 0.1".to_owned()),
@@ -99,11 +109,7 @@ const MOST_INTERVALS: usize = 300_000;
 impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let mut scene = self.place.scene()?;
-        if let Some(step) = self.step {
-            let time = scene.time.take();
-            let (end, initial) = time.map_or((None, None), |time| (time.end, time.initial));
-            scene.time = Some(Time { step, end, initial });
-        }
+        step_by(&mut scene, self.step);
         if !self.baked {
             check_ticks(&scene, self.scalar.is_some())?;
         }

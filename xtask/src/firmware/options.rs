@@ -26,7 +26,7 @@ pub const HELP: &str = "\
 Usage: cargo xtask firmware SCENE.toml [OPTIONS]
 
 Bakes a scene, puts it on an emulated board, plays 101 ticks there and on this machine, and compares them bit
-for bit. Tick 1 has all inputs at their defaults, from a cold start; in each of the others every input is drawn
+for bit. Tick 1 has all inputs at their defaults, from a cold start or, of a scene in time, from its start; in each of the others every input is drawn
 from its range, two of four ticks at a corner of all ranges; without a range from within a tenth of its default
 (±0.1 where that is 0). They are the same on both.
 
@@ -37,6 +37,7 @@ Options:
   --full, --condensed      forces a model, whatever the scene's setting says
   --full-edges             keeps contact edges that never change sides
   --input NAME=VALUE       the default of an input; repeatable
+  --step DT                another length of a step in time than the scene's
   --worst                  looks for the worst tick of a condensed model whose worst case is proved: from every set
                            of open edges where there are 12 or fewer, else from 10 000
   --out DIR                where firmware.json goes [out/SCENE]
@@ -66,7 +67,7 @@ impl Options {
     pub fn parse(words: &[&str]) -> Result<Self, String> {
         let (mut scene, mut scalar, mut model) = (None, None, None);
         let (mut inputs, mut board, mut out) = (Vec::new(), BOARDS[0], None);
-        let (mut full_edges, mut worst) = (false, false);
+        let (mut full_edges, mut worst, mut step) = (false, false, None);
         let mut words = words.iter();
         while let Some(&word) = words.next() {
             let mut value = || words.next().copied().ok_or(format!("{word} takes a value"));
@@ -82,6 +83,7 @@ impl Options {
                 },
                 "--full-edges" => full_edges = true,
                 "--worst" => worst = true,
+                "--step" => step = Some(value()?.to_owned()),
                 "--input" => inputs.push(value()?.to_owned()),
                 "--out" => out = Some(PathBuf::from(value()?)),
                 option if option.starts_with('-') => return Err(format!("no option `{option}`")),
@@ -90,7 +92,7 @@ impl Options {
             }
         }
         let scene = scene.ok_or("no scene given")?;
-        let recipe = Recipe { scene, scalar, model, inputs, full_edges };
+        let recipe = Recipe { scene, scalar, model, inputs, step, full_edges };
         let out = out.unwrap_or_else(|| Path::new("out").join(recipe.scene_name()));
         Ok(Self { recipe, board, out, worst, locates: true })
     }

@@ -38,7 +38,7 @@ const STATES: Machines = Machines::and(&["m4"], &["host"]);
 const KIB: u64 = 1024;
 
 /// Modules: what is condensed, then what is solved on its mesh; the leanest first.
-pub const ROWS: [Row; 20] = [
+pub const ROWS: [Row; 21] = [
     Row {
         scene: "tests/firmware/scenes/linear.toml",
         size: Some(("linear, condensed", 8 * KIB)),
@@ -134,6 +134,8 @@ pub const ROWS: [Row; 20] = [
         c_counted: Some(7),
         ..FULL
     },
+    // Steps in time, with limits and a coefficient that changes.
+    Row { scene: "tests/firmware/scenes/antiicing-warm.toml", is_played: true, ..FULL },
     Row {
         scene: "tests/firmware/scenes/strip-factored.toml",
         is_played: true,

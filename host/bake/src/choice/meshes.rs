@@ -76,6 +76,11 @@ fn candidate<R: Scalar>(problem: &Problem, budget: &Budget, baked: full::Baked<R
     }
 }
 
+/// Instructions of the certificate of a step in time, over those of a steady one. Each look takes two of them, one for each way to
+/// balance cells, and so does the bound of the evolution, with as much for its distances.
+const IN_STEP: f64 = 3.2;
+const OF_EVOLUTION: f64 = 4.0;
+
 /// Ticks of a trial: the median one has number 0, the longest 1.
 struct TickCost<'a, R: Scalar> {
     costs: Costs,
@@ -95,6 +100,9 @@ impl<R: Scalar> TickCost<'_, R> {
         }
         let [certificates, measurements] = looks.map(|look| f64::from(look[of]));
         let last = match self.baked.is_certified() {
+            true if self.problem.loads.step.is_some() => {
+                (2.0 * certificates + OF_EVOLUTION) * IN_STEP * self.of_certificate()?
+            }
             true => certificates * self.of_certificate()?,
             false => self.of_cells("flux by edges")?,
         };

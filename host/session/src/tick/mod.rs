@@ -142,7 +142,8 @@ fn play_in<R: Scalar>(
             error = WindowError::begin(&start, of.seconds())?;
         }
         if budget.shows_start {
-            ticks.push(told(&start, &mut done)?);
+            ticks.push(TickRecord::of_start(&start)?);
+            done(&ticks[0], Some(&start.solution))?;
         }
     }
     let Some(parts) = begun(&mut problem, moments)? else {
@@ -200,7 +201,8 @@ pub fn replay(
         if let Some(start) = Start::of(&problem, first)? {
             problem = start.stepping(&problem)?;
             if shows_start {
-                ticks.push(told(&start, &mut done)?);
+                ticks.push(TickRecord::of_start(&start)?);
+                done(&ticks[0], Some(&start.solution))?;
             }
         }
         let intervals = Intervals::Weighed(module);
@@ -209,18 +211,6 @@ pub fn replay(
         ticks.extend(play.through(&problem, moments, done)?);
         Ok((module.name.clone(), ticks))
     })
-}
-
-/// The record of a start, once it is told.
-fn told(
-    start: &Start,
-    done: &mut impl FnMut(&TickRecord, Option<&Solution>) -> Result<()>,
-) -> Result<TickRecord> {
-    let record = TickRecord::of(&start.problem, &start.solution)?;
-    let window = start.evolution.as_ref().map(Evolution::window);
-    let record = record.with_window(&start.problem.scene, window);
-    done(&record, Some(&start.solution))?;
-    Ok(record)
 }
 
 /// Brings `problem` to the first moment at which it has a solution, where its session begins; the kinds of its parts. `None` where

@@ -1,6 +1,7 @@
 //! One tick as `ticks.csv` has it.
 
 use signorini_certify::ErrorBound;
+use signorini_certify::evolution::Evolution;
 use signorini_certify::exact::distance;
 use signorini_intervals::zero_rounding;
 use signorini_problem::Problem;
@@ -9,7 +10,7 @@ use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::units::Units;
 use signorini_scene::scene::{Quantity, Scene};
 use signorini_solve::outputs::{Reading, declared};
-use signorini_solve::{Ending, Solution};
+use signorini_solve::{Ending, Solution, Start};
 
 use signorini_device::codes::Refusal;
 use signorini_kernel::report::Ended;
@@ -77,6 +78,13 @@ impl TickRecord {
             intervals: Vec::new(),
             over_time: Vec::new(),
         })
+    }
+
+    /// The row of a start.
+    pub(super) fn of_start(start: &Start) -> Result<Self> {
+        let record = Self::of(&start.problem, &start.solution)?;
+        let window = start.evolution.as_ref().map(Evolution::window);
+        Ok(record.with_window(&start.problem.scene, window))
     }
 
     /// With what is known of the evolution until then.

@@ -131,3 +131,97 @@ impl<R: Real> Rates<R> {
         carried.bound * self.of_energy / weights * (R::ONE + R::from_count(4) * R::EPSILON)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rates(rate: f64, length: f64) -> Rates<f64> {
+        let exponent = 2.0 * THETA * rate * length;
+        Rates {
+            fading: (-exponent).exp(),
+            reach: -(-exponent).exp_m1() / (2.0 * THETA * rate),
+            softness: rate.sqrt().recip(),
+            of_energy: (THETA * rate / PHI).sqrt(),
+            of_square: 0.5 / (1.0 - THETA - PHI),
+            seconds: 0.5 / (THETA * rate),
+        }
+    }
+
+    fn narrowed(of: &Rates<f64>) -> Rates<f32> {
+        let up = |x: f64| {
+            let near = x as f32;
+            if f64::from(near) < x { near.next_up() } else { near }
+        };
+        Rates {
+            fading: up(of.fading),
+            reach: up(of.reach),
+            softness: up(of.softness),
+            of_energy: up(of.of_energy),
+            of_square: up(of.of_square),
+            seconds: up(of.seconds),
+        }
+    }
+
+    /// Terms that f32 holds, some with a residual that is best taken over λ and some with one that is not.
+    fn terms(at: u32, length: f32) -> [StepTerms<f32>; 2] {
+        let part = |salt: u32| {
+            let mixed =
+                (at * 2 + salt).wrapping_mul(0x9e37_79b9).rotate_left(13).wrapping_mul(0x85eb_ca6b);
+            (mixed >> 8) as f32 / 16_777_216.0
+        };
+        [0, 1].map(|way| StepTerms {
+            length,
+            distance: [part(way), part(way + 7), part(way + 13)],
+            contact: [0.1 * part(way + 19), 0.1 * part(way + 23)],
+            oscillation: 0.01 * part(way + 29),
+            inside: 0.1 * part(way + 31),
+            residual: [part(way + 37), part(way + 41)],
+        })
+    }
+
+    fn wide(of: &StepTerms<f32>) -> StepTerms<f64> {
+        StepTerms {
+            length: of.length.into(),
+            distance: of.distance.map(f64::from),
+            contact: of.contact.map(f64::from),
+            oscillation: of.oscillation.into(),
+            inside: of.inside.into(),
+            residual: of.residual.map(f64::from),
+        }
+    }
+
+    /// In f32 B and the energy are never below what the formula gives, and near it where the past fades faster than it is rounded.
+    #[test]
+    fn rounding_is_counted_in_either_scalar() {
+        for (rate, length, near) in [(1.0, 1e-4, 1.1), (3.0, 0.25, 1.001), (0.1, 16.0, 1.001)] {
+            let exact = rates(rate, length);
+            let short = narrowed(&exact);
+            let mut known = Carried { bound: 0.0, before: 1.0 };
+            let mut found = Carried { bound: 0.0_f32, before: 1.0 };
+            for at in 0..5000 {
+                let terms = terms(at, length as f32);
+                known = exact.advance(known, &terms.each_ref().map(wide));
+                found = short.advance(found, &terms);
+                let [bound, energy] = [found.bound, short.energy(found)].map(f64::from);
+                assert!(
+                    bound >= known.bound && bound <= near * known.bound,
+                    "{at}: {bound} {known:?}"
+                );
+                assert!(energy >= exact.energy(known), "{at}: {energy}");
+            }
+            assert!(found.before >= known.before as f32);
+        }
+    }
+
+    /// B² falls by e^{−2θλdt} a step where nothing is wrong, and a step without terms leaves no bound.
+    #[test]
+    fn the_past_fades_and_no_terms_are_no_bound() {
+        let of = rates(2.0, 0.5);
+        let quiet = StepTerms { length: 0.5, ..StepTerms::default() };
+        let first = Carried { bound: 3.0, before: 0.0 };
+        let next = of.advance(first, &[quiet]);
+        assert!((next.bound - 3.0 * (-0.1_f64).exp()).abs() < 1e-14, "{next:?}");
+        assert_eq!(of.advance(first, &[]).bound, f64::INFINITY);
+    }
+}

@@ -42,6 +42,7 @@ use signorini_kernel::error::{Array, Error, all_finite, same_length};
 use signorini_kernel::index::{Index, read};
 use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::{Real, features};
+use storing::copy;
 
 /// A baked scene (borrowed).
 #[derive(Debug, Clone, Copy)]
@@ -150,7 +151,7 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         if let Some(storing) = self.storing.get() {
             if report.ended == Ended::NotFinite {
                 // Nothing has advanced.
-                tick.memory().u.copy_from_slice(past.u);
+                copy(past.u, tick.memory().u);
                 return Ok(report);
             }
             if M::CERTIFIES {
@@ -206,7 +207,7 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         }
         memory.active.fill(false);
         if let (false, Some(step)) = (is_cold, data.step.get()) {
-            memory.u.copy_from_slice(step.step.storage.old());
+            copy(step.step.storage.old(), memory.u);
             return;
         }
         memory.u.fill(self.start);

@@ -84,7 +84,7 @@ impl<R: Real, const N: usize> State<R, N> {
 
     /// FNV-1a over the scene, the kind of numbers, and the bits of all, by words.
     fn sum(&self) -> u64 {
-        let words = self.numbers.iter().map(|number| number.bits());
+        let words = self.numbers.iter().map(|number| number.as_bits());
         let first = 0xcbf2_9ce4_8422_2325;
         [self.scene, size_of::<Self>() as u64].into_iter().chain(words).fold(first, |sum, word| {
             // Each step is one-to-one in the word; the rotation lets high bits reach low ones.

@@ -1,6 +1,7 @@
 //! Owned memory of a baked scene: arrays that can be a `static`, or whatever else lends slices. Of any bits it is memory still:
 //! what a reset or a brown-out has left of it may make a tick wrong, and nothing worse.
 
+use super::storing::copy;
 use super::{DataMemory, Full, HandedOn, Lengths, Memory, Numbers, Past, State};
 use crate::tick::{self, Progress};
 use signorini_bound::certificate::Curved;
@@ -184,7 +185,7 @@ impl<R: Real, Rows, Floats, Flags, Fluxes, Laws, Bends>
         // A step begins where the last one has ended.
         let numbers = split(lengths, self.numbers.as_mut())?;
         let [u, ..] = numbers.begin;
-        numbers.u.iter_mut().zip(u).for_each(|(to, from)| *to = *from);
+        copy(u, numbers.u);
         Ok(())
     }
 

@@ -67,7 +67,8 @@ pub struct HandedOn<'a, R> {
     pub carried: &'a mut [R],
 }
 
-fn copy<T: Copy>(from: &[T], to: &mut [T]) {
+/// Copies as much as there is.
+pub(super) fn copy<T: Copy>(from: &[T], to: &mut [T]) {
     to.iter_mut().zip(from).for_each(|(to, &from)| *to = from);
 }
 

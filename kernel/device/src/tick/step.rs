@@ -5,7 +5,7 @@
 
 use super::{Data, Memory, Tick};
 use signorini_bound::certificate::{
-    Buffers, Kept, Motion, Residual, Step, StepTerms, Verdict, certify_step,
+    Buffers, Certificate, Kept, Motion, Residual, Step, StepTerms, Verdict, certify_step,
 };
 use signorini_bound::equilibrium::Iterate;
 use signorini_kernel::law::Law;
@@ -26,6 +26,18 @@ type Judged<R> = (Verdict<R>, Residual<R>);
 /// Less where there is a bound, and a smaller one.
 fn total<R: Real>(of: &Judged<R>) -> R {
     of.0.certificate().map_or(R::INFINITY, |of| of.total)
+}
+
+/// What is handed on stays in τ however long sweeps go on: they remove what fluxes lack without it.
+fn with_algebraic<R: Real>((verdict, residual): Judged<R>, kept: &Judged<R>) -> Judged<R> {
+    let verdict = match (verdict, kept.0.certificate()) {
+        (Verdict::Certified(of), Some(kept)) => {
+            let algebraic = kept.algebraic.or_smaller(of.total);
+            Verdict::Certified(Certificate { algebraic, ..of })
+        }
+        (verdict, _) => verdict,
+    };
+    (verdict, residual)
 }
 
 impl<R: Real, I, const WIDTH: usize> Memory<'_, R, I, WIDTH> {
@@ -90,7 +102,7 @@ impl<R: Real, I: Index, const WIDTH: usize> Tick<'_, R, I, WIDTH> {
         take(self, &handed)?;
         let kept = self.judged(data, Kept::All)?;
         take(self, &kept)?;
-        Ok(if total(&handed) < total(&kept) { handed } else { kept })
+        Ok(if total(&handed) < total(&kept) { with_algebraic(handed, &kept) } else { kept })
     }
 
     #[inline(never)]

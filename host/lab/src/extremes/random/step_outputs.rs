@@ -8,7 +8,7 @@ use signorini_problem::Problem;
 use signorini_problem::field::CellField;
 use signorini_problem::functional::Functional;
 use signorini_problem::quadrature::gauss;
-use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_scene::mesh::structured::{Cells, Trapezoids, grid, trapezoids};
 use signorini_scene::mesh::{Curve, Mesh};
 use signorini_scene::scene::Scene;
 use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
