@@ -13,6 +13,7 @@ use super::conductivity::{Conductivity, apply, dot, inverse, product};
 use super::curved;
 use super::deviation::Deviations;
 use super::exact::distance;
+use super::lifted::Lifts;
 use signorini_problem::field::CellField;
 use signorini_problem::fixtures::{self, SMOOTH};
 use signorini_problem::pointwise::exact_at;
@@ -62,6 +63,7 @@ fn by_hand(problem: &Problem, amount: f64) -> Result<CertifiedFields> {
         indicators: Vec::new(),
         openings: Vec::new(),
         evolution: Vec::new(),
+        lifts: Lifts::default(),
     })
 }
 

@@ -231,6 +231,7 @@ pub(super) mod tests {
             initial: Some("0".to_owned()),
             mesh: grid(6, cells),
             log: (1..=ticks).map(of_tick).collect(),
+            is_affine: true,
             on_line: vec![false],
         };
         let found = judged_over_time(&trajectory).unwrap().windows;

@@ -36,6 +36,8 @@ pub struct Trajectory {
     pub mesh: Mesh,
     /// Values of the inputs at each tick.
     pub log: Vec<Vec<f64>>,
+    /// Whether gaps and values are linear along edges.
+    pub is_affine: bool,
     /// Whether an input goes linearly in a step, or holds its value at the end of it.
     pub on_line: Vec<bool>,
 }
@@ -49,7 +51,8 @@ impl Trajectory {
         let drawn = mesh::draw(&mut random, &plan);
         let frame = Frame { centre: [0.0; 2], length: 1.0 };
         let (text, on_line) = (String::new(), Vec::new());
-        let mut drawing = Drawing { random, frame, text, on_line };
+        let is_affine = random.chance(0.5);
+        let mut drawing = Drawing { random, frame, is_affine, text, on_line };
         let time = drawing.materials(&drawn.mesh);
         let names: Vec<&str> = drawn.mesh.curves.iter().map(|curve| curve.name.as_str()).collect();
         let hold = drawing.boundaries(&names);
@@ -67,6 +70,7 @@ impl Trajectory {
             initial,
             mesh: drawn.mesh,
             log: log(&mut random, on_line.len()),
+            is_affine,
             on_line,
         }
     }
@@ -133,6 +137,7 @@ fn log(random: &mut Random, inputs: usize) -> Vec<Vec<f64>> {
 struct Drawing {
     random: Random,
     frame: Frame,
+    is_affine: bool,
     text: String,
     on_line: Vec<bool>,
 }
@@ -166,7 +171,7 @@ impl Drawing {
     /// A term of this size at most: affine in the place, a wave, or a kink.
     fn bend(&mut self, size: f64) -> String {
         let [a, b] = [0.5; 2].map(|most| size * self.random.between(-most, most));
-        match self.random.below(6) {
+        match if self.is_affine { 2 } else { self.random.below(6) } {
             0 => format!("+{size:e}*sin({:e}*x+3*y)", self.random.between(1.0, 6.0)),
             1 => format!("+{size:e}*(abs(x-{:e})-1)", self.random.between(-0.9, 0.9)),
             _ => format!("+{a:e}*x+{b:e}*y"),

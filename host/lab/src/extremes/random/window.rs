@@ -69,8 +69,8 @@ pub fn judged(case: &Trajectory) -> Result<JudgedTrajectory> {
     let last = &own.answers[ticks];
     let no_bound = last.no_bound.as_ref().map(ToString::to_string);
     // A finer mesh does not hold s_old where that follows curved data.
-    let is_plain = last.certified.lifts.energy == 0.0;
-    let step = (last.bound.is_some() && is_plain).then(|| own.step(case, ticks)).transpose()?;
+    let step =
+        (last.bound.is_some() && case.is_affine).then(|| own.step(case, ticks)).transpose()?;
     let dt = case.step;
     let rate = own.records[1].window.map(|[_, seconds]| dt * 0.5 / (0.1 * seconds));
     let windows = match own.records[1].window {
