@@ -91,7 +91,8 @@ pub(super) fn finer(problem: &Problem, levels: u32) -> Result<Problem> {
     let bubbles: Vec<f64> = (0..finer.ends.len()).map(bubble).collect::<Result<_>>()?;
     let means = bubbles.iter().enumerate().map(|(edge, bubble)| chord(edge) + bubble / 1.5);
     let means: Vec<f64> = means.collect();
-    finer.stepping(step.length, State { u: means, vertices, bubbles, ..State::default() })
+    let begin = State { u: means, vertices, bubbles, ..State::zero(&finer) };
+    finer.stepping(step.length, begin)
 }
 
 #[cfg(test)]
