@@ -10,6 +10,7 @@
 //! ```
 //! for any admissible s and τ, however they were found; the least of all is taken. λ is guaranteed (`signorini_solve::decay`).
 
+use serde::{Deserialize, Serialize};
 use signorini_bound::certificate::Residual;
 use signorini_problem::scalar::Scalar;
 
@@ -60,7 +61,8 @@ impl StepTerms {
 }
 
 /// What is carried: B, and what it began with.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Evolution {
     rate: f64,
     bound: f64,
@@ -121,6 +123,11 @@ impl Evolution {
             false => 1.0 - (-2.0 * THETA * self.rate * self.elapsed).exp(),
         };
         self.bound * (THETA * self.rate / (PHI * weights)).sqrt()
+    }
+
+    /// Whether every step so far had a bound.
+    pub fn is_finite(&self) -> bool {
+        self.bound.is_finite()
     }
 
     /// How far back the mean reaches, in the unit of time: 1/(2θλ).
