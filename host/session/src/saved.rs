@@ -42,11 +42,12 @@ impl SavedSession {
     /// The refusal of this state by a session of another kind.
     pub(crate) fn foreign<T>(&self) -> Result<T> {
         let [own, other] = match self {
-            Self::Tick { .. } => ["ticks that stop by the bound", "--tolerance"],
+            Self::Tick { .. } => ["certified sweeps", "solves to a tolerance"],
             Self::Solve { .. } => ["solves to a tolerance", "certified sweeps"],
         };
-        let message = format!("session: the state is one of {own}, and not of {other}");
-        Err(InputError::new(message).hint("go on with or without --tolerance, as before").into())
+        let message = format!("session: the state is one of {own}, and these ticks are {other}");
+        let hint = "give --tolerance, or leave it out, as in the run before";
+        Err(InputError::new(message).hint(hint).into())
     }
 }
 
