@@ -4,12 +4,12 @@
 //! does and its tick does not; and sweeps in f32 on residuals in f64. A cold session solves each tick from nothing, a warm one
 //! from the last answer, with the relaxation factor found there.
 
+mod sweeps;
+
 use signorini_bound::certificate::Certificate;
 use signorini_certify::{Certified, CertifiedFields, Certifier, Data, ErrorBound, NoBound};
-use signorini_kernel::Error as KernelError;
 use signorini_kernel::relaxation::{Relaxation, Search};
-use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
-use signorini_kernel::solver::{Outcome, Settings, Solver, Status};
+use signorini_kernel::solver::{Outcome, Settings, Status};
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Assembled, Parts, Problem};
 use signorini_scene::error::{InputError, Result};
@@ -18,54 +18,10 @@ use signorini_solve::{Mixed, Options, Solution, read_off, unfit};
 
 use crate::saved::{SavedSession, narrowed, widened};
 use crate::{Session, scalar_kind};
-
-type Refused<T> = std::result::Result<T, KernelError>;
+use sweeps::{Refused, Sweeps};
 
 /// Sweeps before the first certificate, where certificates tell when to end.
 const FIRST: u32 = 16;
-
-/// An assembled problem that can be swept.
-pub(crate) trait Sweeps<'p, R: Scalar> {
-    /// The problem in the scalar of its answers.
-    fn assembled(&self) -> &Assembled<'p, R>;
-
-    /// See [`Sweeps::assembled`]; its loads may change.
-    fn assembled_mut(&mut self) -> &mut Assembled<'p, R>;
-
-    /// Sweeps from where `u` stands.
-    fn run(&mut self, settings: Settings<R>, u: &mut [R]) -> Refused<Outcome<R>>;
-}
-
-impl<'p, R: Scalar> Sweeps<'p, R> for Assembled<'p, R> {
-    fn assembled(&self) -> &Self {
-        self
-    }
-
-    fn assembled_mut(&mut self) -> &mut Self {
-        self
-    }
-
-    fn run(&mut self, settings: Settings<R>, u: &mut [R]) -> Refused<Outcome<R>> {
-        match self.problem().mesh.quads.is_empty() {
-            true => run::<R, TRIANGLES>(self, settings, u),
-            false => run::<R, QUADS>(self, settings, u),
-        }
-    }
-}
-
-impl<'p> Sweeps<'p, f64> for Mixed<'p> {
-    fn assembled(&self) -> &Assembled<'p, f64> {
-        Mixed::assembled(self)
-    }
-
-    fn assembled_mut(&mut self) -> &mut Assembled<'p, f64> {
-        Mixed::assembled_mut(self)
-    }
-
-    fn run(&mut self, settings: Settings<f64>, u: &mut [f64]) -> Refused<Outcome<f64>> {
-        Ok(Mixed::run(self, settings, u)?.outcome)
-    }
-}
 
 /// A solve per tick.
 pub(crate) struct Solves<R: Scalar, S> {
@@ -314,16 +270,4 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Session for Solves<R, S> {
         let read = read.map_err(unfit::<R>(&at.scene))?;
         Ok(Solution { scalar: scalar_kind::<R>(), ..read })
     }
-}
-
-/// Sweeps over rows of `WIDTH` entries until the solve ends.
-fn run<R: Scalar, const WIDTH: usize>(
-    assembled: &Assembled<R>,
-    settings: Settings<R>,
-    u: &mut [R],
-) -> Refused<Outcome<R>> {
-    let system = assembled.system()?;
-    let mut memory = vec![Row::<R, u32, WIDTH>::EMPTY; system.counts().unknowns()];
-    let mut rows = Rows::new(assembled.edges(), &mut memory)?;
-    Solver::<R>::new(settings)?.run(&system, &mut rows, u)
 }

@@ -65,7 +65,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N", conflicts_with = "log", value_parser = clap::value_parser!(u32).range(1..=i64::from(schedule::MOST)))]
     ticks: Option<u32>,
     /// Another length of a tick than the scene's time.step, in seconds
-    #[arg(long, value_name = "DT", value_parser = length_of_step, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DT", value_parser = super::tick_setting::length_of_step, allow_negative_numbers = true)]
     step: Option<f64>,
     /// Most sweeps of one tick [default: 1 000 000]
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..))]
@@ -102,13 +102,6 @@ pub struct Arguments {
     /// Also ticks.pvd, a series for ParaView, and a VTU file each tick in the folder ticks
     #[arg(long)]
     vtu: bool,
-}
-
-fn length_of_step(text: &str) -> std::result::Result<f64, String> {
-    match super::solve::tolerance(text) {
-        Ok(step) if step > 0.0 => Ok(step),
-        _ => Err("expected a finite number > 0, such as 0.1".to_owned()),
-    }
 }
 
 /// Unknowns times ticks up to which intervals of outputs are worked out: some seconds.

@@ -1,8 +1,16 @@
-//! Settings of a scene that its own ticks can follow.
+//! What ticks can follow: the length of a step, and the settings of a scene.
 
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::{Method, ModelKind, Precision, Setting};
+
+/// The length of a step, as the command line has it.
+pub(super) fn length_of_step(text: &str) -> std::result::Result<f64, String> {
+    match super::solve::tolerance(text) {
+        Ok(step) if step > 0.0 => Ok(step),
+        _ => Err("expected a finite number > 0, such as 0.1".to_owned()),
+    }
+}
 
 /// Refuses the first key of `[setting]` that the scene's own ticks, full and swept, cannot follow, instead of
 /// answering for another setting; `scalar_given` where the command line has a scalar of its own.
