@@ -73,8 +73,12 @@ fn steps_in_time_go_on_bit_for_bit() {
             state["units"]
         );
     }
-    // To the end of the scene; what the command line said of inputs stays.
     let scene = body(&folder, "tri", 1.0, "capacity = 2");
+    // What a log said last stays.
+    let first = folder.write("first.csv", "t,heat\n0.01,0\n0.02,3\n");
+    let log = folder.write("log.csv", "t,heat\n0.01,0\n0.02,3\n0.03,3\n");
+    one_of_two(&scene, &folder, [&["--log", &log], &["--log", &first], &["--ticks", "1"]], 0);
+    // To the end of the scene; what the command line said of inputs stays.
     let heat = &["--input", "heat=3"];
     one_of_two(&scene, &folder, [heat, &[heat, &["--ticks", "2"][..]].concat(), &[]], 0);
     assert_eq!(text(folder.path("second/ticks.csv")).lines().count(), 5);

@@ -146,13 +146,13 @@ fn a_tolerance_ends_steps_where_it_says() -> Result<()> {
     for (scalar, tolerance, cells) in [
         (ScalarKind::F64, 1e-12, Cells::Triangles),
         (ScalarKind::F64, 1e-12, Cells::Quads),
-        (ScalarKind::F32, 1e-5, Cells::Triangles),
+        (ScalarKind::F32, 1e-4, Cells::Triangles),
     ] {
         let (off, changes) = off_by(scalar, tolerance, cells)?;
         let what = format!("{scalar:?} to {tolerance:e} on {cells:?}");
         ENDED_STEPS.check_over(&what, off, tolerance);
         // It is the tolerance that ends them, not the default, which goes on to the last digits.
-        assert!(off > 1e-2 * tolerance && changes > 3, "{what}: {off:e}, {changes} changes");
+        assert!(off > 0.1 * tolerance && changes > 3, "{what}: {off:e}, {changes} changes");
     }
     Ok(())
 }
