@@ -14,5 +14,6 @@ mod records;
 mod scales;
 mod settings;
 mod tick;
+mod tick_state;
 mod trade;
 mod warnings;

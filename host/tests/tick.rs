@@ -234,8 +234,14 @@ fn other_units_change_no_digit() {
         let played = |units: Units| {
             let scene = units.inverse().scene(&scene);
             let problem = Problem::new(&scene, mesh.clone()).expect("a problem");
-            let budget =
-                Budget { scalar, sweeps: 20_000, error: 0.0, intervals: false, shows_start: false };
+            let budget = Budget {
+                scalar,
+                sweeps: 20_000,
+                error: 0.0,
+                tolerance: None,
+                intervals: false,
+                shows_start: false,
+            };
             play(&problem, None, &moments, &budget, |_, _| Ok(())).expect("ticks")
         };
         let (near, far) = (played(Units::default()), played(units));
@@ -460,6 +466,7 @@ fn a_coarser_mesh_saves_sweeps_at_the_first_tick() {
             scalar: ScalarKind::F64,
             sweeps: 10_000,
             error: 0.0,
+            tolerance: None,
             intervals: false,
             shows_start: false,
         };

@@ -67,11 +67,14 @@ pub struct Search<R> {
 /// its memory. All zeros before a search.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct KeptSearch<R> {
-    omega: R,
-    /// An ω of 0 is none.
-    best: [R; 2],
-    moves: u32,
-    phase: u32,
+    /// ω of the next sweep.
+    pub omega: R,
+    /// The best ω of this search and its factor; an ω of 0 is none.
+    pub best: [R; 2],
+    /// How often ω has moved.
+    pub moves: u32,
+    /// The number of the phase.
+    pub phase: u32,
 }
 
 impl<R: Real> KeptSearch<R> {

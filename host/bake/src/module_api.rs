@@ -199,25 +199,11 @@ fn dependency(features: &[&str]) -> String {
 /// A number over what the data are made of.
 fn hash(problem: &Problem) -> u64 {
     let mut all = Fingerprint::default();
-    let mut take = |bytes: &[u8]| all.take(bytes);
-    take(problem.scene.text.as_bytes());
-    // A fragment's setting is no part of that text.
-    problem.scene.setting.iter().for_each(|setting| take(format!("{setting:?}").as_bytes()));
-    problem.scene.inputs.iter().for_each(|input| take(&input.default.to_le_bytes()));
+    all.take_scene(&problem.scene);
+    problem.scene.inputs.iter().for_each(|input| all.take(&input.default.to_le_bytes()));
     // The command line may say another one.
     let step = problem.scene.time.as_ref().filter(|_| problem.scene.stores());
-    step.iter().for_each(|time| take(&time.step.to_le_bytes()));
-    let mesh = &problem.mesh;
-    mesh.vertices.as_flattened().iter().for_each(|x| take(&x.to_le_bytes()));
-    let corners = mesh.triangles.as_flattened().iter().chain(mesh.quads.as_flattened());
-    corners.for_each(|vertex| take(&vertex.to_le_bytes()));
-    for surface in &mesh.surfaces {
-        take(surface.name.as_bytes());
-        surface.cells.iter().for_each(|cell| take(&cell.to_le_bytes()));
-    }
-    for curve in &mesh.curves {
-        take(curve.name.as_bytes());
-        curve.edges.as_flattened().iter().for_each(|vertex| take(&vertex.to_le_bytes()));
-    }
+    step.iter().for_each(|time| all.take(&time.step.to_le_bytes()));
+    all.take_mesh(&problem.mesh);
     all.0
 }

@@ -126,6 +126,7 @@ pub fn played(problem: &Problem, steps: &[Vec<f64>]) -> Result<Vec<TickRecord>> 
         scalar: ScalarKind::F64,
         sweeps,
         error: 0.0,
+        tolerance: None,
         intervals: false,
         shows_start: false,
     };

@@ -23,6 +23,7 @@ fn a_bound_is_that_of_the_inputs_of_its_tick() -> Result<()> {
         scalar: ScalarKind::F64,
         sweeps: 10_000,
         error: 0.0,
+        tolerance: None,
         intervals: false,
         shows_start: false,
     };

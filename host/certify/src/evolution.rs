@@ -1,5 +1,6 @@
 //! The bound of the evolution on this machine: [`signorini_bound::certificate::Rates`], whose exponential is worked out here.
 
+use serde::{Deserialize, Serialize};
 use signorini_bound::certificate::{Carried, PHI, Rates, THETA};
 use signorini_problem::scalar::Scalar;
 
@@ -20,12 +21,15 @@ pub fn rates<R: Scalar>(rate: f64, length: f64) -> Rates<R> {
 }
 
 /// What is carried: B, and what it began with.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Evolution {
     /// λ
     pub rate: f64,
-    /// B, and what of the weights falls before the start.
-    pub carried: Carried<f64>,
+    /// B
+    bound: f64,
+    /// What of the weights falls before the start.
+    before: f64,
 }
 
 impl Evolution {
@@ -36,36 +40,45 @@ impl Evolution {
             Some(total) => (((1.0 + PHI / THETA) / rate).sqrt() * total, 0.0),
             None => (error, 1.0),
         };
-        let carried = Carried { bound, before };
-        (rate > 0.0 && bound.is_finite()).then_some(Self { rate, carried })
+        (rate > 0.0 && bound.is_finite()).then_some(Self { rate, bound, before })
     }
 
     /// In a unit of energy norms.
     #[must_use]
     pub fn in_unit(self, unit: f64) -> Self {
-        let Carried { bound, before } = self.carried;
-        Self { carried: Carried { bound: bound / unit, before }, ..self }
+        Self { bound: self.bound / unit, ..self }
+    }
+
+    /// As the kernel carries it.
+    pub fn carried(&self) -> Carried<f64> {
+        Carried { bound: self.bound, before: self.before }
     }
 
     /// Takes in a step, by the best of the ways to balance it. ∞ from a step without terms on.
     pub fn advance(&mut self, terms: &[StepTerms<f64>]) {
         let length = terms.first().map_or(0.0, |terms| terms.length);
-        self.carried = rates(self.rate, length).advance(self.carried, terms);
+        let Carried { bound, before } = rates(self.rate, length).advance(self.carried(), terms);
+        (self.bound, self.before) = (bound, before);
     }
 
     /// The root of the mean of G² with weights that fade by e^{−2θλt} into the past, at most; ∞ where a step had no bound.
     pub fn energy(&self) -> f64 {
-        rates(self.rate, 0.0).energy(self.carried)
+        rates(self.rate, 0.0).energy(self.carried())
     }
 
     /// ‖c^½(u − s)‖ at the end of the last step, at most; ∞ where a step had no bound.
     pub fn distance(&self) -> f64 {
-        self.carried.bound
+        self.bound
     }
 
     /// The energy and how far back it reaches.
     pub fn window(&self) -> [f64; 2] {
         [self.energy(), self.seconds()]
+    }
+
+    /// Whether every step so far had a bound.
+    pub fn is_finite(&self) -> bool {
+        self.bound.is_finite()
     }
 
     /// How far back the mean reaches, in the unit of time: 1/(2θλ).

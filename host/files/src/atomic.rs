@@ -32,6 +32,18 @@ pub fn writable(option: &str, folder: &Path) -> Result<()> {
     Ok(())
 }
 
+/// Refuses a place for a file, named by `option`, that is a folder or would lie in a file.
+///
+/// # Errors
+/// Such a place.
+pub fn writable_file(option: &str, file: &Path) -> Result<()> {
+    if file.is_dir() {
+        let message = format!("{option} {}: is a directory, expected a file", file.display());
+        return Err(InputError::new(message).hint("remove it, or name another place").into());
+    }
+    file.parent().map_or(Ok(()), |folder| writable(option, folder))
+}
+
 fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let target = match fs::metadata(path) {
         Ok(existing) if !existing.is_file() => return fs::write(path, bytes),

@@ -8,6 +8,7 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::storage::Storage;
@@ -22,7 +23,8 @@ use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 
 /// What one step hands on to the next, in the scalar `R`.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct State<R = f64> {
     /// Mean of u over each edge.
     pub u: Vec<R>,
@@ -39,7 +41,8 @@ pub struct State<R = f64> {
 }
 
 /// By how much a gap or a value was off its chord along an edge.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Trace {
     /// The edge.
     pub edge: u32,

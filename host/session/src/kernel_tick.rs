@@ -4,17 +4,18 @@ use signorini_certify::{Certifier, NoBound};
 use signorini_device::tick::{
     CertifiedSweeps, Data, Deadline, IfStoring, Limits, Memory, Progress, Report, Tick,
 };
-use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::relaxation::{KeptSearch, Relaxation};
 use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::{Error as KernelError, Libm, contact};
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Assembled, Parts, Problem};
-use signorini_scene::error::Result;
+use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::units::Units;
 use signorini_solve::{Solution, unfit};
 
 use crate::Session;
 use crate::on_mesh::{self, Arrays};
+use crate::saved::{SavedSession, check_length, narrowed, widened};
 
 struct KernelTick<'p, R: Scalar, const WIDTH: usize> {
     least: &'p Problem,
@@ -27,8 +28,9 @@ struct KernelTick<'p, R: Scalar, const WIDTH: usize> {
     limits: Limits<R>,
     start: Vec<R>,
     memory: Owned<R, WIDTH>,
-    /// `None` before the first tick.
-    last: Option<(Progress<R>, Report<R>)>,
+    progress: Progress<R>,
+    /// Of the last tick here.
+    report: Option<Report<R>>,
 }
 
 /// A session of the kernel's ticks within `limits`, for a problem and the same at its least transfer coefficients. The first
@@ -91,7 +93,19 @@ impl<'p, R: Scalar, const WIDTH: usize> KernelTick<'p, R, WIDTH> {
         let data =
             signorini_certify::Data::new(problem).map_err(|error| error.at_time(problem.time))?;
         let (moving, memory) = (fixed.clone(), Owned::new(problem, u.clone()));
-        Ok(Self { least, fixed, certifier, moving, data, limits, start: u, memory, last: None })
+        let (progress, report) = (Progress::NONE, None);
+        Ok(Self {
+            least,
+            fixed,
+            certifier,
+            moving,
+            data,
+            limits,
+            start: u,
+            memory,
+            progress,
+            report,
+        })
     }
 
     fn advance(&mut self) -> std::result::Result<u32, KernelError> {
@@ -100,9 +114,9 @@ impl<'p, R: Scalar, const WIDTH: usize> KernelTick<'p, R, WIDTH> {
         let unknowns = load.len();
         let rows = Rows::new(&discretization.edges, rows)?;
         let memory = Memory { rows, load, active, vertices, bubbles, tau, u };
-        let mut tick = match self.last {
-            Some((progress, _)) => Tick::resume(discretization, memory, progress)?,
-            None => Tick::new(discretization, memory, Relaxation::for_unknowns(unknowns))?,
+        let mut tick = match self.progress.has_begun() {
+            true => Tick::resume(discretization, memory, self.progress)?,
+            false => Tick::new(discretization, memory, Relaxation::for_unknowns(unknowns))?,
         };
         let forms = self.data.forms();
         let given = self.data.given(&self.moving, forms.as_slice())?;
@@ -110,7 +124,7 @@ impl<'p, R: Scalar, const WIDTH: usize> KernelTick<'p, R, WIDTH> {
         let mut running = tick.begin(Data { given, law, dirichlet, step: IfStoring::NOTHING })?;
         let never = &mut Deadline::never();
         let report = running.advance(CertifiedSweeps(Libm), self.limits, never)?;
-        self.last = Some((tick.progress(), report));
+        (self.progress, self.report) = (tick.progress(), Some(report));
         Ok(report.sweeps)
     }
 }
@@ -129,11 +143,40 @@ impl<R: Scalar, const WIDTH: usize> Session for KernelTick<'_, R, WIDTH> {
 
     fn restart(&mut self) {
         self.memory.u.copy_from_slice(&self.start);
-        self.last = None;
+        (self.progress, self.report) = (Progress::NONE, None);
+    }
+
+    fn saved(&self) -> Option<SavedSession> {
+        let KeptSearch { omega, best, moves, phase } = self.progress.search;
+        self.progress.has_begun().then(|| SavedSession::Tick {
+            u: widened(&self.memory.u),
+            active: self.memory.active.clone(),
+            omega: omega.wide(),
+            best: best.map(R::wide),
+            moves,
+            phase,
+        })
+    }
+
+    fn restore(&mut self, saved: &SavedSession) -> Result<()> {
+        let SavedSession::Tick { u, active, omega, best, moves, phase } = saved else {
+            return saved.foreign();
+        };
+        check_length("session.active", active.len(), self.memory.active.len())?;
+        let numbers = narrowed("session.omega, session.best", &[*omega, best[0], best[1]], 3)?;
+        let [omega, best @ ..] = [0, 1, 2].map(|at| numbers[at]);
+        let search = KeptSearch { omega, best, moves: *moves, phase: *phase };
+        if search.search().is_none() {
+            return Err(InputError::new("session.omega: expected a number in (0, 2)").into());
+        }
+        self.memory.u = narrowed("session.u", u, self.memory.u.len())?;
+        self.memory.active.copy_from_slice(active);
+        self.progress = Progress { search };
+        Ok(())
     }
 
     fn answer(&self, at: &Problem) -> Result<Solution> {
-        let Some((_, report)) = &self.last else { return Ok(Solution::default()) };
+        let Some(report) = &self.report else { return Ok(Solution::default()) };
         let Owned { u, tau, vertices, bubbles, .. } = &self.memory;
         let found =
             on_mesh::answer(report, &Arrays { u, tau, vertices, bubbles }, &Units::default());

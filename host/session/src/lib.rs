@@ -17,11 +17,13 @@ mod kernel_tick;
 mod module;
 mod on_mesh;
 pub mod request;
+mod saved;
 mod setting;
 mod solves;
 pub mod tick;
 
 pub use module::{Module, with_module};
+pub use saved::SavedSession;
 pub use setting::{completed, solve, with_session};
 
 use signorini_problem::Problem;
@@ -49,6 +51,19 @@ pub trait Session {
 
     /// Goes back to the state before the first tick.
     fn restart(&mut self);
+
+    /// What it carries to the next tick; nothing before the first answer, or of a session that is not saved.
+    fn saved(&self) -> Option<SavedSession> {
+        None
+    }
+
+    /// Goes on where a session of the same problem was saved; an error changes nothing.
+    ///
+    /// # Errors
+    /// The state of another kind of session or mesh, numbers that it cannot have left.
+    fn restore(&mut self, saved: &SavedSession) -> Result<()> {
+        saved.foreign()
+    }
 
     /// The answer of the last tick, whose inputs and data were those of `at`; empty before the first.
     ///

@@ -4,67 +4,24 @@
 //! does and its tick does not; and sweeps in f32 on residuals in f64. A cold session solves each tick from nothing, a warm one
 //! from the last answer, with the relaxation factor found there.
 
+mod sweeps;
+
 use signorini_bound::certificate::Certificate;
 use signorini_certify::{Certified, CertifiedFields, Certifier, Data, ErrorBound, NoBound};
-use signorini_kernel::Error as KernelError;
-use signorini_kernel::relaxation::Relaxation;
-use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
-use signorini_kernel::solver::{Outcome, Settings, Solver, Status};
+use signorini_kernel::relaxation::{Relaxation, Search};
+use signorini_kernel::solver::{Outcome, Settings, Status};
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Assembled, Parts, Problem};
-use signorini_scene::error::Result;
+use signorini_scene::error::{InputError, Result};
 use signorini_scene::setting::{Omega, Precision, Setting};
 use signorini_solve::{Mixed, Options, Solution, read_off, unfit};
 
+use crate::saved::{SavedSession, narrowed, widened};
 use crate::{Session, scalar_kind};
-
-type Refused<T> = std::result::Result<T, KernelError>;
+use sweeps::{Refused, Sweeps};
 
 /// Sweeps before the first certificate, where certificates tell when to end.
 const FIRST: u32 = 16;
-
-/// An assembled problem that can be swept.
-pub(crate) trait Sweeps<'p, R: Scalar> {
-    /// The problem in the scalar of its answers.
-    fn assembled(&self) -> &Assembled<'p, R>;
-
-    /// See [`Sweeps::assembled`]; its loads may change.
-    fn assembled_mut(&mut self) -> &mut Assembled<'p, R>;
-
-    /// Sweeps from where `u` stands.
-    fn run(&mut self, settings: Settings<R>, u: &mut [R]) -> Refused<Outcome<R>>;
-}
-
-impl<'p, R: Scalar> Sweeps<'p, R> for Assembled<'p, R> {
-    fn assembled(&self) -> &Self {
-        self
-    }
-
-    fn assembled_mut(&mut self) -> &mut Self {
-        self
-    }
-
-    fn run(&mut self, settings: Settings<R>, u: &mut [R]) -> Refused<Outcome<R>> {
-        match self.problem().mesh.quads.is_empty() {
-            true => run::<R, TRIANGLES>(self, settings, u),
-            false => run::<R, QUADS>(self, settings, u),
-        }
-    }
-}
-
-impl<'p> Sweeps<'p, f64> for Mixed<'p> {
-    fn assembled(&self) -> &Assembled<'p, f64> {
-        Mixed::assembled(self)
-    }
-
-    fn assembled_mut(&mut self) -> &mut Assembled<'p, f64> {
-        Mixed::assembled_mut(self)
-    }
-
-    fn run(&mut self, settings: Settings<f64>, u: &mut [f64]) -> Refused<Outcome<f64>> {
-        Ok(Mixed::run(self, settings, u)?.outcome)
-    }
-}
 
 /// A solve per tick.
 pub(crate) struct Solves<R: Scalar, S> {
@@ -77,6 +34,10 @@ pub(crate) struct Solves<R: Scalar, S> {
     share: Option<f64>,
     /// Whether a tick starts from the last one.
     is_warm: bool,
+    /// Where the first one starts.
+    start: Vec<R>,
+    /// Whether `u` is an answer to start from.
+    is_known: bool,
     u: Vec<R>,
     /// `None` before the first tick.
     outcome: Option<Outcome<R>>,
@@ -106,15 +67,18 @@ pub(crate) fn with_solves<T>(
     }
 }
 
-/// A session of certified warm solves.
+/// A session of certified warm solves. The first starts from the means that `start` leaves in its slice, one per edge.
 ///
 /// # Errors
-/// Numbers that the scalar type cannot hold.
+/// Numbers that the scalar type cannot hold; what `start` fails with.
 pub(crate) fn warm<'p, R: Scalar>(
     problem: &'p Problem,
     settings: Settings<R>,
+    start: impl FnOnce(&mut [R]) -> Result<()>,
 ) -> Result<Box<dyn Session + 'p>> {
-    Ok(Box::new(Solves { is_warm: true, ..swept(problem, settings, true)? }))
+    let mut solves = Solves { is_warm: true, ..swept(problem, settings, true)? };
+    start(&mut solves.start)?;
+    Ok(Box::new(solves))
 }
 
 fn swept<'p, R: Scalar>(
@@ -151,6 +115,8 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Solves<R, S> {
         Ok(Self {
             parts,
             u: swept.assembled().start(),
+            start: swept.assembled().start(),
+            is_known: false,
             swept,
             certifier,
             settings,
@@ -165,14 +131,15 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Solves<R, S> {
     /// Sets u to where the next solve starts.
     fn begin(&mut self) {
         let assembled = self.swept.assembled();
-        let is_known = |outcome: Outcome<R>| outcome.status != Status::NotFinite;
-        match self.is_warm && self.outcome.is_some_and(is_known) {
-            true => {
-                let unknowns = assembled.edges().counts().unknowns();
-                self.u[unknowns..].copy_from_slice(assembled.dirichlet());
-            }
-            false => self.u = assembled.start(),
+        if !self.is_warm {
+            self.u = assembled.start();
+            return;
         }
+        if !self.is_known {
+            self.u.copy_from_slice(&self.start);
+        }
+        let unknowns = assembled.edges().counts().unknowns();
+        self.u[unknowns..].copy_from_slice(assembled.dirichlet());
     }
 
     fn advance(&mut self) -> Refused<u32> {
@@ -184,6 +151,7 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Solves<R, S> {
             Some(share) => self.solve_to(share, settings)?,
         };
         self.outcome = Some(outcome);
+        self.is_known = outcome.status != Status::NotFinite;
         if outcome.status != Status::NotFinite {
             self.omega = Some(outcome.omega);
         }
@@ -270,7 +238,28 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Session for Solves<R, S> {
     }
 
     fn restart(&mut self) {
-        (self.outcome, self.omega) = (None, None);
+        (self.outcome, self.omega, self.is_known) = (None, None, false);
+    }
+
+    fn saved(&self) -> Option<SavedSession> {
+        self.outcome?;
+        let u = if self.is_known { widened(&self.u) } else { Vec::new() };
+        Some(SavedSession::Solve { u, omega: self.omega.map(R::wide) })
+    }
+
+    fn restore(&mut self, saved: &SavedSession) -> Result<()> {
+        let SavedSession::Solve { u, omega } = saved else { return saved.foreign() };
+        let omega = narrowed("session.omega", omega.as_slice(), omega.iter().len())?.pop();
+        let is_one = |omega| Search::checked(Relaxation::Adaptive(omega)).is_ok();
+        if !omega.is_none_or(is_one) {
+            return Err(InputError::new("session.omega: expected a number in [1, 2)").into());
+        }
+        if !u.is_empty() {
+            self.u = narrowed("session.u", u, self.u.len())?;
+            self.is_known = true;
+        }
+        self.omega = omega;
+        Ok(())
     }
 
     fn answer(&self, at: &Problem) -> Result<Solution> {
@@ -281,16 +270,4 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Session for Solves<R, S> {
         let read = read.map_err(unfit::<R>(&at.scene))?;
         Ok(Solution { scalar: scalar_kind::<R>(), ..read })
     }
-}
-
-/// Sweeps over rows of `WIDTH` entries until the solve ends.
-fn run<R: Scalar, const WIDTH: usize>(
-    assembled: &Assembled<R>,
-    settings: Settings<R>,
-    u: &mut [R],
-) -> Refused<Outcome<R>> {
-    let system = assembled.system()?;
-    let mut memory = vec![Row::<R, u32, WIDTH>::EMPTY; system.counts().unknowns()];
-    let mut rows = Rows::new(assembled.edges(), &mut memory)?;
-    Solver::<R>::new(settings)?.run(&system, &mut rows, u)
 }

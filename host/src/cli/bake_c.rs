@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 use super::example::Written;
 use signorini_bake::c::{File, files, name_of};
 use signorini_bake::emit::Emitted;
-use signorini_files::atomic::{writable, write_atomically};
+use signorini_files::atomic::{writable, writable_file, write_atomically};
 use signorini_image::checkout;
 use signorini_image::library::Machine;
 use signorini_problem::Problem;
 use signorini_problem::progress::{note, waiting};
-use signorini_scene::error::{Error, InputError, Result};
+use signorini_scene::error::{Error, Result};
 
 /// Builds them, then writes them all; an example that somebody has changed stays.
 pub(super) fn write(
@@ -58,12 +58,7 @@ fn put(all: &[File], folder: &Path) -> Result<Vec<PathBuf>> {
 
 /// Refuses a place where no file can be.
 fn free(place: &Path) -> Result<()> {
-    writable("--c", place.parent().unwrap_or(Path::new(".")))?;
-    if place.is_dir() {
-        let message = format!("--c: {} is a directory, expected a file", place.display());
-        return Err(InputError::new(message).hint("remove it, or name another directory").into());
-    }
-    Ok(())
+    writable_file("--c", place)
 }
 
 /// What is there now, and how to run it.

@@ -1,15 +1,15 @@
 //! `signorini solve --max-error`: a scene on a mesh that is refined where the error bound says.
 
 use std::path::Path;
-use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 
+use super::interruption::interruption;
 use super::series::Series;
 use signorini_files::atomic::write_atomically;
 use signorini_files::digits::percent_above;
 use signorini_files::fields::{Drawn, picture};
 use signorini_problem::progress::{say, waiting};
-use signorini_scene::error::{Error, InputError, Result};
+use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh::{Mesh, gmsh::write};
 use signorini_scene::scene::Scene;
 use signorini_solve::Solution;
@@ -92,22 +92,4 @@ fn record(level: &Level) -> [String; 7] {
         solution.contact_force.to_string(),
         level.seconds.to_string(),
     ]
-}
-
-/// Becomes true with Ctrl-C, which ends the work after the level at hand; a second one ends the program.
-fn interruption() -> Result<&'static AtomicBool> {
-    static IS: AtomicBool = AtomicBool::new(false);
-    static HANDLER: OnceLock<std::result::Result<(), String>> = OnceLock::new();
-    let handler = || {
-        let handle = || {
-            if IS.swap(true, Ordering::Relaxed) {
-                std::process::exit(130);
-            }
-        };
-        ctrlc::set_handler(handle).map_err(|error| error.to_string())
-    };
-    match HANDLER.get_or_init(handler) {
-        Ok(()) => Ok(&IS),
-        Err(error) => Err(InputError::new(format!("Ctrl-C cannot be handled: {error}")).into()),
-    }
 }

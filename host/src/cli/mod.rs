@@ -5,17 +5,23 @@ mod bake;
 mod bake_c;
 mod example;
 mod extremes;
+mod interruption;
 mod levels;
 mod picture;
 mod scene_arguments;
 mod series;
 mod solve;
 mod tick;
+mod tick_setting;
 mod trade;
+
+use std::path::{Path, PathBuf};
 
 use clap::{Parser, Subcommand};
 
-use signorini_scene::error::Result;
+use signorini_files::atomic::write_atomically;
+use signorini_scene::error::{InputError, Result};
+use signorini_scene::scene::Scene;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -73,20 +79,20 @@ impl Cli {
 }
 
 /// Writes the file that `option` names, unless it is one that the scene is made of.
-fn write_beside(
-    scene: &signorini_scene::scene::Scene,
-    option: &str,
-    output: &std::path::Path,
-    text: &str,
-) -> Result<()> {
+fn write_beside(scene: &Scene, option: &str, output: &Path, text: &str) -> Result<()> {
+    check_beside(scene, option, output)?;
+    write_atomically(output, text.as_bytes())
+}
+
+/// Refuses a file to be written, named by `option`, that the scene is made of.
+fn check_beside(scene: &Scene, option: &str, output: &Path) -> Result<()> {
     let own = [&scene.path, &scene.mesh.value].into_iter().chain(&scene.fragment);
-    let is_own = |place: &std::path::PathBuf| {
+    let is_own = |place: &PathBuf| {
         own.clone().any(|file| file.canonicalize().is_ok_and(|file| file == *place))
     };
     if output.canonicalize().as_ref().is_ok_and(is_own) {
         let message = format!("{option} {}: the scene is made of this file", output.display());
-        let hint = "name another file to write";
-        return Err(signorini_scene::error::InputError::new(message).hint(hint).into());
+        return Err(InputError::new(message).hint("name another file to write").into());
     }
-    signorini_files::atomic::write_atomically(output, text.as_bytes())
+    Ok(())
 }

@@ -37,6 +37,11 @@ impl SceneArguments {
         Ok(scene)
     }
 
+    /// Sets the inputs that the command line names.
+    pub fn set_inputs(&self, scene: &mut Scene) -> Result<()> {
+        self.input.iter().try_for_each(|input| scene.set_input(input))
+    }
+
     /// The folder of the files, which need not exist yet.
     pub fn out(&self) -> Result<PathBuf> {
         let default = || Path::new("out").join(self.scene.file_stem().unwrap_or_default());

@@ -1,24 +1,28 @@
 //! `signorini tick`: one scene over time, its files.
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
 
 use clap::Args;
 
+use super::interruption::interruption;
 use super::picture::picture;
 use super::scene_arguments::{SceneArguments, problem_of};
 use super::series::Series;
+use super::tick_setting::check_ticks;
 use signorini_draw::chart_file;
-use signorini_files::atomic::write_atomically;
+use signorini_files::atomic::{writable_file, write_atomically};
 use signorini_files::fields::{Drawn, picture as vtu};
 use signorini_problem::Problem;
-use signorini_problem::progress::{say, steps, warn};
-use signorini_scene::error::{Error, InputError, Result};
+use signorini_problem::progress::{note, say, steps, warn};
+use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh;
 use signorini_scene::scene::{Output, Quantity, Scene, Time};
-use signorini_scene::setting::{Method, ModelKind, Precision, Setting};
 use signorini_session::tick::columns::{bounds_csv, ticks_csv};
 use signorini_session::tick::window_error::of_other_data;
-use signorini_session::tick::{Budget, TickRecord, log, play, replay, schedule};
+use signorini_session::tick::{
+    Begin, Budget, Onward, Played, Saved, TickRecord, log, play_on, replay, schedule,
+};
 use signorini_solve::warnings;
 use signorini_solve::{Ending, ScalarKind, Solution};
 
@@ -29,6 +33,8 @@ Examples:
   signorini tick meshes/scenes/levee.toml --log inputs.csv
   signorini tick meshes/scenes/levee.toml --log inputs.csv --baked
   signorini tick meshes/catalogue/moving-tri.toml --vtu     for ParaView: open ticks.pvd
+  signorini tick my.toml --ticks 100 --save state.json      then 100 more, as if there had been 200:
+  signorini tick my.toml --ticks 100 --from state.json
 
 A log has the inputs of ticks, one tick a line; inputs without a column keep their values:
   t,rain,river
@@ -43,6 +49,11 @@ Without --budget-sweeps the first tick on a large mesh starts from the answer of
 Where a material has a capacity, each tick is a step of length time.step that begins from the one before, and the first \
 row is the start: error_bound is about the one step then, not about the evolution.
 
+--from goes on bit for bit: t and the inputs are those of the state until --input or a log says otherwise, and the files \
+have the new ticks alone. The state is one of the scene, its mesh, --step, --scalar, and of --tolerance being given or not.
+
+Ctrl-C ends the run after the tick at hand, with its files and --save; the exit status is 130. A second one ends it at once.
+
 A tick that its budget cuts off is normal: its status says so, and the exit status is 0.";
 
 /// Arguments of `tick`.
@@ -51,12 +62,12 @@ A tick that its budget cuts off is normal: its status says so, and the exit stat
 pub struct Arguments {
     #[command(flatten)]
     place: SceneArguments,
-    /// Number of ticks from t = 0, by the step of the scene or, without [time], by 1 [default: to the
+    /// Number of ticks from t = 0, or from the state, by the step of the scene or, without [time], by 1 [default: to the
     /// end of the scene]
     #[arg(long, value_name = "N", conflicts_with = "log", value_parser = clap::value_parser!(u32).range(1..=i64::from(schedule::MOST)))]
     ticks: Option<u32>,
     /// Another length of a tick than the scene's time.step, in seconds
-    #[arg(long, value_name = "DT", value_parser = length_of_step, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DT", value_parser = super::tick_setting::length_of_step, allow_negative_numbers = true)]
     step: Option<f64>,
     /// Most sweeps of one tick [default: 1 000 000]
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..))]
@@ -65,8 +76,11 @@ pub struct Arguments {
     /// sweeps would not lower it much]
     #[arg(long, value_name = "E", value_parser = super::solve::tolerance, allow_negative_numbers = true)]
     error: Option<f64>,
+    /// Bound on the scaled complementarity residual that ends a tick, as it ends a solve; the bound on the error is worked out once then
+    #[arg(long, value_name = "T", value_parser = super::solve::tolerance, allow_negative_numbers = true, conflicts_with = "error")]
+    tolerance: Option<f64>,
     /// A coarser mesh of the same domain, from whose solution the first tick starts
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with = "from")]
     coarse: Option<PathBuf>,
     /// Scalar type of the kernel [default: the scene's setting.scalar, else f64; with --baked else f32]
     #[arg(long, value_enum)]
@@ -75,8 +89,14 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     log: Option<PathBuf>,
     /// By the controller that `bake` writes for the scene, with its bits
-    #[arg(long, conflicts_with_all = ["budget_sweeps", "error", "coarse"])]
+    #[arg(long, conflicts_with_all = ["budget_sweeps", "error", "tolerance", "coarse", "save", "from"])]
     baked: bool,
+    /// Write the state after the last tick
+    #[arg(long, value_name = "FILE")]
+    save: Option<PathBuf>,
+    /// Go on from a state that --save has written
+    #[arg(long, value_name = "FILE")]
+    from: Option<PathBuf>,
     /// No intervals of the outputs: else output_bounds.csv has NAME_least and NAME_most around the exact value of each force, flux
     /// and mean, NAME_cell_least and NAME_cell_most around the mean over a probe's cell; of steps in time NAME_step_least and NAME_step_most, about that step alone. Above 300 000 unknowns times ticks there are none without --baked, whose controller has numbers for them
     #[arg(long)]
@@ -114,9 +134,22 @@ impl Arguments {
             check_ticks(&scene, self.scalar.is_some())?;
         }
         let out = self.place.out()?;
+        let own = Budget::of(&scene);
+        let scalar = self.scalar.unwrap_or(own.scalar);
+        if let Some(place) = &self.save {
+            super::check_beside(&scene, "--save", place)?;
+            writable_file("--save", place)?;
+        }
+        let saved = self.from.as_deref().map(Saved::read).transpose()?;
+        if let Some(saved) = &saved {
+            saved.check_scene(&scene, scalar)?;
+            saved.last.values().for_each(|(at, value)| scene.inputs[at].default = value);
+            self.place.set_inputs(&mut scene)?;
+        }
+        let last = saved.as_ref().map(|saved| saved.last.time);
         let moments = match &self.log {
-            Some(path) => log::read(path, &scene)?,
-            None => schedule::moments(&scene, self.ticks)?,
+            Some(path) => log::read_after(path, &scene, last)?,
+            None => schedule::moments_after(&scene, self.ticks, last)?,
         };
         let problem = problem_of(&scene)?;
         let coarse = self.coarse.as_ref().map(|mesh| Problem::new(&scene, mesh::read(mesh)?));
@@ -126,9 +159,9 @@ impl Arguments {
             warn(&coarse.warnings);
         }
         let work = problem.topology.counts.unknowns() * moments.len();
-        let own = Budget::of(&scene);
         let budget = Budget {
-            scalar: self.scalar.unwrap_or(own.scalar),
+            scalar,
+            tolerance: self.tolerance,
             sweeps: self.budget_sweeps.unwrap_or(own.sweeps),
             error: self.error.unwrap_or(own.error),
             intervals: !self.no_intervals && work <= MOST_INTERVALS,
@@ -138,26 +171,31 @@ impl Arguments {
             let first = moments.first().map_or(0.0, |moment| moment.time);
             warn(&warnings(&problem, first, budget.scalar)?);
         }
+        let interrupted = interruption()?;
         let bar = steps(moments.len());
         let mut series = self.vtu.then(|| Series::new(&out, "ticks", 4));
         let done = |tick: &TickRecord, solution: Option<&Solution>| {
             bar.set_message(format!("t = {}", tick.time));
             bar.inc(1);
             // A tick that was refused has no fields.
-            let (Some(series), Some(solution)) = (&mut series, solution) else { return Ok(()) };
-            series.add(tick.time, &vtu(&problem, &Drawn::plain(solution)))
+            if let (Some(series), Some(solution)) = (&mut series, solution) {
+                series.add(tick.time, &vtu(&problem, &Drawn::plain(solution)))?;
+            }
+            Ok(if interrupted.load(Ordering::Relaxed) { Onward::Stop } else { Onward::GoOn })
         };
-        let ticks = match self.baked {
-            true => replay(&problem, &moments, (self.scalar, budget.shows_start), done),
-            false => play(&problem, coarse.as_ref(), &moments, &budget, done)
-                .map(|ticks| ("full, swept".to_owned(), ticks)),
+        let begin = saved.as_ref().map_or(Begin::Anew(coarse.as_ref()), Begin::From);
+        let played = match self.baked {
+            true => replay(&problem, &moments, (self.scalar, budget.shows_start), done)
+                .map(|(model, ticks)| (model, Played { ticks, saved: None })),
+            false => play_on(&problem, begin, &moments, &budget, done)
+                .map(|played| ("full, swept".to_owned(), played)),
         };
         bar.finish_and_clear();
         let blamed = |error| match &self.log {
             Some(path) => log::blamed(path, error),
             None => error,
         };
-        let (model, ticks) = ticks.map_err(blamed)?;
+        let (model, Played { ticks, saved }) = played.map_err(blamed)?;
         let failed = |error: csv::Error| Error::Check(error.to_string());
         let table = ticks_csv(&scene, &ticks).map_err(failed)?;
         let bounds = bounds_csv(&scene, &ticks).map_err(failed)?;
@@ -166,6 +204,7 @@ impl Arguments {
         write_atomically(&out.join("output_bounds.csv"), &bounds)?;
         write_atomically(&out.join("ticks.svg"), drawing.as_bytes())?;
         series.map_or(Ok(()), Series::close)?;
+        let is_saved = self.save_state(&scene, saved.as_ref())?;
         report(&problem, &model, &ticks, &out);
         warn(unsolvable(&ticks).as_slice());
         warn(excluded(&ticks).as_slice());
@@ -180,7 +219,29 @@ impl Arguments {
             ));
         }
         without_interval(&scene, &ticks).iter().for_each(|line| say(format_args!("  {line}")));
-        Ok(if ticks.iter().any(TickRecord::failed) { 3 } else { 0 })
+        if interrupted.load(Ordering::Relaxed) {
+            let played = ticks.iter().filter(|tick| tick.status != Ending::Start).count();
+            note(&format_args!(
+                "interrupted after {played} of {} ticks; the files have these",
+                moments.len()
+            ));
+            return Ok(130);
+        }
+        Ok(if ticks.iter().any(TickRecord::failed) || !is_saved { 3 } else { 0 })
+    }
+
+    /// Writes the state; whether that was possible where it is asked for.
+    fn save_state(&self, scene: &Scene, saved: Option<&Saved>) -> Result<bool> {
+        let Some(place) = &self.save else { return Ok(true) };
+        let Some(saved) = saved else {
+            warn(&[format!(
+                "--save {}: not written, since the last tick left no numbers to go on from",
+                place.display()
+            )]);
+            return Ok(false);
+        };
+        super::write_beside(scene, "--save", place, &saved.text()?)?;
+        Ok(true)
     }
 }
 
@@ -255,40 +316,4 @@ fn endings(ticks: &[TickRecord]) -> String {
     }
     let parts = counts.iter().map(|(status, count)| format!("{count} {}", status.name()));
     parts.collect::<Vec<_>>().join(", ")
-}
-
-/// Refuses the first key of `[setting]` that the scene's own ticks, full and swept, cannot follow, instead of
-/// answering for another setting; `scalar_given` where the command line has a scalar of its own.
-///
-/// ```text
-///   refine, cells, element,
-///   error                     every command: they are the mesh and its basis
-///   scalar                    every command; f32+f64 solve and trade alone
-///   the rest                  solve, bake, trade, tick --baked
-/// ```
-///
-/// # Errors
-/// Such a key.
-fn check_ticks(scene: &Scene, scalar_given: bool) -> Result<()> {
-    let Some(setting) = scene.setting else { return Ok(()) };
-    let is_mixed = !scalar_given && setting.scalar == Some(Precision::Mixed);
-    let scalar = is_mixed.then_some("scalar").into_iter();
-    let mut keys =
-        scalar.chain(setting.of_method().into_iter().filter(|key| !follows(key, &setting)));
-    let Some(key) = keys.next() else { return Ok(()) };
-    let message = format!(
-        "setting.{key}: `tick` cannot follow it: it sweeps the full model, certified, in one scalar"
-    );
-    let hint =
-        "add --baked for the controller that `bake` writes for this setting, or remove the key";
-    Err(InputError::new(message).file(scene.file()).hint(hint).into())
-}
-
-/// Whether ticks do what this value of a method's key says, in any case.
-fn follows(key: &str, setting: &Setting) -> bool {
-    match key {
-        "model" => setting.model == Some(ModelKind::Full),
-        "solver" => setting.solver == Some(Method::Sweeps),
-        _ => false,
-    }
 }

@@ -79,6 +79,7 @@ fn played(problem: &Problem) -> Result<Vec<TickRecord>> {
         scalar: ScalarKind::F64,
         sweeps: SWEEPS / 2,
         error: 0.0,
+        tolerance: None,
         intervals: false,
         shows_start: false,
     };

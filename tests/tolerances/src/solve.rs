@@ -115,4 +115,6 @@ table! {
         "rounding of the elimination";
     REACHED_INTERVAL: "ends of a proved interval beyond what corners reach, over its width", 1e-6,
         "ranges are widened by ε of f32";
+    ENDED_STEPS: "u of steps that end by a tolerance against the direct solver, over its range and the tolerance", 20.0,
+        "the residual is by K_ii, and errors add up over some steps";
 }

@@ -97,7 +97,7 @@ impl<R: Scalar> Stored<R> {
     #[must_use]
     pub fn with_evolution(self, evolution: Option<&Evolution>, units: &Units) -> Self {
         let Some(of) = evolution.filter(|_| !self.cells.is_empty()) else { return self };
-        let Carried { bound, before } = of.in_unit(units.energy()).carried;
+        let Carried { bound, before } = of.in_unit(units.energy()).carried();
         let up = |x: f64| R::narrow(x * (1.0 + 2.0 * R::EPSILON.wide()));
         let carried = Carried { bound: up(bound), before: up(before).or_smaller(R::ONE) };
         Self { rates: rates(of.rate, self.length.wide()), carried, ..self }

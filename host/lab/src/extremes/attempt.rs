@@ -69,6 +69,7 @@ fn ticks(case: &ExtremeCase, problem: Problem) -> Result<Attempt> {
         scalar: case.scalar,
         sweeps: case.most_sweeps(),
         error: 0.0,
+        tolerance: None,
         intervals: false,
         shows_start: false,
     };

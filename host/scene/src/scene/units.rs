@@ -33,7 +33,7 @@ impl Field {
 }
 
 /// The values that 1 stands for, each a power of two, and the u that 0 stands for.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Units {
     /// U
     pub u: f64,

@@ -18,12 +18,20 @@ use signorini_solve::step_of;
 
 const SHAPE: &str = "a log is a CSV file: a line t,NAME,… with inputs of the scene, then numbers";
 
-/// Reads the log at `path`.
+/// Reads the log at `path`, whose first tick is any.
+///
+/// # Errors
+/// As for [`read_after`].
+pub fn read(path: &Path, scene: &Scene) -> Result<Vec<ScheduledTick>> {
+    read_after(path, scene, None)
+}
+
+/// Reads the log at `path`, of ticks that go on after the one at the time `last`.
 ///
 /// # Errors
 /// A file that cannot be read or holds no tick, a column that is no input or comes twice, a value
 /// that is no finite number or outside its input's range, a time that does not increase; each with its line.
-pub fn read(path: &Path, scene: &Scene) -> Result<Vec<ScheduledTick>> {
+pub fn read_after(path: &Path, scene: &Scene, last: Option<f64>) -> Result<Vec<ScheduledTick>> {
     let wrong = |error: csv::Error| refused(path, &error);
     let mut reader = ReaderBuilder::new().trim(Trim::All).from_path(path).map_err(wrong)?;
     let columns = columns(&mut reader, path, scene)?;
@@ -43,7 +51,7 @@ pub fn read(path: &Path, scene: &Scene) -> Result<Vec<ScheduledTick>> {
         }
         moments.push(moment);
     }
-    check_steps(path, scene, &moments)?;
+    check_steps(path, scene, last, &moments)?;
     if moments.is_empty() {
         return Err(InputError::new("no tick in the log").file(path).line(1).hint(SHAPE).into());
     }
@@ -51,17 +59,24 @@ pub fn read(path: &Path, scene: &Scene) -> Result<Vec<ScheduledTick>> {
 }
 
 /// Refuses moments of steps in time that do not follow each other by the scene's step, which the matrix is made for.
-fn check_steps(path: &Path, scene: &Scene, moments: &[ScheduledTick]) -> Result<()> {
+fn check_steps(
+    path: &Path,
+    scene: &Scene,
+    last: Option<f64>,
+    moments: &[ScheduledTick],
+) -> Result<()> {
     if !scene.stores() {
         return Ok(());
     }
     let step = step_of(scene)?;
-    let follows = |pair: &[ScheduledTick]| {
-        let slack = 1e-6 * step + 4.0 * f64::EPSILON * pair[1].time.abs();
-        (pair[1].time - pair[0].time - step).abs() <= slack
+    let follows = |pair: &[f64]| {
+        let slack = 1e-6 * step + 4.0 * f64::EPSILON * pair[1].abs();
+        (pair[1] - pair[0] - step).abs() <= slack
     };
-    let Some(pair) = moments.windows(2).find(|pair| !follows(pair)) else { return Ok(()) };
-    let [before, time] = [0, 1].map(|at| pair[at].time);
+    let times: Vec<f64> =
+        last.into_iter().chain(moments.iter().map(|moment| moment.time)).collect();
+    let Some(pair) = times.windows(2).find(|pair| !follows(pair)) else { return Ok(()) };
+    let [before, time] = [pair[0], pair[1]];
     let message =
         format!("t: {time} comes {} after {before}, expected the step {step}", time - before);
     let error = InputError::new(message).file(path).line(line_of(path, time).unwrap_or(0));

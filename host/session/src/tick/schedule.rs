@@ -15,18 +15,41 @@ const ROUNDING: f64 = 1e-9;
 /// # Errors
 /// Neither `[time]` nor a count; more than [`MOST`] ticks.
 pub fn moments(scene: &Scene, count: Option<u32>) -> Result<Vec<ScheduledTick>> {
+    moments_after(scene, count, None)
+}
+
+/// The moments after the one at the time `last`, to the end of the scene or `count` of them.
+///
+/// # Errors
+/// As for [`moments`]; an end that `last` has reached.
+pub fn moments_after(
+    scene: &Scene,
+    count: Option<u32>,
+    last: Option<f64>,
+) -> Result<Vec<ScheduledTick>> {
     let (step, end) =
         scene.time.as_ref().map_or((1.0, None), |Time { step, end, .. }| (*step, *end));
+    let (base, number) = last.map_or((0.0, 0), |last| last_tick(last, step));
     // A step in time ends at its moment, and the start is none.
-    let first = u32::from(scene.stores());
+    let first = number + u32::from(scene.stores() || last.is_some());
+    let early = |end: f64| {
+        let (what, hint) = match last {
+            Some(last) => (format!("next tick, the last was at {last}"), "give --ticks N"),
+            None => (
+                format!("end of the first step, {step}"),
+                "take a shorter --step, or give --ticks N",
+            ),
+        };
+        let message = format!("time.end: {end} comes before the {what}");
+        InputError::new(message).file(&scene.path).hint(hint)
+    };
     let count = match (count, end) {
         (Some(count), _) => count,
-        (None, Some(end)) if end < step => {
-            let message = format!("time.end: {end} comes before the end of the first step, {step}");
-            let error = InputError::new(message).file(&scene.path);
-            return Err(error.hint("take a shorter --step, or give --ticks N").into());
-        }
-        (None, Some(end)) => up_to_end(scene, [step, end])? - first,
+        (None, Some(end)) if end < step => return Err(early(end).into()),
+        (None, Some(end)) => match up_to(scene, [step, end - base], first)? {
+            0 => return Err(early(end).into()),
+            count => count,
+        },
         (None, None) => {
             let hint = "add [time] with step and end to the scene, or give --ticks N or --log FILE";
             let error = InputError::new("time: missing; it says when the ticks are");
@@ -34,18 +57,29 @@ pub fn moments(scene: &Scene, count: Option<u32>) -> Result<Vec<ScheduledTick>> 
         }
     };
     Ok((first..first + count)
-        .map(|tick| ScheduledTick { time: time_of(tick, step), inputs: Vec::new() })
+        .map(|tick| ScheduledTick { time: base + time_of(tick, step), inputs: Vec::new() })
         .collect())
 }
 
-/// Ticks from t = 0 to `end`, both among them.
-fn up_to_end(scene: &Scene, [step, end]: [f64; 2]) -> Result<u32> {
-    let ticks = (end / step + ROUNDING).floor() + 1.0;
+/// Ticks from the one with the number `first` to `end`, both among them.
+fn up_to(scene: &Scene, [step, end]: [f64; 2], first: u32) -> Result<u32> {
+    let ticks = (end / step + ROUNDING).floor() + 1.0 - f64::from(first);
     if ticks <= f64::from(MOST) {
         return Ok(ticks as u32);
     }
     let message = format!("time: {end} s in steps of {step} s are more than {MOST} ticks");
     Err(InputError::new(message).file(&scene.path).hint("give fewer with --ticks N").into())
+}
+
+/// Where times count from after a tick at `last`, and its number there: from 0 where it is a tick of the schedule, and from itself
+/// where a log had it.
+fn last_tick(last: f64, step: f64) -> (f64, u32) {
+    let number = (last / step).round();
+    let is_one = (0.0..=f64::from(u32::MAX - MOST)).contains(&number);
+    match is_one && time_of(number as u32, step) == last {
+        true => (0.0, number as u32),
+        false => (last, 0),
+    }
 }
 
 /// Tick · step; where the step is 1/m, tick/m, which rounds once and reads 0.3 and not
@@ -74,6 +108,28 @@ mod tests {
         assert_eq!(of(0.0, 0.5).unwrap(), [0.0, 0.5, 1.0]);
         assert_eq!(of(2.0, 0.5).unwrap(), [0.5, 1.0]);
         assert!(of(2.0, 3.0).unwrap_err().to_string().contains("time.end: 1 comes before"));
+    }
+
+    /// Ticks after a saved one are those of a schedule without a break; after one of a log they count from it.
+    #[test]
+    fn a_schedule_goes_on_after_its_last_tick() {
+        let text = "mesh = \"m\"\n[material.default]\nconductivity = 1\n\
+                    [boundary.default]\nkind = \"contact\"\n[time]\nstep = 0.1\nend = 1\n";
+        let scene = Scene::parse(text, std::path::Path::new("s.toml")).unwrap();
+        let of = |count: Option<u32>, last: Option<f64>| {
+            let all = moments_after(&scene, count, last)?;
+            Ok::<_, signorini_scene::error::Error>(all.iter().map(|of| of.time).collect::<Vec<_>>())
+        };
+        let whole = of(None, None).unwrap();
+        assert_eq!(whole.len(), 11);
+        for last in 0..10 {
+            assert_eq!(of(None, Some(whole[last])).unwrap(), whole[last + 1..]);
+        }
+        assert_eq!(of(Some(2), Some(1.0)).unwrap(), [1.1, 1.2]);
+        assert_eq!(of(Some(2), Some(-0.25)).unwrap(), [-0.25 + 0.1, -0.25 + 0.2]);
+        assert_eq!(of(None, Some(0.75)).unwrap(), [0.75 + 0.1, 0.75 + 0.2]);
+        let said = of(None, Some(1.0)).unwrap_err().to_string();
+        assert!(said.contains("time.end: 1 comes before the next tick"), "{said}");
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::columns::bounds_csv;
-use super::{Budget, ScheduledTick, TickRecord, play, replay};
+use super::{Budget, ScheduledTick, TickRecord, play, replay, schedule};
 use signorini_bake::choice::{Choice, Model, Wanted};
 use signorini_bake::compiled::printed;
 use signorini_bake::module_api::ModuleApi;
@@ -15,9 +15,9 @@ use signorini_scene::mesh;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::{Method, ModelKind, Setting, Start};
-use signorini_solve::ScalarKind;
+use signorini_solve::{Ending, Options, ScalarKind, SolverKind, solve};
 use signorini_tolerances::Tolerance;
-use signorini_tolerances::solve::{ZERO, ZERO_NARROW, ZERO_SWEPT};
+use signorini_tolerances::solve::{ENDED_STEPS, ZERO, ZERO_NARROW, ZERO_SWEPT};
 
 /// A program whose module prints, for a log, the bits of the outputs, the sweeps and the end of each tick.
 fn main(ticks: &[Vec<f32>]) -> String {
@@ -97,6 +97,64 @@ fn full_models_are_replayed_swept_and_by_a_factor() -> Result<()> {
     assert_eq!(same_bits("strip.toml", Some(factored))?, "full, by a factor, f32");
     let cut_off = Setting { sweeps: Some(9), start: Start::Cold, certificate: false, ..swept };
     assert_eq!(same_bits("strip.toml", Some(cut_off))?, "full, no error bound, f32");
+    Ok(())
+}
+
+/// Steps whose contact opens and closes, each to this residual and by the direct solver on K + M/dt: the largest distance of u over its
+/// range, and how often an edge has changed sides.
+fn off_by(scalar: ScalarKind, tolerance: f64, cells: Cells) -> Result<(f64, usize)> {
+    let text = r#"
+mesh = "grid"
+material.default = { conductivity = "2 + x", capacity = 1 }
+boundary.dirichlet = { kind = "dirichlet", value = "0.2 + 0.1*sin(9*t)" }
+boundary.contact = { kind = "contact", gap = "0.05*x" }
+source.f = "6*sin(12*t + 4*x)"
+time = { step = 0.02, end = 0.5 }
+"#;
+    let problem = on_grid(text, grid(10, cells))?.1;
+    let budget = Budget {
+        scalar,
+        tolerance: Some(tolerance),
+        intervals: false,
+        ..Budget::of(&problem.scene)
+    };
+    let moments = schedule::moments(&problem.scene, None)?;
+    let (mut reference, mut found) = (problem.clone(), (0.0_f64, 0));
+    let mut before = 0;
+    play(&problem, None, &moments, &budget, |tick, solution| {
+        let solution = solution.expect("an answer");
+        if tick.status == Ending::Start {
+            reference = problem.stepping(0.02, solution.state())?;
+            return Ok(());
+        }
+        assert_eq!(tick.status.name(), "converged");
+        reference.set_time(tick.time)?;
+        let direct = Options { solver: SolverKind::Direct, ..Options::default() };
+        let exact = solve(&reference, &direct)?;
+        let ends = exact.u.iter().fold([f64::MAX, f64::MIN], |[a, b], u| [a.min(*u), b.max(*u)]);
+        let apart = exact.u.iter().zip(&solution.u).map(|(a, b)| (a - b).abs());
+        found.0 = found.0.max(apart.fold(0.0, f64::max) / (ends[1] - ends[0]));
+        found.1 += usize::from(exact.contact_active != before);
+        before = exact.contact_active;
+        reference.advance(exact.state());
+        Ok(())
+    })?;
+    Ok(found)
+}
+
+#[test]
+fn a_tolerance_ends_steps_where_it_says() -> Result<()> {
+    for (scalar, tolerance, cells) in [
+        (ScalarKind::F64, 1e-12, Cells::Triangles),
+        (ScalarKind::F64, 1e-12, Cells::Quads),
+        (ScalarKind::F32, 1e-4, Cells::Triangles),
+    ] {
+        let (off, changes) = off_by(scalar, tolerance, cells)?;
+        let what = format!("{scalar:?} to {tolerance:e} on {cells:?}");
+        ENDED_STEPS.check_over(&what, off, tolerance);
+        // It is the tolerance that ends them, not the default, which goes on to the last digits.
+        assert!(off > 0.1 * tolerance && changes > 3, "{what}: {off:e}, {changes} changes");
+    }
     Ok(())
 }
 

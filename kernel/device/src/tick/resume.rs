@@ -13,7 +13,8 @@ use signorini_kernel::{Index, Real};
 /// costs no flash. Of any bits it is that or a search, since memory may have lost some.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Progress<R> {
-    search: KeptSearch<R>,
+    /// How far the search for ω has come.
+    pub search: KeptSearch<R>,
 }
 
 impl<R: Real> Progress<R> {

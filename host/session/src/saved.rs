@@ -1,0 +1,79 @@
+//! What a session carries from tick to tick, as numbers in f64: those of a narrow scalar are exact in it.
+
+use serde::{Deserialize, Serialize};
+use signorini_problem::scalar::Scalar;
+use signorini_scene::error::{InputError, Result};
+
+/// The state of a session after a tick, by its kind.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
+pub enum SavedSession {
+    /// Of the kernel's tick.
+    Tick {
+        /// Means of u, one per edge.
+        u: Vec<f64>,
+        /// Whether a contact edge was active.
+        active: Vec<bool>,
+        /// ω of the next sweep.
+        omega: f64,
+        /// The best ω of the search and its factor; an ω of 0 is none.
+        best: [f64; 2],
+        /// How often ω has moved.
+        moves: u32,
+        /// The phase of the search.
+        phase: u32,
+    },
+    /// Of a solve per tick.
+    Solve {
+        /// Means of u, one per edge; none where the next solve starts anew.
+        u: Vec<f64>,
+        /// The ω that the last solve has found.
+        omega: Option<f64>,
+    },
+}
+
+impl SavedSession {
+    /// Whether JSON has all its numbers.
+    pub(crate) fn is_finite(&self) -> bool {
+        let (Self::Tick { u, .. } | Self::Solve { u, .. }) = self;
+        u.iter().all(|u| u.is_finite())
+    }
+
+    /// The refusal of this state by a session of another kind.
+    pub(crate) fn foreign<T>(&self) -> Result<T> {
+        let [own, other] = match self {
+            Self::Tick { .. } => ["certified sweeps", "solves to a tolerance"],
+            Self::Solve { .. } => ["solves to a tolerance", "certified sweeps"],
+        };
+        let message = format!("session: the state is one of {own}, and these ticks are {other}");
+        let hint = "give --tolerance, or leave it out, as in the run before";
+        Err(InputError::new(message).hint(hint).into())
+    }
+}
+
+/// Widens numbers; [`narrowed`] restores their bits.
+pub(crate) fn widened<R: Scalar>(numbers: &[R]) -> Vec<f64> {
+    numbers.iter().map(|x| x.wide()).collect()
+}
+
+/// The numbers of a state, `length` of them, in the scalar that they were widened from.
+///
+/// # Errors
+/// More or less of them, or one that is none of this scalar; with the `name` in the state.
+pub(crate) fn narrowed<R: Scalar>(name: &str, numbers: &[f64], length: usize) -> Result<Vec<R>> {
+    check_length(name, numbers.len(), length)?;
+    let narrow = |&wide: &f64| match R::narrow(wide) {
+        number if number.wide() == wide => Ok(number),
+        _ => Err(InputError::new(format!("{name}: {wide} is no number of {}", R::NAME)).into()),
+    };
+    numbers.iter().map(narrow).collect()
+}
+
+/// Refuses a part of a state that has another length than the mesh asks for.
+pub(crate) fn check_length(name: &str, found: usize, expected: usize) -> Result<()> {
+    if found == expected {
+        return Ok(());
+    }
+    let message = format!("{name}: {found} numbers, expected {expected}");
+    Err(InputError::new(message).into())
+}

@@ -1,0 +1,227 @@
+//! Ticks that stop, are saved, and go on: `--save`, `--from`, and Ctrl-C.
+
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use crate::command::{Folder, Run, json as json_in, meshes, run, text};
+
+const LEVEE: &str = "scenes/levee.toml";
+
+/// A body whose contact opens and closes, of materials with these numbers; an input heats it.
+fn body(folder: &Folder, cells: &str, conductivity: f64, more: &str) -> String {
+    let mesh = meshes(&format!("catalogue/square-{cells}-16.msh"));
+    let text = format!(
+        "mesh = {mesh:?}\n[material.default]\nconductivity = {conductivity}\n{more}\n\
+         [boundary.contact]\nkind = \"contact\"\n[boundary.default]\nkind = \"neumann\"\nflux = 0\n\
+         [boundary.dirichlet]\nkind = \"dirichlet\"\nvalue = \"0.3*sin(7*t)\"\n\
+         [source]\nf = \"{conductivity}*(4*sin(20*t) - 1)\"\n\
+         [input.heat]\nof = \"source\"\nfield = \"f\"\npattern = \"{conductivity}*x\"\ndefault = 0.2\n\
+         [output.power]\nkind = \"force\"\n[output.wet]\nkind = \"length\"\n[time]\nstep = 0.01\nend = 0.06\n"
+    );
+    folder.write("body.toml", text)
+}
+
+fn tick(scene: &str, folder: &Folder, out: &str, more: &[&str]) -> Run {
+    run(&[&["tick", scene, "--out", &folder.word(out)], more].concat())
+}
+
+/// The rows of two runs, of which the second goes on from the first, are those of one.
+#[track_caller]
+fn one_of_two(scene: &str, folder: &Folder, [whole, first, second]: [&[&str]; 3], status: i32) {
+    let state = folder.word("state.json");
+    let ran = |out: &str, more: &[&[&str]]| {
+        let run = tick(scene, folder, out, &more.concat());
+        assert_eq!(run.status, status, "{more:?}: {}{}", run.stdout, run.stderr);
+    };
+    ran("whole", &[whole]);
+    ran("first", &[first, &["--save", &state]]);
+    ran("second", &[second, &["--from", &state, "--save", &folder.word("next.json")]]);
+    for name in ["ticks.csv", "output_bounds.csv"] {
+        let rows = |out: &str| text(folder.path(out).join(name));
+        let (header, more) =
+            rows("second").split_once('\n').map(|(a, b)| (a.len(), b.to_owned())).expect("rows");
+        assert!(header > 0 && !more.contains("start"), "{more}");
+        assert_eq!(rows("first") + &more, rows("whole"), "{name} of {scene}: {whole:?}");
+    }
+    // The state of the second is that of the whole.
+    ran("whole", &[whole, &["--save", &state]]);
+    assert_eq!(text(&state), text(folder.path("next.json")));
+}
+
+#[test]
+fn steps_in_time_go_on_bit_for_bit() {
+    let folder = Folder::new();
+    let stored = "capacity = \"1 + x^2\"";
+    for (cells, conductivity, stored, more) in [
+        ("tri", 1.0, stored, &[][..]),
+        ("mixed", 1.0, stored, &["--scalar", "f32"]),
+        // Far from 1: the session has other units.
+        ("quad", 1e-12, "capacity = 3e-12", &["--tolerance", "1e-9", "--scalar", "f32"]),
+        ("tri", 1e-12, "capacity = 3e-12", &["--tolerance", "1e-9", "--step", "0.02"]),
+    ] {
+        let scene = body(&folder, cells, conductivity, stored);
+        let with = |own: &[&'static str]| [more, own].concat();
+        let [whole, first, second] =
+            [&["--ticks", "5"][..], &["--ticks", "2"], &["--ticks", "3"]].map(with);
+        one_of_two(&scene, &folder, [&whole, &first, &second], 0);
+        let state = json_in(folder.path("state.json"));
+        assert_eq!(
+            state["units"]["conductivity"] == 1.0,
+            conductivity == 1.0,
+            "{}",
+            state["units"]
+        );
+    }
+    let scene = body(&folder, "tri", 1.0, "capacity = 2");
+    // What a log said last stays.
+    let first = folder.write("first.csv", "t,heat\n0.01,0\n0.02,3\n");
+    let log = folder.write("log.csv", "t,heat\n0.01,0\n0.02,3\n0.03,3\n");
+    one_of_two(&scene, &folder, [&["--log", &log], &["--log", &first], &["--ticks", "1"]], 0);
+    // To the end of the scene; what the command line said of inputs stays.
+    let heat = &["--input", "heat=3"];
+    one_of_two(&scene, &folder, [heat, &[heat, &["--ticks", "2"][..]].concat(), &[]], 0);
+    assert_eq!(text(folder.path("second/ticks.csv")).lines().count(), 5);
+    let done = tick(&scene, &folder, "done", &["--from", &folder.word("state.json")]).refuses();
+    assert!(done.contains("time.end: 0.06 comes before the next tick"), "{done}");
+    let log = folder.write("log.csv", "t,heat\n0.08,1\n");
+    let said = ["--log", &log, "--from", &folder.word("state.json")];
+    let said = tick(&scene, &folder, "done", &said).refuses();
+    assert!(said.contains("log.csv:2: t: 0.08 comes") && said.contains("after 0.06"), "{said}");
+}
+
+#[test]
+fn ticks_of_steady_scenes_go_on_bit_for_bit() {
+    let folder = Folder::new();
+    for more in [&[][..], &["--budget-sweeps", "3"], &["--scalar", "f32", "--tolerance", "1e-4"]] {
+        let with = |own: &[&'static str]| [more, own].concat();
+        let [whole, first, second] =
+            [&["--ticks", "4"][..], &["--ticks", "3"], &["--ticks", "1"]].map(with);
+        one_of_two(&meshes(LEVEE), &folder, [&whole, &first, &second], 0);
+    }
+}
+
+/// Rows that contact cannot hold before the break, at it, and behind it.
+#[test]
+fn a_log_goes_on_beyond_refused_rows() {
+    let folder = Folder::new();
+    let scene = format!(
+        "mesh = {:?}\n[material.default]\nconductivity = 1\n\
+         [boundary.contact]\nkind = \"contact\"\n[boundary.default]\nkind = \"neumann\"\nflux = 0\n\
+         [boundary.dirichlet]\nkind = \"neumann\"\nflux = -1\n\
+         [input.push]\nof = \"dirichlet\"\nfield = \"flux\"\npattern = 1\n[input.side]\nof = \"default\"\n\
+         field = \"flux\"\npattern = \"y\"\n",
+        meshes("catalogue/square-tri-16.msh")
+    );
+    let scene = folder.write("free.toml", scene);
+    let rows = ["0,2", "1,-1", "2,2", "3,-1.5", "4,3", "5,-1"];
+    let log =
+        |name: &str, rows: &[&str]| folder.write(name, format!("t,push\n{}\n", rows.join("\n")));
+    let (whole, first, second) =
+        (log("whole.csv", &rows), log("a.csv", &rows[..3]), log("b.csv", &rows[3..]));
+    let side = ["--input", "side=-0.25"];
+    let with = |log| [&["--log", log], &side[..]].concat();
+    one_of_two(&scene, &folder, [&with(&whole), &with(&first), &["--log", &second]], 3);
+    // Nothing has been answered: there is nothing to go on from.
+    let never = log("never.csv", &["0,2"]);
+    let lost = folder.word("lost.json");
+    let run = tick(&scene, &folder, "never", &["--log", &never, "--save", &lost]);
+    assert!(run.status == 3 && run.stderr.contains("lost.json: not written"), "{}", run.stderr);
+    assert!(!Path::new(&lost).exists());
+}
+
+/// A part of a state, by the names of its parents, and what it is changed to; a part of the message.
+fn spoilt() -> Vec<(&'static str, Value, &'static str)> {
+    vec![
+        ("/version", json!(2), "version: 2, expected 1"),
+        ("/origin/scene", json!("0"), "another scene"),
+        ("/origin/mesh", json!("0"), "another mesh"),
+        ("/origin/step", json!(0.5), "step 0.5, and not 0.01"),
+        ("/origin/scalar", json!("f32"), "in f32, and not in f64"),
+        ("/last/inputs", json!([]), "last.inputs: 0 numbers, expected 2"),
+        ("/begun/inputs", json!([1, 2, 3]), "begun.inputs: 3 numbers, expected 2"),
+        ("/units/u", json!(2), "units"),
+        ("/session/tick/u", json!([1]), "session.u: 1 numbers"),
+        ("/session/tick/u/0", Value::Null, "expected f64"),
+        ("/session/tick/active", json!([]), "session.active: 0 numbers"),
+        ("/session/tick/omega", json!(2.5), "session.omega"),
+        ("/session", json!({"solve": {"u": [], "omega": null}}), "session: "),
+        ("/session", json!({"walk": {}}), "unknown variant `walk`"),
+    ]
+}
+
+#[test]
+fn states_of_anything_else_are_refused() {
+    let folder = Folder::new();
+    let (state, other) = (folder.word("state.json"), folder.word("other.json"));
+    let levee = meshes(LEVEE);
+    tick(&levee, &folder, "out", &["--ticks", "1", "--save", &state]).succeeds();
+    let whole = text(&state);
+    let refused = |file: &str, more: &[&str]| {
+        let from = [&["--ticks", "1", "--from", file], more].concat();
+        let message = tick(&levee, &folder, "never", &from).refuses();
+        assert!(!folder.path("never").exists(), "{message}");
+        message
+    };
+    let said = |text: &str| refused(&folder.write("other.json", text), &[]);
+    for (part, value, expected) in spoilt() {
+        let mut spoilt: Value = serde_json::from_str(&whole).expect("JSON");
+        *spoilt.pointer_mut(part).unwrap_or_else(|| panic!("{part}")) = value;
+        let message = said(&spoilt.to_string());
+        assert!(message.contains("other.json") && message.contains(expected), "{part}: {message}");
+    }
+    let number = whole.find("\"u\":[").expect("means") + 5;
+    let nan = format!("{}NaN,{}", &whole[..number], &whole[number..]);
+    for (text, expected) in [("", "EOF"), (&whole[..number], "EOF"), (&nan, "expected value")] {
+        let message = said(text);
+        assert!(message.contains("other.json:") && message.contains(expected), "{message}");
+    }
+    assert!(refused(&folder.word("none.json"), &[]).contains("none.json"));
+    for more in [&["--step", "0.02"][..], &["--scalar", "f32"], &["--tolerance", "1e-9"]] {
+        assert!(refused(&state, more).contains("state.json"), "{more:?}");
+    }
+    for more in [&["--baked"][..], &["--coarse", "a.msh"]] {
+        assert!(refused(&state, more).contains("cannot be used with"), "{more:?}");
+    }
+    // Not over the scene, and not into a folder.
+    for place in [&*levee, &folder.word("out")] {
+        let message = tick(&levee, &folder, "never", &["--ticks", "1", "--save", place]).refuses();
+        assert!(message.contains("--save"), "{message}");
+    }
+    assert_eq!(text(&state), whole);
+    assert!(Path::new(&other).exists());
+}
+
+/// Ctrl-C: the files have the ticks that were played, and the state goes on from them.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_leaves_its_files_and_its_state() {
+    let folder = Folder::new();
+    let scene = body(&folder, "tri", 1.0, "capacity = 2");
+    let (out, state) = (folder.word("out"), folder.word("state.json"));
+    let words = ["tick", &scene, "--out", &out, "--ticks", "100000", "--vtu", "--save", &state];
+    let mut command = crate::command::signorini(&words);
+    command.stdout(std::process::Stdio::null()).stderr(std::process::Stdio::piped());
+    let child = command.spawn().expect("the binary runs");
+    while !folder.path("out/ticks/0002.vtu").exists() {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    let stop = std::process::Command::new("kill").arg("-INT").arg(child.id().to_string()).status();
+    assert!(stop.expect("kill").success());
+    let output = child.wait_with_output().expect("it ends");
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    let rows = text(folder.path("out/ticks.csv"));
+    let ticks = rows.lines().count() - 2;
+    assert!(said.contains(&format!("interrupted after {ticks} of 100000 ticks")), "{said}");
+    assert_eq!(said.lines().count(), 1, "{said}");
+    assert_eq!(text(folder.path("out/ticks.pvd")).matches("<DataSet").count(), ticks + 1);
+    for name in ["output_bounds.csv", "ticks.svg"] {
+        assert!(folder.path("out").join(name).exists(), "{name}");
+    }
+    tick(&scene, &folder, "more", &["--ticks", "2", "--from", &state]).succeeds();
+    let more = text(folder.path("more/ticks.csv"));
+    tick(&scene, &folder, "whole", &["--ticks", &(ticks + 2).to_string()]).succeeds();
+    let more = more.split_once('\n').expect("rows").1;
+    assert_eq!(rows + more, text(folder.path("whole/ticks.csv")));
+}
