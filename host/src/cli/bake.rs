@@ -6,7 +6,7 @@ use clap::{ArgGroup, Args};
 
 use super::bake_c;
 use super::scene_arguments::{promised_problem_of, scene_at};
-use super::tick::{length_of_step, step_by};
+use super::tick_setting::{length_of_step, step_by};
 use super::write_beside;
 use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::emit::{Emitted, emit};

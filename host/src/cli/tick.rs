@@ -9,7 +9,7 @@ use super::interruption::interruption;
 use super::picture::picture;
 use super::scene_arguments::{SceneArguments, problem_of};
 use super::series::Series;
-use super::tick_setting::check_ticks;
+use super::tick_setting::{check_ticks, step_by};
 use signorini_draw::chart_file;
 use signorini_files::atomic::{writable_file, write_atomically};
 use signorini_files::fields::{Drawn, picture as vtu};
@@ -17,7 +17,7 @@ use signorini_problem::Problem;
 use signorini_problem::progress::{note, say, steps, warn};
 use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh;
-use signorini_scene::scene::{Output, Quantity, Scene, Time};
+use signorini_scene::scene::{Output, Quantity, Scene};
 use signorini_session::tick::columns::{bounds_csv, ticks_csv};
 use signorini_session::tick::window_error::of_other_data;
 use signorini_session::tick::{
@@ -104,23 +104,6 @@ pub struct Arguments {
     /// Also ticks.pvd, a series for ParaView, and a VTU file each tick in the folder ticks
     #[arg(long)]
     vtu: bool,
-}
-
-/// Gives `scene` another length of a step, where there is one.
-pub(super) fn step_by(scene: &mut Scene, step: Option<f64>) {
-    if let Some(step) = step {
-        let time = scene.time.take();
-        let (end, initial) = time.map_or((None, None), |time| (time.end, time.initial));
-        scene.time = Some(Time { step, end, initial });
-    }
-}
-
-/// Reads the length of a step.
-pub(super) fn length_of_step(text: &str) -> std::result::Result<f64, String> {
-    match super::solve::tolerance(text) {
-        Ok(step) if step > 0.0 => Ok(step),
-        _ => Err("expected a finite number > 0, such as 0.1".to_owned()),
-    }
 }
 
 /// Unknowns times ticks up to which intervals of outputs are worked out: some seconds.
