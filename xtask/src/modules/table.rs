@@ -135,7 +135,13 @@ pub const ROWS: [Row; 21] = [
         ..FULL
     },
     // Steps in time, with limits and a coefficient that changes.
-    Row { scene: "tests/firmware/scenes/antiicing-warm.toml", is_played: true, ..FULL },
+    Row {
+        scene: "tests/firmware/scenes/antiicing-warm.toml",
+        is_played: true,
+        median: Some(4_000_000),
+        size: Some(("anti-icing, in time", 58 * KIB)),
+        ..FULL
+    },
     Row {
         scene: "tests/firmware/scenes/strip-factored.toml",
         is_played: true,

@@ -40,7 +40,11 @@ fn memory<R: Scalar, I: Index>(baked: &Baked<R>) -> usize {
 impl<R: Scalar> Baked<R> {
     /// What the record of `cargo xtask size` calls scenes with the code of this one.
     pub fn code(&self) -> &'static str {
-        if self.factored.is_some() { ", by a factor" } else { ", on " }
+        match (&self.factored, &self.stored) {
+            (Some(_), _) => ", by a factor",
+            (None, Some(_)) => ", in time",
+            (None, None) => ", on ",
+        }
     }
 
     /// Room in a packed row.

@@ -135,7 +135,9 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         };
         let mut tick = Tick::resume(self.discretization, of_tick, known)?;
         let size = tick.admit(&data)?;
-        self.start(&data, progress.has_begun(), tick.memory());
+        if !progress.has_begun() || self.is_cold() {
+            self.start(&data, tick.memory());
+        }
         // All of it in one function: in parts it lost the compiler's knowledge of the statics, and cost 3 % more.
         let report = tick.enter(data, size).advance(method, limits, deadline)?;
         *progress = tick.progress();
@@ -193,25 +195,21 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         rest.iter().zip(inputs).fold(first, |sum, (&of_one, p)| sum + of_one * p.magnitude())
     }
 
-    /// Where sweeps begin: in a first tick, and in every one of a cold step, on the gap and elsewhere at one value; else a step begins
-    /// from the last answer, or from the start.
-    fn start<const WIDTH: usize>(
-        &self,
-        data: &Data<R, I>,
-        has_begun: bool,
-        memory: &mut tick::Memory<R, I, WIDTH>,
-    ) {
-        let is_cold = self.storing.get().is_some_and(|storing| storing.is_cold);
-        if has_begun && !is_cold {
-            return;
+    /// Where sweeps begin: on the gap, and elsewhere at one value; a step that is not cold from the answer before, or from the start.
+    fn start<const WIDTH: usize>(&self, data: &Data<R, I>, memory: &mut tick::Memory<R, I, WIDTH>) {
+        match data.step.get() {
+            Some(step) if !self.is_cold() => copy(step.step.storage.old(), memory.u),
+            _ => {
+                memory.u.fill(self.start);
+                let on_contact = memory.u.iter_mut().skip(self.discretization.edges.counts().free);
+                on_contact.zip(data.law.edges()).for_each(|(u, law)| *u = law.gap());
+            }
         }
         memory.active.fill(false);
-        if let (false, Some(step)) = (is_cold, data.step.get()) {
-            copy(step.step.storage.old(), memory.u);
-            return;
-        }
-        memory.u.fill(self.start);
-        let on_contact = memory.u.iter_mut().skip(self.discretization.edges.counts().free);
-        on_contact.zip(data.law.edges()).for_each(|(u, law)| *u = law.gap());
+    }
+
+    /// Whether the sweeps of every step begin anew.
+    fn is_cold(&self) -> bool {
+        self.storing.get().is_some_and(|storing| storing.is_cold)
     }
 }
