@@ -229,3 +229,19 @@ impl Row {
 pub fn csv(rows: &[Row]) -> Result<Vec<u8>> {
     record_file::csv("trajectories.csv", rows)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The first of those that `signorini extremes --random N --seed 5 --in-time` draws.
+    #[test]
+    fn random_trajectories_keep_their_bounds() {
+        let folder = tempfile::tempdir().unwrap();
+        let rows = run(5, 0..=39, &Kept::open(folder.path()).unwrap(), || ()).unwrap();
+        let record = Record::new(5, &rows);
+        println!("{}", record.text());
+        assert!(record.violations.is_empty(), "{:?}", record.violations);
+        assert!(record.with_window > 30 && record.steps > 10, "{record:?}");
+    }
+}
