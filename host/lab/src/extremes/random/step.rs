@@ -91,7 +91,8 @@ fn finer(problem: &Problem, levels: u32) -> Result<Problem> {
     let bubbles: Vec<f64> = (0..finer.ends.len()).map(bubble).collect::<Result<_>>()?;
     let means = bubbles.iter().enumerate().map(|(edge, bubble)| chord(edge) + bubble / 1.5);
     let means: Vec<f64> = means.collect();
-    let openings = Vec::new();
+    // Of the evolution nothing is asked there.
+    let openings = vec![[0.0; 2]; finer.topology.counts.contact];
     finer.stepping(step.length, State { u: means, vertices, bubbles, openings })
 }
 
