@@ -33,7 +33,7 @@ use signorini_scene::error::Result;
 pub use cleared::{followed, may_be_cleared, peak};
 pub use cross::between_smooth_rays;
 pub use inside::{of_rough_sides, points, points_along_sides};
-pub use panels::PANELS;
+pub use panels::{PANELS, points_along};
 pub use singular::Rough;
 
 /// Gauss points a panel, and away from the edge.
@@ -71,15 +71,6 @@ pub struct Curved {
 /// Data that are not finite or not differentiable at a quadrature point.
 pub fn curved(problem: &Problem, time: f64) -> Result<Vec<Curved>> {
     Ok(curved_edges(problem, time)?.records)
-}
-
-/// Points along an edge with their weights, and ∫(w − w̃)² of what they miss.
-///
-/// # Errors
-/// Data that are not finite.
-pub fn points_along(deviation: &Deviation) -> Result<(Vec<[f64; 2]>, f64)> {
-    let panels = Panels::along(deviation)?;
-    Ok((panels.rule(), panels.missed[0]))
 }
 
 /// The records, and what they leave out.
