@@ -15,7 +15,9 @@ use signorini_bound::certificate::{Discretization, LoadCase, Metric, stability};
 use signorini_bound::conforming::VertexData;
 use signorini_bound::equilibrium::is_root;
 use signorini_bound::forest::{ForestBuffers, grow};
-use signorini_device::tick::{CertifiedSweeps, Data, Deadline, IfStoring, Limits, Memory, Report, Tick};
+use signorini_device::tick::{
+    CertifiedSweeps, Data, Deadline, IfStoring, Limits, Memory, Report, Tick,
+};
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::law::Law;
 use signorini_kernel::mesh::boundary::Boundary;
@@ -141,7 +143,12 @@ fn answer(
         forms: &[],
         oscillation: 0.0,
     };
-    let data = Data { given, law: Law::above(&[0.0; COLUMNS]), dirichlet: &[above; COLUMNS], step: IfStoring::NOTHING };
+    let data = Data {
+        given,
+        law: Law::above(&[0.0; COLUMNS]),
+        dirichlet: &[above; COLUMNS],
+        step: IfStoring::NOTHING,
+    };
     let limits = Limits { error: 0.0, share: 0.0, sweeps };
     tick.begin(data)?.advance(CertifiedSweeps(Libm), limits, &mut Deadline::never())
 }
