@@ -16,6 +16,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 LIMITS = HERE.parent / "limits"
+TIME = HERE.parent / "time"
 PEERS = HERE.parents[1] / "tests/firmware/peers"
 
 
@@ -335,10 +336,11 @@ def main():
         ("oscillating-tri", "E4: an end of contact that oscillates", oscillating()),
     ]
     for name, title, case in moved:
-        (HERE / f"{name}.toml").write_text(scene(title, "square-tri-16.msh", case))
-    (HERE / "column-tri-16.msh").write_text(msh22(*column(16), OF_COLUMN))
+        mesh = "../catalogue/square-tri-16.msh"
+        (TIME / f"{name}.toml").write_text(scene(title, mesh, case))
+    (TIME / "column-tri-16.msh").write_text(msh22(*column(16), OF_COLUMN))
     case = {**release(), "sides": True}
-    (HERE / "release-tri.toml").write_text(scene("E1: contact that is released", "column-tri-16.msh", case))
+    (TIME / "release-tri.toml").write_text(scene("E1: contact that is released", "column-tri-16.msh", case))
     for kind in ("tri", "quad"):
         mesh = f"../catalogue/square-{kind}-16.msh"
         title = "L(0.55): a flux between two ends, all three states"

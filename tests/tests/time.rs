@@ -14,7 +14,7 @@ use signorini_tolerances::twins::STORED;
 
 /// A scene of the catalogue, with more of it.
 fn catalogue(name: &str, more: &str) -> Result<Scene> {
-    let path = format!("{}/../meshes/catalogue/{name}-tri.toml", env!("CARGO_MANIFEST_DIR"));
+    let path = format!("{}/../meshes/time/{name}-tri.toml", env!("CARGO_MANIFEST_DIR"));
     let path = Path::new(&path);
     let text = std::fs::read_to_string(path).expect("a scene of the catalogue");
     Scene::parse(&(text + more), path)

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use signorini_image::checkout::find;
 use signorini_scene::error::{Error, InputError, Result};
+use signorini_scene::scene::Scene;
 
 /// The root of the checkout.
 ///
@@ -13,7 +14,7 @@ pub fn root() -> Result<&'static Path> {
     find().map_err(|why| InputError::new(why).hint("run this command inside of one").into())
 }
 
-/// The scene files below `folder`, in the order of their names.
+/// The scene files below `folder` whose materials store nothing, in the order of their names: all studies are of steady states.
 ///
 /// # Errors
 /// A folder that cannot be read, or without scenes.
@@ -26,7 +27,9 @@ pub fn scenes(folder: &Path) -> Result<Vec<PathBuf>> {
             if path.is_dir() {
                 folders.push(path);
             } else if path.extension().is_some_and(|extension| extension == "toml") {
-                found.push(path);
+                // One that cannot be read is told of where it is.
+                let stores = Scene::read(&path).is_ok_and(|scene| scene.stores());
+                found.extend((!stores).then_some(path));
             }
         }
     }
