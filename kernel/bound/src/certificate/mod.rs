@@ -62,8 +62,8 @@ pub use metric::{Metric, POINTS, of_quad, of_triangle};
 pub use motion::Motion;
 pub use signorini_kernel::verdict::{Certificate, Verdict};
 pub use stability::stability;
-pub use step::{Kept, Step, StoredCell, certify_step, certify_step_with};
-pub use stored::Residual;
+pub use step::{Kept, Step, certify_step, certify_step_with};
+pub use stored::{Residual, StoredCell};
 pub use transfer::TransferForms;
 
 use parts::CellTerms;

@@ -17,7 +17,7 @@
 
 use super::change::{Change, minus, of_quad, of_triangle};
 use super::parts::{CellTerms, Parts};
-use super::stored::{Balance, Residual};
+use super::stored::{Balance, Residual, StoredCell};
 use super::walk::{share_of_quad, share_of_triangle};
 use super::{
     Buffers, Continuous, Discretization, LoadCase, Verdict, admissible, boundary, quad, triangle,
@@ -29,25 +29,6 @@ use signorini_kernel::error::{Array, Error, same_length};
 use signorini_kernel::flux::{on_quad, on_triangle};
 use signorini_kernel::index::{Index, read, write};
 use signorini_kernel::storage::Storage;
-
-/// What one cell stores.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct StoredCell<R> {
-    /// k|T|
-    pub content: R,
-    /// The largest area element of the reference coordinates over their mean: 1 on triangles and parallelograms.
-    pub spread: R,
-    /// By how much the area element rises along x̂ and ŷ over the cell, over its mean: 0 on triangles and parallelograms.
-    pub tilt: [R; 2],
-    /// Mean of the area element times mean of its inverse, less 1: 0 on triangles and parallelograms.
-    pub skew: R,
-    /// k/(k + π²α/h²): the part of ‖R′‖²/k that remains of it in the oscillation.
-    pub shed: R,
-    /// kh²/(π²α)
-    pub loose: R,
-    /// The part of what it lacks of balance that it keeps where cells hand on the rest.
-    pub keep: R,
-}
 
 /// A step in time (borrowed).
 #[derive(Debug, Clone, Copy)]

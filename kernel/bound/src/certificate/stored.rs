@@ -1,9 +1,27 @@
-//! What a step in time leaves of its equation, summed over the cells.
+//! What cells store in a step of time, and what it leaves of its equation, summed over the cells.
 
 use super::change::Change;
 use super::parts::CellTerms;
-use super::step::StoredCell;
 use signorini_kernel::Real;
+
+/// What one cell stores.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StoredCell<R> {
+    /// k|T|
+    pub content: R,
+    /// The largest area element of the reference coordinates over their mean: 1 on triangles and parallelograms.
+    pub spread: R,
+    /// By how much the area element rises along x̂ and ŷ over the cell, over its mean: 0 on triangles and parallelograms.
+    pub tilt: [R; 2],
+    /// Mean of the area element times mean of its inverse, less 1: 0 on triangles and parallelograms.
+    pub skew: R,
+    /// k/(k + π²α/h²): the part of ‖R′‖²/k that remains of it in the oscillation.
+    pub shed: R,
+    /// kh²/(π²α)
+    pub loose: R,
+    /// The part of what it lacks of balance that it keeps where cells hand on the rest.
+    pub keep: R,
+}
 
 /// What is left of R = f − k(s − s_old) + ∇·τ over the cells.
 #[derive(Debug, Clone, Copy)]
