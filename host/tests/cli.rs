@@ -89,6 +89,7 @@ fn what_ran_is_said() {
         ("refine = 1", &["--max-sweeps", "9000"], "auto", "kernel sweeps", " sweeps, "),
         ("", &["--solver", "kernel"], "kernel", "kernel sweeps", " sweeps, "),
         ("", &["--solver", "direct"], "direct", "direct", " active-set steps, "),
+        ("", &["--solver", "multigrid"], "multigrid", "multigrid", " iterations on "),
         ("solver = 'factor'", &[], "auto", "kernel factor", "by elimination, "),
         (condensed, &[], "auto", "condensed exact", "exchanges on the condensed"),
     ] {
@@ -101,6 +102,31 @@ fn what_ran_is_said() {
         let factored = matches!(used, "kernel factor" | "direct");
         assert_eq!(summary["factor"]["entries"].as_u64() > Some(2000), factored, "{what}");
     }
+}
+
+/// What takes longest can be left out; the rest is the same.
+#[test]
+fn intervals_and_files_can_be_left_out() {
+    let levee = meshes("scenes/levee.toml");
+    let (status, folder, whole) = solve(&levee, &[]);
+    assert_eq!(status, 0);
+    for name in ["edges.csv", "solution.vtu", "contact.vtu"] {
+        assert!(folder.path("out").join(name).exists(), "{name}");
+    }
+    let (status, folder, bare) = solve(&levee, &["--no-intervals", "--no-files"]);
+    assert_eq!(status, 0);
+    let files = std::fs::read_dir(folder.path("out")).expect("a folder");
+    let names: Vec<_> = files.map(|file| file.expect("a file").file_name()).collect();
+    assert_eq!(names, ["summary.json"]);
+    assert!(!whole["output_bounds"].as_object().expect("an object").is_empty());
+    assert!(bare["output_bounds"].as_object().expect("an object").is_empty());
+    for key in ["outputs", "contact_force", "error_bound"] {
+        assert_eq!(whole[key], bare[key], "{key}");
+    }
+    let (status, folder, _) = solve(&levee, &["--no-files", "--max-error", "20%"]);
+    assert_eq!((status, folder.path("out/refined.msh").exists()), (0, false));
+    let both = ["--intervals", "--no-intervals"];
+    assert!(command::refused("solve", &levee, &both).contains("cannot be used with"));
 }
 
 /// Three states, each with the flux that belongs to it.

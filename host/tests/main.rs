@@ -6,6 +6,7 @@ mod command;
 mod extremes;
 #[cfg(unix)]
 mod interrupted;
+mod logs;
 mod max_error;
 mod pages;
 mod paths;

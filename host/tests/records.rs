@@ -17,14 +17,10 @@ fn the_page_says(phrases: &[String]) {
     assert!(missing.is_empty(), "docs/robustness.md lacks {missing:?}");
 }
 
-/// The words of each line of a record that has `count` of them.
-fn lines(record: &str, count: usize) -> Vec<Vec<&str>> {
-    let lines = record.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
-    lines.filter(|words| words.len() == count).collect()
-}
-
-fn number(word: &str) -> Option<u64> {
-    word.parse().ok()
+/// What a record has by name.
+fn by_name(path: &str) -> Vec<(String, Value)> {
+    let Value::Object(all) = json(repository(path)) else { panic!("{path} is no record by name") };
+    all.into_iter().collect()
 }
 
 #[test]
@@ -74,25 +70,23 @@ fn the_page_on_benchmarks_has_rows_of_the_record_of_promises() {
 
 #[test]
 fn the_page_quotes_the_record_of_fuzzing() {
-    let record = read("tests/fuzz/record.txt");
-    // target, executions, edges, corpus, found, date
-    let targets = lines(&record, 6)
-        .into_iter()
-        .filter_map(|words| Some(format!("{} {:.1}", words[0], number(words[1])? as f64 / 1e6)));
-    let phrases: Vec<String> = targets.collect();
+    let targets = by_name("tests/fuzz/record.json").into_iter();
+    let phrase = |(name, of): (String, Value)| {
+        format!("{name} {:.1}", of["executions"].as_f64().expect("a count") / 1e6)
+    };
+    let phrases: Vec<String> = targets.map(phrase).collect();
     assert_eq!(phrases.len(), 5, "{phrases:?}");
     the_page_says(&phrases);
 }
 
 #[test]
 fn the_page_quotes_the_record_of_mutants() {
-    let record = read("tests/mutants/record.txt");
-    // path, content, mutants, caught, timeout, missed, unviable
-    let files = lines(&record, 7).into_iter().filter_map(|words| {
-        let [mutants, caught, timeout, _, unviable] = [2, 3, 4, 5, 6].map(|at| number(words[at]));
-        Some((caught? + timeout?, mutants? - unviable?))
-    });
-    let (killed, viable) = files.fold((0, 0), |sum, file| (sum.0 + file.0, sum.1 + file.1));
+    let files = by_name("tests/mutants/record.json");
+    let count = |what: &str| -> u64 {
+        files.iter().map(|(_, row)| row[what].as_u64().expect("a count")).sum()
+    };
+    let killed = count("caught") + count("timeout");
+    let viable = killed + count("missed");
     assert!(viable > 0 && 100 * killed >= 95 * viable, "{killed} of {viable}");
     the_page_says(&[format!("{killed} of {viable} viable mutants")]);
 }

@@ -15,7 +15,7 @@ use signorini_solve::norms::errors;
 use signorini_solve::outputs::outputs as outputs_of;
 use signorini_solve::{Options, ScalarKind, solve};
 
-use crate::command::{Folder, Run, meshes, refused, repository, run, text};
+use crate::command::{Folder, Run, json, meshes, refused, repository, run, text};
 
 const MOVING: &str = "catalogue/moving-tri.toml";
 const LEVEE: &str = "scenes/levee.toml";
@@ -31,13 +31,13 @@ fn standard(name: &str) -> Scene {
 }
 
 /// `ticks.csv`: the names of its columns, and the fields of each line.
-struct Table {
+pub struct Table {
     header: Vec<String>,
-    lines: Vec<Vec<String>>,
+    pub lines: Vec<Vec<String>>,
 }
 
 impl Table {
-    fn read(path: impl AsRef<Path>) -> Self {
+    pub fn read(path: impl AsRef<Path>) -> Self {
         let mut reader = csv::Reader::from_path(path).expect("ticks.csv");
         let fields = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
         let header = fields(reader.headers().expect("a header"));
@@ -45,18 +45,18 @@ impl Table {
         Self { header, lines }
     }
 
-    fn column(&self, name: &str) -> Vec<&str> {
+    pub fn column(&self, name: &str) -> Vec<&str> {
         let at = self.header.iter().position(|column| column == name).expect("a column");
         self.lines.iter().map(|line| line[at].as_str()).collect()
     }
 
-    fn numbers(&self, name: &str) -> Vec<f64> {
+    pub fn numbers(&self, name: &str) -> Vec<f64> {
         self.column(name).iter().map(|field| field.parse().expect("a number")).collect()
     }
 }
 
 /// Plays a scene of the repository, which must end with status 0.
-fn played(scene: &str, more: &[&str]) -> Table {
+pub fn played(scene: &str, more: &[&str]) -> Table {
     let folder = Folder::new();
     let run = tick(&meshes(scene), &folder, more).succeeds();
     assert_eq!(run.stderr, "", "quiet in a pipe");
@@ -556,10 +556,12 @@ fn what_is_stored_has_columns_for_the_evolution() {
     let folder = Folder::new();
     let sure = "[output.sure]\nkind = \"window\"\n";
     let scene = folder.write("plate.toml", storing(&format!("initial = \"y\"\n{sure}")));
-    let run = tick(&scene, &folder, &["--ticks", "3"]).succeeds();
-    let moved = "warning: time.initial is moved to the gap or the given u on";
-    assert!(run.stderr.starts_with(moved), "{}", run.stderr);
-    assert!(run.stderr.contains("by 9.69e-1 at most"), "{}", run.stderr);
+    let said = tick(&scene, &folder, &["--ticks", "3"]).succeeds().stderr;
+    assert!(
+        said.starts_with("warning: time.initial is moved to the gap or the given u on"),
+        "{said}"
+    );
+    assert!(said.contains("by 9.69e-1 at most"), "{said}");
     let ticks = Table::read(folder.path("out/ticks.csv"));
     assert_eq!(ticks.column("sure"), ticks.column("window_energy"));
     let bounds = Table::read(folder.path("out/output_bounds.csv"));
@@ -570,9 +572,14 @@ fn what_is_stored_has_columns_for_the_evolution() {
         let [least, most] = [least[at], most[at]].map(|end| end.parse::<f64>().expect("an end"));
         assert!(least < heat[at] && heat[at] < most, "{least} {} {most}", heat[at]);
     }
-    // The steady state has no bound over time.
-    let message = refused("solve", &scene, &[]);
-    assert!(message.contains("output.sure: this is the steady state"), "{message}");
+    // The steady state has no bound over time, and all else.
+    let steady = run(&["solve", &scene, "--out", &folder.word("steady")]).succeeds();
+    assert_eq!(steady.stderr.matches("warning: ").count(), 1, "{}", steady.stderr);
+    let said = "output.sure has no value: the steady state has no bound over time";
+    assert!(steady.stderr.contains(said), "{}", steady.stderr);
+    let summary = json(folder.path("steady/summary.json"));
+    assert!(summary["outputs"]["sure"].is_null(), "{}", summary["outputs"]);
+    assert!(summary["outputs"]["heat"].is_number(), "{}", summary["outputs"]);
 }
 
 #[test]
@@ -585,4 +592,24 @@ fn steps_in_f32_that_are_too_short_are_said() {
     let in_f32 = said(&["--scalar", "f32"]);
     assert!(in_f32.contains("of the time in which u decays: in f32"), "{in_f32}");
     assert_eq!(said(&[]), "");
+}
+
+#[test]
+fn why_there_is_no_bound_over_time_is_said() {
+    let folder = Folder::new();
+    let plate = storing("initial = \"1/(x^2 + (y - 0.4)^2)\"\n");
+    let held_by_contact = storing("initial = \"y\"\n")
+        .replace("kind = \"dirichlet\"\nvalue =", "kind = \"neumann\"\nflux =");
+    for (text, why) in [
+        (plate, "no bound over time: time.initial may be unbounded somewhere"),
+        (held_by_contact, "no bound over time: neither a given u nor a transfer law holds"),
+    ] {
+        let scene = folder.write("plate.toml", text);
+        let said = tick(&scene, &folder, &["--ticks", "2"]).succeeds().stderr;
+        assert_eq!(said.matches("no bound over time").count(), 1, "{said}");
+        assert!(said.contains(why), "{said}");
+        let ticks = Table::read(folder.path("out/ticks.csv"));
+        assert_eq!(ticks.column("window_energy"), ["", "", ""]);
+        assert!(ticks.column("error_bound")[1..].iter().all(|bound| !bound.is_empty()));
+    }
 }

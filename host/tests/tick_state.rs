@@ -5,6 +5,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use crate::command::{Folder, Run, json as json_in, meshes, run, text};
+use crate::tick::Table;
 
 const LEVEE: &str = "scenes/levee.toml";
 
@@ -88,6 +89,26 @@ fn steps_in_time_go_on_bit_for_bit() {
     let said = ["--log", &log, "--from", &folder.word("state.json")];
     let said = tick(&scene, &folder, "done", &said).refuses();
     assert!(said.contains("log.csv:2: t: 0.08 comes") && said.contains("after 0.06"), "{said}");
+}
+
+/// The error over time of a run that goes on is that of one run, in other units too.
+#[test]
+fn an_error_over_time_goes_on_bit_for_bit() {
+    let folder = Folder::new();
+    let exact = text(meshes("time/release-tri.toml"));
+    let exact = exact.replace("column-tri-16.msh", &meshes("time/column-tri-16.msh"));
+    for of_one in ["1", "1e-12"] {
+        let other = exact.replace("conductivity = \"1\"", &format!("conductivity = {of_one}"));
+        let scene = other.replace("capacity = 1", &format!("capacity = {of_one}"));
+        let scene = folder.write("release.toml", scene);
+        let all = [&["--ticks", "5"][..], &["--ticks", "2"], &["--ticks", "3"]];
+        one_of_two(&scene, &folder, all, 0);
+        let ticks = Table::read(folder.path("second/ticks.csv"));
+        let numbers = |name| ticks.numbers(name);
+        let pairs = numbers("window_energy").into_iter().zip(numbers("window_error"));
+        assert!(pairs.clone().all(|(bound, error)| bound >= error && error > 0.0), "{of_one}");
+        assert_eq!(pairs.count(), 3);
+    }
 }
 
 #[test]

@@ -5,6 +5,7 @@ use signorini_tolerances::command::{KEPT, PROMISED};
 use std::path::PathBuf;
 
 use serde_json::Value;
+use signorini_lab::checkout::scenes as scenes_of;
 use signorini_problem::Problem;
 use signorini_scene::mesh::gmsh::write;
 use signorini_scene::mesh::structured::{Cells, grid};
@@ -253,12 +254,10 @@ fn committed_recommendations_keep_their_promise() {
 fn every_standard_scene_is_in_the_record() {
     let mut scenes = Vec::new();
     for folder in ["catalogue", "scenes"] {
-        for entry in std::fs::read_dir(repository("meshes").join(folder)).expect("scenes") {
-            let path = entry.expect("a file").path();
-            if path.extension().is_some_and(|extension| extension == "toml") {
-                scenes.push(path.file_stem().unwrap().to_string_lossy().into_owned());
-            }
-        }
+        let steady = scenes_of(&repository("meshes").join(folder)).expect("scenes");
+        scenes.extend(
+            steady.iter().map(|path| path.file_stem().unwrap().to_string_lossy().into_owned()),
+        );
     }
     scenes.sort();
     for target in ["host", "m4f"] {

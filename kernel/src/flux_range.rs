@@ -186,7 +186,7 @@ impl<R: Real> Room<'_, R> {
     }
 }
 
-/// What ∫_E A∇u·n may be on a contact edge.
+/// The values that ∫_E A∇u·n may have on a contact edge.
 #[derive(Debug, Clone, Copy)]
 pub struct FluxRange<R> {
     base: R,

@@ -29,7 +29,7 @@ impl<'a, R: Real> Law<'a, R> {
         Self { lower, spans: Spans::UNLIMITED }
     }
 
-    /// The same with these ranges of fluxes.
+    /// The law with these ranges of fluxes.
     #[must_use]
     pub const fn with_spans(self, spans: Spans<'a, R>) -> Self {
         Self { spans, ..self }
@@ -142,7 +142,7 @@ impl<R: Real> EdgeLaw<R> {
         Self { lower, span: Span::UNLIMITED }
     }
 
-    /// The same with this range of fluxes.
+    /// The law with this range of fluxes.
     #[must_use]
     pub const fn with_span(self, span: Span<R>) -> Self {
         Self { span, ..self }

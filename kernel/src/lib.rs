@@ -18,6 +18,7 @@ pub mod csr;
 #[cfg(feature = "mesh")]
 pub mod element;
 pub mod error;
+pub mod evolution;
 pub mod excess;
 pub mod features;
 pub mod flags;

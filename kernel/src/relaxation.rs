@@ -155,7 +155,7 @@ impl<R: Real> Search<R> {
         *self = Self { previous: None, factor: None, ..*self };
     }
 
-    /// What is left once data change.
+    /// The state that is left once data change.
     pub fn kept(&self) -> KeptSearch<R> {
         let best = self.best.map_or([R::ZERO; 2], |(omega, factor)| [omega, factor]);
         KeptSearch { omega: self.omega, best, moves: self.moves, phase: self.phase as u32 }

@@ -10,7 +10,7 @@ use crate::real::Real;
 use crate::verdict::{Certificate, Verdict};
 
 crate::codes! {
-    /// What ended a tick.
+    /// A cause that ends a tick.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     Ended {
         /// The solution of the discrete problem, but for rounding.
@@ -38,7 +38,7 @@ crate::codes! {
 /// nothing, or the figures of sweeps on a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Report<R, F = ()> {
-    /// What ended the tick.
+    /// The cause that ended the tick.
     pub ended: Ended,
     /// Edges that changed sides, one by one, on the way to the exact solution; 0 where there are sweeps alone.
     pub exchanges: u32,

@@ -1,4 +1,4 @@
-//! What cells store in a step of time: a diagonal mass, for the implicit Euler method.
+//! Storage of cells in a step of time: a diagonal mass, for the implicit Euler method.
 //!
 //! ```text
 //!   c ∂u/∂t ≈ k (u − u_old),   k = c/dt,   m_T = k |T|/m   in a cell T with m sides
@@ -16,7 +16,7 @@ use crate::error::{Array, Error, all_finite, same_length};
 use crate::index::{Index, read};
 use crate::mesh::edges::Edges;
 
-/// What a step in time has beside a steady problem, or nothing (borrowed). Of no size where the build has no steps.
+/// Storage that a step in time has beside a steady problem, or nothing (borrowed). Of no size where the build has no steps.
 #[derive(Debug)]
 pub struct IfStoring<'a, T> {
     #[cfg(feature = "storage")]

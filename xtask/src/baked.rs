@@ -1,4 +1,4 @@
-//! What to bake, and the module that `signorini bake` makes of it.
+//! A scene to bake, and the module that `signorini bake` makes of it.
 
 use std::env;
 use std::fs;
@@ -8,8 +8,10 @@ use std::process::Command;
 use std::sync::Arc;
 
 use crate::program::signorini;
+use clap::Args;
 use signorini_image::cargo::root;
 use signorini_image::chosen::Chosen;
+use signorini_image::files;
 use signorini_image::module::Module;
 use signorini_image::once::Once;
 use signorini_image::room::NoResult;
@@ -17,20 +19,29 @@ use signorini_image::room::NoResult;
 /// The modules of this run.
 static BAKED: Once<Arc<Module>> = Once::new();
 
-/// What to bake.
-#[derive(Debug, Clone)]
+/// A scene to bake, and how.
+#[derive(Debug, Clone, Args)]
 pub struct Recipe {
-    /// The scene's file.
+    /// The scene's file
+    #[arg(value_name = "SCENE.toml")]
     pub scene: PathBuf,
-    /// `f32` or `f64`, where one is forced.
+    /// The number format [the scene's setting.scalar, else f32]
+    #[arg(long, value_parser = ["f32", "f64"])]
     pub scalar: Option<String>,
-    /// `--full` or `--condensed`, where one is forced.
-    pub model: Option<String>,
-    /// `NAME=VALUE`, as they were given.
+    /// Forces the full model, whatever the scene's setting says
+    #[arg(long, conflicts_with = "condensed")]
+    pub full: bool,
+    /// Forces the condensed model, whatever the scene's setting says
+    #[arg(long)]
+    pub condensed: bool,
+    /// The default of an input; repeatable
+    #[arg(long = "input", value_name = "NAME=VALUE")]
     pub inputs: Vec<String>,
-    /// Another length of a step in time.
+    /// Another length of a step in time than the scene's
+    #[arg(long, value_name = "DT")]
     pub step: Option<String>,
-    /// Whether edges that never change sides are kept.
+    /// Keeps contact edges that never change sides
+    #[arg(long)]
     pub full_edges: bool,
 }
 
@@ -62,12 +73,13 @@ impl From<Failure> for String {
 }
 
 impl Recipe {
-    /// A scene of the repository in f32.
+    /// A scene of the repository in f32; the model is `--full` or `--condensed`.
     pub fn of(scene: &str, model: &str) -> Self {
         Self {
             scene: root().join(scene),
             scalar: Some("f32".to_owned()),
-            model: Some(model.to_owned()),
+            full: model == "--full",
+            condensed: model == "--condensed",
             inputs: Vec::new(),
             step: None,
             full_edges: false,
@@ -79,12 +91,19 @@ impl Recipe {
         self.scene.file_stem().unwrap_or_default().display().to_string()
     }
 
+    /// The option of the model that is forced, if one is.
+    pub fn model(&self) -> Option<&'static str> {
+        let of_condensed = self.condensed.then_some("--condensed");
+        if self.full { Some("--full") } else { of_condensed }
+    }
+
     fn name(&self) -> String {
         let scalar = self.scalar.iter().map(|scalar| format!("_{scalar}"));
         let inputs = self.inputs.iter().map(|input| format!("_{input}"));
         let edges = self.full_edges.then(|| "--full-edges".to_owned());
         let edges = edges.into_iter().chain(self.step.iter().map(|step| format!("_dt{step}")));
-        let asked: String = scalar.chain(self.model.clone()).chain(inputs).chain(edges).collect();
+        let model = self.model().map(str::to_owned);
+        let asked: String = scalar.chain(model).chain(inputs).chain(edges).collect();
         let name = format!("{}-{:08x}{asked}", self.scene_name(), self.place());
         name.replace(['/', '\\'], "_")
     }
@@ -100,7 +119,7 @@ impl Recipe {
     /// The command that writes the module to `file`, and what was chosen to `facts`.
     fn baking(&self, file: &Path, facts: &Path) -> Result<Command, String> {
         let mut command = signorini(&["bake"])?;
-        command.arg(&self.scene).args(&self.model);
+        command.arg(&self.scene).args(self.model());
         if let Some(scalar) = &self.scalar {
             command.args(["--scalar", scalar]);
         }
@@ -156,9 +175,8 @@ fn written(mut command: Command, facts: &Path) -> Result<Chosen, Failure> {
         let why = format!("signorini bake: {status}");
         return Err(Failure { why, status: if status.code() == Some(2) { 2 } else { 1 } });
     }
-    let wrong = |error: &dyn std::fmt::Display| format!("{}: {error}", facts.display());
-    let text = fs::read_to_string(facts).map_err(|error| wrong(&error))?;
-    Ok(serde_json::from_str(&text).map_err(|error| wrong(&error))?)
+    let wrong = |error| format!("{}: {error}", facts.display());
+    Ok(serde_json::from_str(&files::text(facts)?).map_err(wrong)?)
 }
 
 #[cfg(test)]
@@ -172,7 +190,7 @@ mod tests {
         assert!(name.starts_with("levee-") && name.ends_with("_f32--full"), "{name}");
         let wet = Recipe { inputs: vec!["rain=2".to_owned()], ..recipe.clone() };
         assert_eq!(wet.name(), format!("{name}_rain=2"));
-        let free = Recipe { scalar: None, model: None, ..recipe.clone() };
+        let free = Recipe { scalar: None, full: false, ..recipe.clone() };
         assert_eq!(Some(free.name()), name.strip_suffix("_f32--full").map(str::to_owned));
         // Called alike, elsewhere.
         let elsewhere = Recipe::of("somewhere/levee.toml", "--full");

@@ -6,7 +6,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::export::scenes;
+use crate::export::{scenes, stages};
 use crate::flight;
 use crate::replay;
 use crate::setup;
@@ -50,11 +50,7 @@ pub fn run(steps: &mut Steps) {
     }
     on_board(steps, &M4F_192K, &TICKS);
     steps.check("the cost image fits a part with 192 KiB", || {
-        let (package, bins) = ("signorini-firmware", &["cost"]);
-        let what = Build { package, bins, features: &[], scenes: &scenes()? };
-        let (command, folder) = M4F_192K.build(what)?;
-        run_cargo(command)?;
-        M4F_192K.run(&folder.join("cost"), true).map(drop)
+        M4F_192K.run(&stages(&M4F_192K, &["cost"], &[])?.join("cost"), true).map(drop)
     });
     steps.check("RTIC example: no missed deadline", || match rtic(&[])? {
         said if said.contains("\ncut 0\n") => Err("no deadline was ever tight".to_owned()),
@@ -83,13 +79,8 @@ fn desk(name: &str) -> Result<String, String> {
 fn on_board(steps: &mut Steps, board: &Board, images: &[&str]) {
     let mut folder = Err("not built".to_owned());
     steps.check(&format!("images for the {}", board.name), || {
-        let scenes = scenes()?;
-        let build =
-            Build { package: "signorini-firmware", bins: images, features: &[], scenes: &scenes };
-        let (command, built) = board.build(build)?;
-        run_cargo(command)?;
-        folder = Ok(built);
-        Ok(())
+        folder = stages(board, images, &[]);
+        folder.clone().map(drop)
     });
     for image in images {
         steps.check(&format!("{image} on the {}, bit for bit", board.name), || {

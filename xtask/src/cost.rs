@@ -3,11 +3,10 @@
 use std::cmp::Ordering;
 use std::fmt::Write as _;
 
-use signorini_image::board::{Board, Build, M4, M4F, M7};
-use signorini_image::cargo::run as run_cargo;
+use signorini_image::board::{Board, M4, M4F, M7};
 use signorini_image::record::counts::Counts;
 
-use crate::export::scenes;
+use crate::export::stages;
 use crate::record;
 use crate::setup;
 use crate::snapshot;
@@ -20,7 +19,7 @@ const RECORD: &str = "tests/firmware/cost.txt";
 /// An image that counts.
 struct Image {
     bin: &'static str,
-    /// What its counts are of.
+    /// The kinds of data that its counts are of.
     kinds: &'static [&'static str],
     /// The stage that each kind counts last.
     last: &'static str,
@@ -113,15 +112,7 @@ pub fn run(steps: &mut Steps) {
 }
 
 fn measure(board: &Board, image: &Image, counts: &mut Counts) -> Result<String, String> {
-    let (scenes, bins) = (scenes()?, [image.bin]);
-    let build = Build {
-        package: "signorini-firmware",
-        bins: &bins,
-        features: image.features,
-        scenes: &scenes,
-    };
-    let (command, folder) = board.build(build)?;
-    run_cargo(command)?;
+    let folder = stages(board, &[image.bin], image.features)?;
     let said = board.run(&folder.join(image.bin), true)?;
     let mut rows: Vec<(String, String)> = Vec::new();
     for line in said.lines() {

@@ -10,7 +10,7 @@ pub fn counted(words: &[&str]) -> (Tally, Option<String>) {
     counted_by(cargo(words))
 }
 
-/// The same for a whole command.
+/// Runs a whole command and counts its tests.
 pub fn counted_by(command: Command) -> (Tally, Option<String>) {
     let mut tally = Tally::default();
     let ended = run_with_lines(command, |line| {

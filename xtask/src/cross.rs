@@ -6,12 +6,13 @@
 use std::fs;
 
 use crate::crates::DEVICE;
-use crate::export::scenes;
+use crate::export::{scenes, stages};
 use crate::modules::ROWS;
 use crate::setup;
 use crate::steps::Steps;
 use signorini_image::board::{Board, Build, HARDWARE, M4, M4F, M7};
 use signorini_image::cargo::{run as run_cargo, target_dir};
+use signorini_image::files;
 
 /// Boards, the first of which links every image in every run.
 const BOARDS: [Board; 3] = [M4F, M4, M7];
@@ -29,7 +30,8 @@ pub fn run(steps: &mut Steps) {
         let images = PACKAGES.into_iter().filter(|_| is_whole || at == 0);
         for (package, what) in kernel.into_iter().chain(images) {
             steps.check(&format!("{what} for the {}", board.name), || {
-                build(&board, Build { package, bins: &[], features: &[], scenes: &scenes()? })
+                let what = Build { package, bins: &[], features: &[], scenes: &scenes()? };
+                run_cargo(board.build(what)?.0)
             });
         }
     }
@@ -44,17 +46,10 @@ pub fn run(steps: &mut Steps) {
         return;
     }
     steps.check("the cost image for a real board", || {
-        let (package, bins) = ("signorini-firmware", &["cost"]);
-        let what = Build { package, bins, features: &["dwt"], scenes: &scenes()? };
-        build(&HARDWARE, what)?;
+        let built = stages(&HARDWARE, &["cost"], &["dwt"])?;
         // Out of the way of the emulator's image of the same name.
-        let folder = target_dir("firmware").join("hardware");
-        fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
-        let copied = fs::copy(HARDWARE.build(what)?.1.join("cost"), folder.join("cost"));
+        let folder = files::folder(&target_dir("firmware").join("hardware"))?;
+        let copied = fs::copy(built.join("cost"), folder.join("cost"));
         copied.map(drop).map_err(|error| error.to_string())
     });
-}
-
-fn build(board: &Board, what: Build) -> Result<(), String> {
-    run_cargo(board.build(what)?.0)
 }

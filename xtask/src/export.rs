@@ -4,7 +4,8 @@ use std::path::PathBuf;
 use std::sync::OnceLock;
 
 use crate::program::scene_data;
-use signorini_image::cargo::target_dir;
+use signorini_image::board::{Board, Build};
+use signorini_image::cargo::{run as run_cargo, target_dir};
 use signorini_image::module::take;
 use signorini_image::toolchain::output;
 
@@ -21,6 +22,14 @@ const SCENES: [(&str, &str, &[&str]); 5] = [
 pub fn scenes() -> Result<PathBuf, String> {
     static DONE: OnceLock<Result<PathBuf, String>> = OnceLock::new();
     DONE.get_or_init(write).clone()
+}
+
+/// Builds images of stages for a board, with the scenes that they need; returns their folder.
+pub fn stages(board: &Board, bins: &[&str], features: &[&str]) -> Result<PathBuf, String> {
+    let (package, scenes) = ("signorini-firmware", &scenes()?);
+    let (command, folder) = board.build(Build { package, bins, features, scenes })?;
+    run_cargo(command)?;
+    Ok(folder)
 }
 
 fn write() -> Result<PathBuf, String> {

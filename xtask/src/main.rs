@@ -6,7 +6,6 @@ mod baked;
 mod boards;
 mod c;
 mod caught;
-mod command;
 mod cost;
 mod counted;
 mod crates;
@@ -16,6 +15,7 @@ mod firmware;
 mod flight;
 mod fuzz;
 mod house;
+mod logs;
 mod modules;
 mod mutants;
 mod no_std;
@@ -40,127 +40,142 @@ mod test;
 
 use std::process::ExitCode;
 
+use clap::{Parser, Subcommand};
 use signorini_image::cargo::target_dir;
 use signorini_image::checkout;
 use signorini_image::lock::hold;
 
+use baked::Failure;
 use steps::{Mode, Steps};
 
-/// What a verb of the command line does.
-enum Work {
-    /// Steps, all of them whichever fail, with no argument but `--bless` and `--all`.
-    Steps(fn(&mut Steps)),
-    /// One thing, with arguments and a help of its own.
-    Command(fn(&[&str]) -> ExitCode),
-}
-
-const VERBS: [(&str, Work); 19] = [
-    ("test", Work::Steps(test::run)),
-    ("quick", Work::Steps(quick::run)),
-    ("house", Work::Steps(house::run)),
-    ("no-std", Work::Steps(no_std::run)),
-    ("sanitize", Work::Steps(sanitize::run)),
-    ("results", Work::Steps(results::run)),
-    ("python", Work::Steps(python::run)),
-    ("setup", Work::Steps(setup::run)),
-    ("cross", Work::Steps(cross::run)),
-    ("boards", Work::Steps(boards::run)),
-    ("audit", Work::Steps(audit::run)),
-    ("size", Work::Steps(size::run)),
-    ("cost", Work::Steps(cost::run)),
-    ("c", Work::Steps(c::run)),
-    ("firmware", Work::Command(firmware::run)),
-    ("fuzz", Work::Command(fuzz::run)),
-    ("peers", Work::Steps(peers::run)),
-    ("osqp", Work::Command(osqp::run)),
-    ("mutants", Work::Command(mutants::run)),
-];
-
-const HELP: &str = "\
-Usage: cargo xtask VERB
-
-Verbs:
-  test      formatting, clippy, tests, boards; with --all what need not run each time, too
-  quick     format, clippy and tests of the packages that the working tree changes
-  house     rules of the house that no compiler holds, with those that break them
-  no-std    the kernel links without std and without an allocator; breaches are caught
-  sanitize  sweeps under AddressSanitizer: no access outside of an array
-  results   meshio and PyVista read the files of a solve and of ticks (Python, from its registry)
-  python    the Python module: built by pip in a fresh environment, tested beside the command line
-  setup     installs the tools for microcontrollers (Debian, as root)
-  cross     the kernel and all images for Cortex-M4 and M7
-  boards    the images on emulated boards, bit for bit as on the desk
-  audit     no allocator, panic, formatting, f64, unused code in the images
-  size      flash, RAM and stack by kind of scene
-  cost      instructions of every stage, against record and targets
-  c         controllers from C: bits, instructions, headers, states, examples
-  firmware  any scene on an emulated board: bits, instructions, RAM, flash, stack
-  fuzz      arbitrary bytes into readers, constructors and ticks; a record of how many
-  peers     other solvers on the same board and problems; not part of `test`
-  osqp      builds OSQP for the trade study; the last line is the program's path
-  mutants   does a test fail for every single change of the kernel? (minutes)
-
+const EXAMPLES: &str = "\
 Examples:
   cargo xtask test         before every commit, and what CI runs
   cargo xtask test --all   fuzzing, sanitizer, mutants, MPI, OSQP, old processors, PyVista, every board, too
   cargo xtask no-std    after a change of the kernel's dependencies
-  cargo xtask cost --bless    writes the record anew (boards, c, cost, peers and size have one)
+  cargo xtask cost --bless    writes the record anew (boards, c, cost, house, logs, peers and size have one)
   cargo xtask firmware meshes/scenes/levee.toml    and `cargo xtask firmware --help`
   cargo xtask fuzz --runs 1000000 mesh    goes on fuzzing the mesh reader
 
 Each verb but `firmware`, `fuzz`, `mutants` and `osqp` runs all its steps, whichever fail. The last line is `N passed, N failed`; the exit
 status is 0 only where nothing failed, 2 for a wrong command line. A missing tool is a failure.";
 
-fn main() -> ExitCode {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    let Some((&name, arguments)) = words.split_first() else { return wrong("no verb given") };
-    if let Err(why) = checkout::find() {
-        eprintln!("error: {why}");
-        return ExitCode::from(2);
-    }
-    match VERBS.iter().find(|(verb, _)| *verb == name).map(|(_, work)| work) {
-        Some(Work::Command(command)) => command(arguments),
-        _ if words.iter().any(|word| ["--help", "-h", "help"].contains(word)) => {
-            println!("{HELP}");
-            ExitCode::SUCCESS
-        }
-        Some(Work::Steps(work)) => match arguments {
-            [] | ["--bless"] | ["--all"] => {
-                // Images of one name differ from verb to verb.
-                let _turn = match hold(&target_dir("firmware").join("steps.lock")) {
-                    Ok(turn) => turn,
-                    Err(why) => return wrong(&why),
-                };
-                let bless = arguments == ["--bless"];
-                // A record is written whole.
-                let mut steps = Steps::new(Mode { bless, is_whole: !arguments.is_empty() });
-                work(&mut steps);
-                steps.finish()
-            }
-            [extra, ..] => wrong(&format!(
-                "`{name}` takes no argument but `--bless` or `--all`, not `{extra}`"
-            )),
-        },
-        None => wrong(&format!("no verb `{name}`")),
-    }
+/// The project's task runner
+#[derive(Debug, Parser)]
+#[command(bin_name = "cargo xtask", after_help = EXAMPLES)]
+struct Cli {
+    #[command(subcommand)]
+    verb: Verb,
 }
 
-fn wrong(message: &str) -> ExitCode {
-    eprintln!("error: {message}\n\n{HELP}");
-    ExitCode::from(2)
+#[derive(Debug, Subcommand)]
+enum Verb {
+    /// Formatting, clippy, tests, boards; with --all what need not run each time, too
+    Test(Mode),
+    /// Format, clippy and tests of the packages that the working tree changes
+    Quick(Mode),
+    /// Rules of the house that no compiler holds, with those that break them
+    House(Mode),
+    /// The kernel links without std and without an allocator; breaches are caught
+    NoStd(Mode),
+    /// Sweeps under AddressSanitizer: no access outside of an array
+    Sanitize(Mode),
+    /// meshio and PyVista read the files of a solve and of ticks (Python, from its registry)
+    Results(Mode),
+    /// The Python module: built by pip in a fresh environment, tested beside the command line
+    Python(Mode),
+    /// Installs the tools for microcontrollers (Debian, as root)
+    Setup(Mode),
+    /// The kernel and all images for Cortex-M4 and M7
+    Cross(Mode),
+    /// The images on emulated boards, bit for bit as on the desk
+    Boards(Mode),
+    /// No allocator, panic, formatting, f64, unused code in the images
+    Audit(Mode),
+    /// Flash, RAM and stack by kind of scene
+    Size(Mode),
+    /// Instructions of every stage, against record and targets
+    Cost(Mode),
+    /// Instructions of ticks over recorded inputs, bit for bit as on the desk, against the record
+    Logs(Mode),
+    /// Controllers from C: bits, instructions, headers, states, examples
+    C(Mode),
+    /// Any scene on an emulated board: bits, instructions, RAM, flash, stack
+    ///
+    /// Bakes a scene, puts it on an emulated board, plays 101 ticks there and on this machine, and compares them bit for bit.
+    ///
+    /// Tick 1 has all inputs at their defaults, from a cold start or, of a scene in time, from its start; in each of the others every
+    /// input is drawn from its range, two of four ticks at a corner of all ranges; without a range from within a tenth of its default
+    /// (±0.1 where that is 0). They are the same on both.
+    Firmware(Box<firmware::Options>),
+    /// Arbitrary bytes into readers, constructors and ticks; a record of how many
+    ///
+    /// Feeds arbitrary bytes, guided by coverage, to the targets. Without --runs the corpora and all cases ever found are replayed,
+    /// and mutations of them up to 10000 executions a target, the same every time; nothing is written unless something is found.
+    Fuzz(fuzz::Options),
+    /// Other solvers on the same board and problems; not part of `test`
+    Peers(Mode),
+    /// Builds OSQP for the trade study; the last line is the program's path
+    Osqp(osqp::Options),
+    /// Does a test fail for every single change of the kernel? (minutes)
+    ///
+    /// Mutates sources of the kernel that have changed since tests/mutants/record.json, and judges each mutant by its tests. Mutants
+    /// that live are listed in tests/mutants/survivors.json, where a person writes a reason beside each.
+    ///
+    /// Exit status: 0 where 95 % are killed and each survivor has its reason; 1 otherwise; 2 for wrong words.
+    Mutants(mutants::Options),
+}
+
+fn main() -> ExitCode {
+    let verb = Cli::parse().verb;
+    if let Err(why) = checkout::find() {
+        return ended(Err(Failure { why, status: 2 }));
+    }
+    let (mode, run): (Mode, fn(&mut Steps)) = match verb {
+        Verb::Firmware(options) => return ended(firmware::run(&options)),
+        Verb::Fuzz(options) => return ended(fuzz::run(&options)),
+        Verb::Osqp(options) => return ended(osqp::run(&options)),
+        Verb::Mutants(options) => return ended(mutants::run(&options)),
+        Verb::Test(mode) => (mode, test::run),
+        Verb::Quick(mode) => (mode, quick::run),
+        Verb::House(mode) => (mode, house::run),
+        Verb::NoStd(mode) => (mode, no_std::run),
+        Verb::Sanitize(mode) => (mode, sanitize::run),
+        Verb::Results(mode) => (mode, results::run),
+        Verb::Python(mode) => (mode, python::run),
+        Verb::Setup(mode) => (mode, setup::run),
+        Verb::Cross(mode) => (mode, cross::run),
+        Verb::Boards(mode) => (mode, boards::run),
+        Verb::Audit(mode) => (mode, audit::run),
+        Verb::Size(mode) => (mode, size::run),
+        Verb::Cost(mode) => (mode, cost::run),
+        Verb::Logs(mode) => (mode, logs::run),
+        Verb::C(mode) => (mode, c::run),
+        Verb::Peers(mode) => (mode, peers::run),
+    };
+    // Images of one name differ from verb to verb.
+    let _turn = match hold(&target_dir("firmware").join("steps.lock")) {
+        Ok(turn) => turn,
+        Err(why) => return ended(Err(Failure { why, status: 2 })),
+    };
+    let mut steps = Steps::new(mode);
+    run(&mut steps);
+    steps.finish()
+}
+
+/// The status of a verb without steps.
+fn ended(done: Result<(), Failure>) -> ExitCode {
+    let Err(Failure { why, status }) = done else { return ExitCode::SUCCESS };
+    eprintln!("error: {why}");
+    ExitCode::from(status)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use clap::CommandFactory as _;
 
     #[test]
-    fn the_help_has_a_line_for_each_verb() {
-        let (_, rest) = HELP.split_once("Verbs:\n").expect("a list");
-        let (list, _) = rest.split_once("\n\n").expect("its end");
-        let named: Vec<_> =
-            list.lines().filter_map(|line| line.split_whitespace().next()).collect();
-        assert_eq!(named, VERBS.map(|(name, _)| name));
+    fn the_command_line_is_sound() {
+        super::Cli::command().debug_assert();
     }
 }

@@ -1,4 +1,4 @@
-//! What README's first command builds runs on every x86-64: a scene is solved on an emulated one without AVX.
+//! The program that README's first command builds runs on every x86-64: a scene is solved on an emulated one without AVX.
 
 use std::path::Path;
 use std::process::Command;

@@ -2,9 +2,11 @@
 //!
 //! It is a workspace of its own, because its build needs cmake and the project's shall not.
 
-use std::process::{Command, ExitCode};
+use std::process::Command;
 
-use crate::command::command;
+use clap::Args;
+
+use crate::baked::Failure;
 use crate::steps::Steps;
 use signorini_image::cargo::{cargo, run as run_cargo, target_dir};
 use signorini_image::tools::{answer, ensured};
@@ -12,23 +14,18 @@ use signorini_image::tools::{answer, ensured};
 /// The package of the program.
 pub const MANIFEST: &str = "tests/osqp/Cargo.toml";
 
-const HELP: &str = "\
-Usage: cargo xtask osqp [--wide]
-
-Builds tests/osqp and prints the program's path; with --wide for AVX2 on x86-64, whatever RUSTFLAGS says.
-";
+/// The processors that it is built for.
+#[derive(Debug, Args)]
+pub struct Options {
+    /// Builds it for AVX2 on x86-64, whatever RUSTFLAGS says
+    #[arg(long)]
+    wide: bool,
+}
 
 /// The verb: the last line of its output is the program's path.
-pub fn run(words: &[&str]) -> ExitCode {
-    let parse = |words: &[&str]| match words {
-        [] => Ok(false),
-        ["--wide"] => Ok(true),
-        [extra, ..] => Err(format!("`osqp` takes no argument but `--wide`, not `{extra}`")),
-    };
-    command(words, HELP, parse, |is_wide| {
-        println!("{}", build(is_wide)?);
-        Ok(())
-    })
+pub fn run(options: &Options) -> Result<(), Failure> {
+    println!("{}", build(options.wide)?);
+    Ok(())
 }
 
 /// Studies leave OSQP out where it cannot be built, and go on: here that is a failure.

@@ -19,13 +19,13 @@ mod sources;
 
 use std::path::{Path, PathBuf};
 
-use crate::c::package::write;
 use crate::program::{scene_data, signorini};
 use crate::record;
 use crate::setup;
 use crate::steps::Steps;
 use image::Measured;
 use signorini_image::cargo::{root, target_dir};
+use signorini_image::files;
 use signorini_image::toolchain::output;
 use sources::Sources;
 
@@ -54,7 +54,7 @@ const TICKS: usize = 1000;
 /// conductivities that jump by 100, magnifies the rounding of f32.
 const MOST: [(&str, f64); 3] = [("kernel", 1e-4), ("DAQP", 1e-4), ("OSQP", 5e-3)];
 
-/// What the kernel's median and worst may be of DAQP's at most. In the record it is less.
+/// The part of DAQP's median and worst that the kernel's may be at most. In the record it is less.
 const SHARE: f64 = 1.0;
 
 /// Fetches, builds, runs, prints, compares.
@@ -92,7 +92,7 @@ fn measure(scene: &str, is_reduced: bool, sources: &Sources) -> Result<[Row; 3],
     let [size, is_limited] = sources.problem("write", &header, &quadratic)?;
     let row = |name, measured: Measured| {
         let answers = folder.join(format!("{name}.txt"));
-        write(&answers, measured.answers().as_bytes())?;
+        files::write(&answers, measured.answers())?;
         let deviation = sources.problem("judge", &header, &answers)?;
         let row = Row::new(name, size as usize, &measured, deviation)?;
         print!("  {}", row.line());
@@ -105,7 +105,7 @@ fn measure(scene: &str, is_reduced: bool, sources: &Sources) -> Result<[Row; 3],
     ])
 }
 
-/// What a solver takes of a problem.
+/// The cost and error of a solver on a problem.
 #[derive(Debug, Clone)]
 struct Row {
     solver: &'static str,
@@ -167,8 +167,7 @@ fn slower(kernel: &Row, daqp: &Row) -> Result<(), String> {
 
 /// The scene's condensed problem as a C header, by the host.
 fn condense(scene: &str, is_reduced: bool, folder: &Path) -> Result<PathBuf, String> {
-    std::fs::create_dir_all(folder).map_err(|error| error.to_string())?;
-    let header = folder.join("problem.h");
+    let header = files::folder(folder)?.join("problem.h");
     let scene = root().join(format!("tests/firmware/peers/{scene}.toml"));
     let source = folder.join("contact.rs");
     let more: &[&str] = if is_reduced { &["--reduced"] } else { &[] };

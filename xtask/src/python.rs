@@ -12,7 +12,7 @@ use signorini_image::tools::{ensured, install_packages};
 /// The package of the module: what it is linked to, pip knows.
 pub const PACKAGE: &str = "signorini-python";
 
-/// What the library of Gmsh asks of a system.
+/// Packages that the library of Gmsh asks of a system.
 const OF_GMSH: [&str; 6] =
     ["libglu1-mesa", "libxrender1", "libxcursor1", "libxft2", "libxinerama1", "libgl1"];
 

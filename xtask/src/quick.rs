@@ -2,9 +2,10 @@
 //! changes nothing.
 
 use std::collections::BTreeSet;
-use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
+
+use serde::Deserialize;
 
 use crate::counted::counted_by;
 use crate::crates::KERNEL;
@@ -36,7 +37,7 @@ pub fn run(steps: &mut Steps) {
             steps.step(&format!("tests of {package}"), || {
                 let mut test = cargo(&["test", "--locked", "--no-fail-fast"]);
                 test.args(profile).args(["--package", package]);
-                counted_by(test)
+                Ok(counted_by(test))
             });
         }
     }
@@ -50,16 +51,9 @@ fn touched() -> Result<BTreeSet<String>, String> {
     if changed.is_empty() {
         changed = git(&["diff", "--name-only", "HEAD~1"])?;
     }
-    let workspace = fs::read_to_string(root().join("Cargo.toml"));
-    let workspace = workspace.map_err(|error| format!("Cargo.toml: {error}"))?;
-    let members = members(&workspace);
-    let folders = changed.iter().filter_map(|file| package_of(file, &members));
-    let packages = folders.map(|folder| {
-        let manifest = fs::read_to_string(root().join(&folder).join("Cargo.toml"));
-        let manifest = manifest.map_err(|error| format!("{folder}: {error}"))?;
-        name_in(&manifest).ok_or(format!("{folder}/Cargo.toml names no package"))
-    });
-    packages.collect()
+    let said = output(&mut cargo(&["metadata", "--no-deps", "--format-version", "1"]))?;
+    let workspace: Workspace = serde_json::from_str(&said).map_err(|error| error.to_string())?;
+    Ok(changed.iter().filter_map(|file| workspace.package_of(&root().join(file))).collect())
 }
 
 fn git(words: &[&str]) -> Result<Vec<String>, String> {
@@ -67,22 +61,28 @@ fn git(words: &[&str]) -> Result<Vec<String>, String> {
     Ok(said.lines().map(str::to_owned).collect())
 }
 
-/// The folders of a workspace's members.
-fn members(manifest: &str) -> Vec<String> {
-    let list = manifest.split_once("\nmembers = [").and_then(|(_, rest)| rest.split_once(']'));
-    let list = list.map_or("", |(list, _)| list);
-    list.split('"').skip(1).step_by(2).map(str::to_owned).collect()
+/// The workspace as cargo tells it.
+#[derive(Deserialize)]
+struct Workspace {
+    packages: Vec<Package>,
 }
 
-/// The innermost member that a file lies in.
-fn package_of(file: &str, members: &[String]) -> Option<String> {
-    let inside = members.iter().filter(|member| Path::new(file).starts_with(member));
-    inside.max_by_key(|member| member.len()).cloned()
+#[derive(Deserialize)]
+struct Package {
+    name: String,
+    manifest_path: PathBuf,
 }
 
-fn name_in(manifest: &str) -> Option<String> {
-    let line = manifest.lines().find_map(|line| line.strip_prefix("name = \""))?;
-    line.strip_suffix('"').map(str::to_owned)
+impl Workspace {
+    /// The package whose folder is the innermost that a file lies in.
+    fn package_of(&self, file: &Path) -> Option<String> {
+        let depth = |package: &Package| {
+            let folder = package.manifest_path.parent()?;
+            file.starts_with(folder).then(|| folder.components().count())
+        };
+        let inside = self.packages.iter().filter_map(|package| Some((depth(package)?, package)));
+        inside.max_by_key(|(depth, _)| *depth).map(|(_, package)| package.name.clone())
+    }
 }
 
 #[cfg(test)]
@@ -91,14 +91,14 @@ mod tests {
 
     #[test]
     fn a_file_belongs_to_the_innermost_member() {
-        let members = members(
-            "[workspace]\nmembers = [\n  \"host\", \"host/bake\",\n  \"kernel\",\n]\nexclude = [\"host/c\"]\n",
-        );
-        assert_eq!(members, ["host", "host/bake", "kernel"]);
-        let of = |file| package_of(file, &members);
+        let packages = ["host", "host/bake", "kernel"].map(|name| Package {
+            name: name.to_owned(),
+            manifest_path: Path::new(name).join("Cargo.toml"),
+        });
+        let workspace = Workspace { packages: packages.into() };
+        let of = |file| workspace.package_of(Path::new(file));
         assert_eq!(of("host/bake/src/lib.rs").as_deref(), Some("host/bake"));
         assert_eq!(of("host/src/main.rs").as_deref(), Some("host"));
         assert_eq!((of("docs/c.md"), of("kernels/a.rs")), (None, None));
-        assert_eq!(name_in("[package]\nname = \"a-b\"\n").as_deref(), Some("a-b"));
     }
 }

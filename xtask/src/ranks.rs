@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::counted::counted;
-use crate::steps::{Steps, Tally};
+use crate::steps::Steps;
 use signorini_image::toolchain::output;
 use signorini_image::tools::{answer, ensured};
 
@@ -25,9 +25,9 @@ const TESTS: [&str; 8] = [
 
 /// The step.
 pub fn run(steps: &mut Steps) {
-    steps.step("two ranks under MPI", || match ensure() {
-        Ok(()) => counted(&TESTS),
-        Err(why) => (Tally { passed: 0, failed: 1 }, Some(why)),
+    steps.step("two ranks under MPI", || {
+        ensure()?;
+        Ok(counted(&TESTS))
     });
 }
 

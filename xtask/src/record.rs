@@ -9,7 +9,7 @@ use crate::snapshot;
 use signorini_image::board::emulator;
 use signorini_image::toolchain::{Toolchain, first_words, output};
 
-/// What may be lost before a check fails.
+/// The part that may be lost before a check fails.
 const TOLERANCE: f64 = 0.02;
 
 /// The versions that counts on boards depend on.
@@ -17,10 +17,16 @@ pub fn versions() -> Result<String, String> {
     Ok(format!("{}, {}", Toolchain::find("thumbv7em-none-eabihf")?.version()?, emulator()?))
 }
 
-/// The same, and that of GCC.
+/// The versions that counts on boards depend on, and that of GCC.
 pub fn versions_with_gcc() -> Result<String, String> {
     let gcc = output(Command::new("arm-none-eabi-gcc").arg("-dumpfullversion"))?;
     Ok(format!("{}, GCC {}", versions()?, first_words(&gcc, 1)))
+}
+
+/// Whether the record is one of these versions.
+pub fn is_of(path: &str, versions: &str) -> Result<bool, String> {
+    let recorded = snapshot::read(path)?;
+    Ok(recorded.lines().next().is_some_and(|by| by.trim() == versions))
 }
 
 /// Compares `table` with the record, or writes it. `false`: the record is one of other versions.

@@ -1,13 +1,12 @@
-//! What `signorini solve --scalar f32` says of a scene is what every board says of it.
+//! The figures that `signorini solve --scalar f32` tells of a scene are those of every board.
 //!
 //! The boards print what the desk prints; here the desk's figures meet the command's `summary.json`.
-
-use std::fs;
 
 use serde_json::Value;
 
 use crate::program::signorini;
 use signorini_image::cargo::target_dir;
+use signorini_image::files;
 use signorini_image::toolchain::output;
 
 /// The scenes in the order of the stage `scenes`.
@@ -32,8 +31,7 @@ pub fn compare(journal: &str) -> Result<(), String> {
         let folder = target_dir("firmware").join("solve").join(name);
         let scene = format!("meshes/scenes/{name}.toml");
         output(signorini(&["solve", &scene, "--scalar", "f32", "--out"])?.arg(&folder))?;
-        let summary = fs::read_to_string(folder.join("summary.json"));
-        let summary = summary.map_err(|error| format!("{}: {error}", folder.display()))?;
+        let summary = files::text(&folder.join("summary.json"))?;
         let summary: Value = serde_json::from_str(&summary).map_err(|error| error.to_string())?;
         for (key, line) in FIGURES {
             let (command, desk) = (summary[key].as_f64(), journal_number(section, line));

@@ -14,8 +14,9 @@ use std::process::{Command, Stdio};
 
 use crate::counted::counted_by;
 use crate::crates::of_kernel;
-use crate::steps::{Steps, Tally};
+use crate::steps::Steps;
 use signorini_image::cargo::{cargo, target_dir};
+use signorini_image::files;
 use signorini_image::toolchain::host;
 
 /// Whole solves and ticks in both scalars, with short and long indices; ticks on states with wrong bits.
@@ -37,16 +38,11 @@ pub fn witness(steps: &mut Steps) {
 /// The sanitizer, then the tests.
 pub fn run(steps: &mut Steps) {
     witness(steps);
-    steps.step("sweeps stay inside of u", || match tests() {
-        Ok(command) => counted_by(command),
-        Err(why) => (Tally { passed: 0, failed: 1 }, Some(why)),
-    });
+    steps.step("sweeps stay inside of u", || Ok(counted_by(tests()?)));
 }
 
 fn caught() -> Result<(), String> {
-    let program = target_dir("sanitize").join("outside");
-    let folder = target_dir("sanitize");
-    std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let program = files::folder(&target_dir("sanitize"))?.join("outside");
     let mut compiler = Command::new("rustc");
     compiler.args([FLAG, "--edition", "2024", "-", "-o"]).arg(&program);
     compiler.env("RUSTC_BOOTSTRAP", "1").stdin(Stdio::piped());

@@ -6,12 +6,12 @@
 //! ```
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
 use crate::steps::{Steps, Tally};
 use signorini_image::cargo::target_dir;
+use signorini_image::files;
 
 /// The variable that names the folder for what the tests write.
 const FOLDER: &str = "SIGNORINI_SEEN";
@@ -34,11 +34,7 @@ type Entries = BTreeMap<String, Entry>;
 
 /// Removes what the tests of earlier runs have written down.
 pub fn emptied() -> Result<(), String> {
-    let folder = folder();
-    if folder.exists() {
-        fs::remove_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    }
-    fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))
+    files::emptied(&folder()).map(drop)
 }
 
 /// Has the tests that `command` runs write down what they see.
@@ -49,10 +45,7 @@ pub fn told(mut command: Command) -> Command {
 
 /// The step: a check for each entry of the table.
 pub fn run(steps: &mut Steps) {
-    steps.step("tolerances against what was seen", || match read() {
-        Ok(entries) => judge(&entries),
-        Err(why) => (Tally { passed: 0, failed: 1 }, Some(why)),
-    });
+    steps.step("tolerances against what was seen", || Ok(judge(&read()?)));
 }
 
 fn folder() -> PathBuf {
@@ -61,10 +54,8 @@ fn folder() -> PathBuf {
 
 fn read() -> Result<Entries, String> {
     let mut entries = Entries::new();
-    let failed = |error: std::io::Error| format!("{}: {error}", folder().display());
-    for file in fs::read_dir(folder()).map_err(failed)? {
-        let text = fs::read_to_string(file.map_err(failed)?.path()).map_err(failed)?;
-        text.lines().try_for_each(|line| add(&mut entries, line))?;
+    for file in files::within(&folder())? {
+        files::text(&file)?.lines().try_for_each(|line| add(&mut entries, line))?;
     }
     Ok(entries)
 }

@@ -1,12 +1,13 @@
-//! Text that is recorded in git: compared, or with `--bless` written anew.
+//! Records in git: text, compared or with `--bless` written anew, and typed records as JSON.
 
-use std::fs;
-
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use signorini_image::cargo::root;
+use signorini_image::files;
 
 /// The text of a file below the root.
 pub fn read(path: &str) -> Result<String, String> {
-    fs::read_to_string(root().join(path)).map_err(|error| format!("{path}: {error}"))
+    files::text(&root().join(path))
 }
 
 /// `Ok` where the file at `path` holds `text`.
@@ -30,9 +31,21 @@ pub fn snapshot(path: &str, text: &str, bless: bool) -> Result<(), String> {
 
 /// Writes the record.
 pub fn write(path: &str, text: &str) -> Result<(), String> {
-    let file = root().join(path);
-    fs::create_dir_all(file.parent().unwrap_or(root())).map_err(|error| error.to_string())?;
-    fs::write(&file, text).map_err(|error| format!("{path}: {error}"))?;
+    files::write(&root().join(path), text)?;
     println!("written: {path}");
     Ok(())
+}
+
+/// The typed record in a file; the empty one where there is no file.
+pub fn record<T: Default + DeserializeOwned>(path: &str) -> Result<T, String> {
+    if !root().join(path).is_file() {
+        return Ok(T::default());
+    }
+    serde_json::from_str(&read(path)?).map_err(|error| format!("{path}: {error}"))
+}
+
+/// Writes a typed record.
+pub fn write_record(path: &str, record: &impl Serialize) -> Result<(), String> {
+    let text = serde_json::to_string_pretty(record).map_err(|error| format!("{path}: {error}"))?;
+    write(path, &(text + "\n"))
 }

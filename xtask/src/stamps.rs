@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use signorini_image::cargo::{root, target_dir};
+use signorini_image::files;
 use signorini_image::toolchain::output;
 
 /// Every group reads these beside its own.
@@ -62,21 +63,13 @@ impl Stamp {
 }
 
 /// Names and bytes of a file, or of all files below a folder.
-fn read(path: &Path, hash: &mut impl Hasher) -> std::io::Result<()> {
-    let name = path.file_name().unwrap_or_default();
-    if LEFT.iter().any(|left| name == *left) {
-        return Ok(());
-    }
-    name.hash(hash);
-    if !path.is_dir() {
-        fs::read(path)?.hash(hash);
-        return Ok(());
-    }
-    let entries = fs::read_dir(path)?.map(|entry| entry.map(|entry| entry.path()));
-    let mut entries = entries.collect::<Result<Vec<_>, _>>()?;
-    entries.sort_unstable();
-    entries.len().hash(hash);
-    entries.iter().try_for_each(|entry| read(entry, hash))
+fn read(path: &Path, hash: &mut impl Hasher) -> Result<(), String> {
+    let files = files::below(path, &LEFT)?;
+    files.len().hash(hash);
+    files.iter().try_for_each(|file| {
+        file.hash(hash);
+        fs::read(file).map(|bytes| bytes.hash(hash)).map_err(|error| error.to_string())
+    })
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use crate::stamps::Stamp;
+use clap::Args;
 use signorini_image::cargo::building;
 
 /// How many checks of a step passed and failed.
@@ -20,6 +21,9 @@ pub struct Tally {
 /// The tally of a step and, where something failed, why.
 pub type Outcome = (Tally, Option<String>);
 
+/// The outcome of one check that passed.
+const ONE: Outcome = (Tally { passed: 1, failed: 0 }, None);
+
 /// The kind of work that a step's time counts for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Work {
@@ -29,11 +33,13 @@ enum Work {
 }
 
 /// How a verb was called.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Args)]
 pub struct Mode {
-    /// Records are written anew instead of compared.
+    /// Writes records anew, whole ones, instead of comparing
+    #[arg(long)]
     pub bless: bool,
-    /// Steps that need not run each time run, too, and no stamp counts.
+    /// Runs steps that need not run each time, too; no stamp counts
+    #[arg(long = "all", conflicts_with = "bless")]
     pub is_whole: bool,
 }
 
@@ -64,9 +70,9 @@ impl Steps {
         self.mode.bless
     }
 
-    /// Whether steps run that need not run each time.
+    /// Whether steps run that need not run each time; a record is written whole.
     pub fn is_whole(&self) -> bool {
-        self.mode.is_whole
+        self.mode.is_whole || self.mode.bless
     }
 
     /// Runs a step that several verbs need once only.
@@ -83,28 +89,29 @@ impl Steps {
 
     /// Runs a step that is one check.
     pub fn check(&mut self, name: &str, check: impl FnOnce() -> Result<(), String>) {
-        self.run(name, Work::Testing, || one(check()));
+        self.run(name, Work::Testing, || check().map(|()| ONE));
     }
 
     /// Runs a step that reads the sources.
     pub fn lint(&mut self, name: &str, check: impl FnOnce() -> Result<(), String>) {
-        self.run(name, Work::Linting, || one(check()));
+        self.run(name, Work::Linting, || check().map(|()| ONE));
     }
 
     /// Runs a step that builds what others need.
     pub fn compile(&mut self, name: &str, build: impl FnOnce() -> Result<(), String>) {
-        self.run(name, Work::Compiling, || one(build()));
+        self.run(name, Work::Compiling, || build().map(|()| ONE));
     }
 
     /// Runs a step that counts for itself; it has failed where it says why.
-    pub fn step(&mut self, name: &str, step: impl FnOnce() -> Outcome) {
+    pub fn step(&mut self, name: &str, step: impl FnOnce() -> Result<Outcome, String>) {
         self.run(name, Work::Testing, step);
     }
 
-    fn run(&mut self, name: &str, work: Work, step: impl FnOnce() -> Outcome) {
+    fn run(&mut self, name: &str, work: Work, step: impl FnOnce() -> Result<Outcome, String>) {
         println!("\n=== {name}");
         let start = Instant::now();
-        let (tally, failure) = step();
+        let failed = |why| (Tally { passed: 0, failed: 1 }, Some(why));
+        let (tally, failure) = step().unwrap_or_else(failed);
         self.finished(Step { name: name.to_owned(), work, time: start.elapsed(), tally, failure });
     }
 
@@ -183,13 +190,6 @@ fn processors() -> Option<f64> {
     ticks.map(|ticks| ticks as f64 / 100.0)
 }
 
-fn one(outcome: Result<(), String>) -> Outcome {
-    match outcome {
-        Ok(()) => (Tally { passed: 1, failed: 0 }, None),
-        Err(why) => (Tally { passed: 0, failed: 1 }, Some(why)),
-    }
-}
-
 fn total(steps: &[Step]) -> Tally {
     steps.iter().fold(Tally::default(), |sum, step| Tally {
         passed: sum.passed + step.tally.passed,
@@ -222,7 +222,7 @@ mod tests {
         steps.check_once("one", || Err("again".to_owned()));
         steps.beside(
             |steps| steps.lint("two", || Err("wrong".to_owned())),
-            |steps| steps.step("three", || (Tally { passed: 4, failed: 0 }, None)),
+            |steps| steps.step("three", || Ok((Tally { passed: 4, failed: 0 }, None))),
         );
         assert_eq!(total(&steps.done), Tally { passed: 5, failed: 1 });
         assert!(steps.done[1].line().contains("FAILED") && steps.done[1].line().ends_with("wrong"));

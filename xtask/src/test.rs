@@ -10,10 +10,10 @@
 
 use crate::counted::counted_by;
 use crate::crates::{KERNEL, of_kernel};
-use crate::steps::{Steps, Tally};
+use crate::steps::Steps;
 use crate::{
-    audit, boards, c, cost, cross, firmware, fuzz, house, modules, mutants, no_std, oldest, osqp,
-    program, python, ranks, results, sanitize, seen, setup, size,
+    audit, boards, c, cost, cross, firmware, fuzz, house, logs, modules, mutants, no_std, oldest,
+    osqp, program, python, ranks, results, sanitize, seen, setup, size,
 };
 use signorini_image::cargo::{cargo, require, run as run_cargo};
 use signorini_image::tools::ensure_for_c;
@@ -42,7 +42,7 @@ const HOST: [&str; 9] = [
 ];
 /// Files that tests compare with what programs say.
 const PAGES: [&str; 5] = ["docs", "README.md", "ARCHITECTURE.md", "CHANGELOG.md", "tests/firmware"];
-/// What boards run.
+/// The sources and scenes of what boards run.
 const BOARDS: [&str; 5] = ["kernel", "host", "meshes", "tests/firmware", "docs/firmware.md"];
 
 /// The verb.
@@ -113,9 +113,9 @@ fn tests(steps: &mut Steps) {
         ("tests", built(&["--no-fail-fast"])),
         ("tests of the kernel, overflow checked", checked(&["--no-fail-fast"])),
     ] {
-        steps.step(name, || match std::mem::replace(&mut told, Ok(())) {
-            Ok(()) => counted_by(seen::told(command)),
-            Err(why) => (Tally { passed: 0, failed: 1 }, Some(why)),
+        steps.step(name, || {
+            std::mem::replace(&mut told, Ok(()))?;
+            Ok(counted_by(seen::told(command)))
         });
     }
     seen::run(steps);
@@ -133,8 +133,10 @@ fn on_boards(steps: &mut Steps) {
         cross::run(steps);
         boards::run(steps);
         cost::run(steps);
+        logs::run(steps);
         firmware::check_worst(steps);
-        steps.check("each module was baked once", modules::baked_once);
+        let is_whole = steps.is_whole();
+        steps.check("each module was baked once", || modules::baked_once(is_whole));
     });
 }
 

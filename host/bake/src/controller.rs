@@ -106,3 +106,20 @@ impl controller::Baked for Scene {{
 "
     )
 }
+
+/// What outlives the program, of a model that steps in time: so many numbers.
+pub(super) fn state(numbers: impl std::fmt::Display) -> String {
+    format!(
+        "
+/// All that the next tick takes from the last one: plain numbers, sealed. [`Controller::state`] gives it, and
+/// [`Controller::restore`] goes on from it with the same bits.
+pub type State = signorini_device::State<Scalar, {numbers}>;
+
+impl controller::Lasting for Scene {{
+    type State = State;
+
+    const HASH: u64 = SCENE_HASH;
+}}
+"
+    )
+}

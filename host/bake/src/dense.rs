@@ -23,6 +23,10 @@ pub(super) const AN_ENTRY: f64 = 4.0;
 const IN_THE_BOUND: [f64; 2] = [8.0, 20.0];
 const A_TICK: f64 = 700.0;
 const AN_EDGE: f64 = 4.0;
+/// Instructions around each term that a step in time hands on. A tick looks at it, compares it with the one before and copies it twice; a
+/// column of the load or a row of the states begins and ends there. No stage of the record has that alone: of starts that a board
+/// has drawn (`xtask firmware --worst`) none took more than 0.6 of the worst case.
+const A_TERM: f64 = 60.0;
 
 /// What an odd exchange costs, which corrects the tableau alone, of one in a pair.
 const ALONE: f64 = 1.5;
@@ -59,8 +63,12 @@ pub struct Price {
     pub is_limited: bool,
     /// Forms of the error bound: none, that of s, that of u_h where it is another, and that of laws that change.
     pub forms: usize,
+    /// Columns of the two forms of what a step changes; 0 without a bound of the evolution.
+    pub changes: usize,
     /// Modes of a transfer coefficient that changes.
     pub modes: usize,
+    /// Terms that a step in time hands on to the next.
+    pub handed_on: usize,
 }
 
 impl Price {
@@ -135,7 +143,8 @@ impl Price {
 
     /// Instructions of load, outputs and report.
     fn given(&self) -> f64 {
-        A_TICK + AN_EDGE * self.order as f64 + AN_ENTRY * self.entries as f64
+        let of_step = A_TERM * self.handed_on as f64;
+        A_TICK + AN_EDGE * self.order as f64 + AN_ENTRY * self.entries as f64 + of_step
     }
 
     /// An exchange and the choice of it. Two are made in one pass over the tableau.
@@ -175,7 +184,12 @@ impl Price {
         let [edge, vertex] = IN_THE_BOUND;
         let rest = edge * self.order as f64 + vertex * self.vertices as f64;
         let each = at(norm, [visited.entries as f64, visited.order as f64]);
-        Some(rest + self.forms as f64 * each)
+        let changes = self.changes as f64;
+        let of_changes = match self.changes {
+            0 => 0.0,
+            _ => at(norm, [0.5 * changes * (changes + 1.0), changes]),
+        };
+        Some(rest + self.forms as f64 * each + 2.0 * of_changes)
     }
 }
 

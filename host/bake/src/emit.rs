@@ -13,6 +13,7 @@ use signorini_intervals::described;
 use signorini_problem::Problem;
 use signorini_problem::functional::wanted;
 use signorini_problem::scalar::Scalar;
+use signorini_solve::decay::time_constants;
 
 /// A module of firmware.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,6 +36,10 @@ pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Emitted {
     };
     let known = intervals::of_choice(problem, choice);
     let ranges = choice.condensed().map(|(baked, origin)| ranges::found(baked, origin));
+    let steps = choice.condensed().and_then(|(_, origin)| origin.steps.as_ref());
+    let states = steps.map(|of| [of.fading.len(), of.modes]);
+    // A mesh that is baked can be cut into triangles.
+    let constants = time_constants(problem).ok().flatten();
     let chosen = Chosen {
         model: model.to_owned(),
         scalar: R::NAME.to_owned(),
@@ -44,13 +49,19 @@ pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Emitted {
         instructions: candidate.needs.instructions(),
         ranges: ranges.filter(|_| ranges::declared(&problem.scene)),
         worst_case,
-        step: problem.scene.time.as_ref().filter(|_| problem.scene.stores()).map(|time| time.step),
+        step: problem.scene.step(),
+        memory: choice
+            .condensed()
+            .map_or(0, |(baked, _)| baked.steps.as_ref().map_or(0, |steps| steps.count() as u32)),
+        time_constants: constants.map(|of| {
+            [of.slowest, of.fastest].map(|constant| Some(constant).filter(|of| of.is_finite()))
+        }),
         outputs: wanted(&problem.scene).iter().map(described).collect(),
         without_interval: known.weighed.iter().map(|of| of.as_ref().err().cloned()).collect(),
     };
     let source = source
-        + &worst::constants(worst_case)
-        + &ranges.map(ranges::constants).unwrap_or_default()
+        + &worst::constants(worst_case, states.is_some())
+        + &ranges.map(|of| ranges::constants(of, states)).unwrap_or_default()
         + &intervals::constants::<R>(problem, &known);
     Emitted { source, chosen }
 }

@@ -30,6 +30,7 @@ pub mod range;
 pub mod ranges;
 mod room;
 pub mod setting;
+mod state;
 mod statics;
 #[cfg(test)]
 mod tests;

@@ -26,12 +26,19 @@ pub struct ModuleApi {
     /// As the scene gives them.
     pub(crate) given_ranges: Vec<[f64; 2]>,
     pub(crate) outputs: Vec<Item>,
+    /// The length of a step in time, where ticks are such.
+    pub(crate) step: Option<f64>,
 }
 
 /// The meaning of every module's numbers.
 pub(crate) const UNITS: &str = "Units are the scene's: lengths those of its mesh, fluxes A∇u those of its conductivity times u by length; \
                      a bound has that of (∫A∇u·∇u)^½. A flux is (A∇u)·n with the normal outward: positive where u rises \
                      towards the outside. Heat, which flows from high u to low, then flows in; water flows out where u is −head.";
+
+/// The meaning of ticks that are steps of the length `STEP`.
+pub(crate) const STEPS: &str = "A tick is a step of length STEP by the implicit Euler method, from where the last one has ended. Inputs act all through \
+                     it; gaps and given values of u go on a line from those of the last tick. Bounds and intervals of a tick are about \
+                     this one step; `window` bounds the error of the whole evolution.";
 
 impl ModuleApi {
     /// That of `problem`.
@@ -47,6 +54,7 @@ impl ModuleApi {
             defaults: scene.inputs.iter().map(|input| input.default).collect(),
             given_ranges: scene.inputs.iter().map(Input::interval).collect(),
             outputs: items(wanted.iter().map(|output| output.name.value.as_str()), meanings),
+            step: scene.step(),
         }
     }
 
@@ -92,6 +100,9 @@ impl ModuleApi {
             String::new(),
             UNITS.to_owned(),
         ];
+        if self.step.is_some() {
+            lines.extend([String::new(), STEPS.to_owned()]);
+        }
         let mut table = |kind: &str, items: &[Item]| {
             if !items.is_empty() {
                 let head = format!("| {kind} | meaning |");
@@ -129,6 +140,13 @@ pub const OUTPUTS: usize = {};
             outputs.len(),
             scalar = R::NAME,
         );
+        if let Some(step) = self.step {
+            let step = R::narrow(step);
+            let _ = writeln!(
+                text,
+                "/// The length of a step in time.\npub const STEP: Scalar = {step:?};"
+            );
+        }
         text += &structure("Inputs", "What the controller sets.", inputs);
         let named = inputs.iter().zip(defaults);
         let defaults =
@@ -196,14 +214,13 @@ fn dependency(features: &[&str]) -> String {
     )
 }
 
-/// A number over what the data are made of.
-fn hash(problem: &Problem) -> u64 {
+/// The number of a scene: over all that its module's data are made of.
+pub fn hash(problem: &Problem) -> u64 {
     let mut all = Fingerprint::default();
     all.take_scene(&problem.scene);
     problem.scene.inputs.iter().for_each(|input| all.take(&input.default.to_le_bytes()));
     // The command line may say another one.
-    let step = problem.scene.time.as_ref().filter(|_| problem.scene.stores());
-    step.iter().for_each(|time| all.take(&time.step.to_le_bytes()));
+    problem.scene.step().iter().for_each(|step| all.take(&step.to_le_bytes()));
     all.take_mesh(&problem.mesh);
     all.0
 }

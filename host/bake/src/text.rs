@@ -119,6 +119,14 @@ pub fn table<const N: usize>(rows: &[[String; N]]) -> String {
     text
 }
 
+/// A number with five digits.
+pub fn short(x: f64) -> String {
+    let rounded: f64 = format!("{x:.4e}").parse().unwrap_or(x);
+    // Rounding around 0.
+    let rounded = if rounded == 0.0 { 0.0 } else { rounded };
+    format!("{rounded:?}").trim_end_matches(".0").to_owned()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -8,13 +8,20 @@ use crate::costs::CYCLES;
 use signorini_image::chosen::WorstCase;
 use signorini_problem::scalar::Scalar;
 
-/// The worst case as constants of a module.
-pub fn constants(worst: WorstCase) -> String {
+/// The worst case as constants of a module, whose ticks may be steps in time.
+pub fn constants(worst: WorstCase, is_stepped: bool) -> String {
     let WorstCase { exchanges, instructions, proven } = worst;
+    let whatever = match is_stepped {
+        true => {
+            "whatever its inputs are\n/// and whatever state it begins in, unless it is refused"
+        }
+        false => {
+            "whatever its inputs are within `Inputs::RANGES` and\n/// whatever state it begins in"
+        }
+    };
     let mut text = format!(
         "
-/// Whether every tick ends with the solution within the limits below, whatever its inputs are within `Inputs::RANGES` and
-/// whatever state it begins in: proved by the signs of the matrix.
+/// Whether every tick ends with the solution within the limits below, {whatever}: proved by the signs of the matrix.
 pub const WORST_PROVEN: bool = {proven};
 "
     );
@@ -51,9 +58,12 @@ pub fn section<R: Scalar>(choice: &Choice<R>) -> String {
         return format!("\nNo worst case is proved: {why}. {}.\n", cut_off(baked));
     }
     let exchanges = exchanges.unwrap_or_default();
-    let mut text = match proven {
-        true => "\nWorst case, proved for all inputs within their ranges and every state: ",
-        false => "\nWorst case for every state, not proved of loads, since an input has no range: ",
+    let mut text = match (proven, &baked.steps) {
+        (true, Some(_)) => {
+            "\nWorst case, proved for every load and state that the scalar holds; ranges of inputs are not needed for it: "
+        }
+        (true, None) => "\nWorst case, proved for all inputs within their ranges and every state: ",
+        (false, _) => "\nWorst case for every state, not proved of loads, since an input has no range: ",
     }
     .to_owned();
     let _ = match instructions {

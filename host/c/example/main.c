@@ -9,7 +9,7 @@
 #include "@name@.h"
 #include "board.h"
 
-enum { PERIOD = 10000, STEPS = 40, HANGS_AT = 20 };
+@pace@enum { PERIOD = 10000, STEPS = 40, HANGS_AT = 20 };
 
 /* What a reset leaves: the state itself, and how many steps it has made. Sealed after each step: a reset within one finds the seal
  * broken. Who must go on even then keeps two states and seals them in turns. */

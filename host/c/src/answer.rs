@@ -1,4 +1,4 @@
-//! What both ticks have before and after the controller's own.
+//! Code that both ticks have before and after the controller's own.
 
 use crate::report::Report;
 use crate::scene::{Answer, Inputs, Outputs, Scalar};

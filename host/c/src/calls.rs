@@ -49,7 +49,7 @@ pub unsafe extern "C" fn seal_state(state: *mut State) -> i32 {
 ///
 /// # Safety
 /// `state` is null or valid.
-unsafe fn owned<'s>(state: *mut State) -> Result<&'s mut State, Refusal> {
+pub unsafe fn owned<'s>(state: *mut State) -> Result<&'s mut State, Refusal> {
     // SAFETY: the caller's.
     let state = unsafe { state.as_mut() }.ok_or(Refusal::NullPointer)?;
     if state.is_own() { Ok(state) } else { Err(Refusal::ForeignState) }

@@ -8,7 +8,7 @@ use crate::scene::{Answer, Controller, Inputs};
 use crate::state::State;
 use crate::tick::answered;
 
-/// What a caller in Rust does: one call, and the answer is there.
+/// A caller in Rust makes one call, and the answer is there.
 ///
 /// # Safety
 /// As for `tick`.
@@ -20,7 +20,7 @@ pub unsafe extern "C" fn ticked(state: *mut State, inputs: *const Inputs) {
     }
 }
 
-/// The same, and the intervals of its outputs.
+/// That call, and the intervals of its outputs.
 ///
 /// # Safety
 /// As for `tick`.

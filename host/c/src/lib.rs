@@ -2,6 +2,7 @@
 //!
 //! ```text
 //!   scene (the module of `signorini bake`) ─► state ─► calls
+//!                                              ├─► in_time: what outlives the program
 //!                                              └─► answer ─► tick, within ◄── report
 //! ```
 //! A library has two objects, `tick` in one and `tick_within` in the other, each with a controller of its own: where two functions
@@ -16,6 +17,8 @@ mod answer;
 mod calls;
 #[cfg(feature = "counted")]
 mod counted;
+#[cfg(feature = "in-time")]
+mod in_time;
 mod report;
 mod state;
 #[cfg(not(feature = "within"))]

@@ -1,4 +1,4 @@
-//! What a tick came to, as C reads it.
+//! The report of a tick, as C reads it.
 
 use crate::scene::{Answer, Outputs, Scalar};
 use signorini_device::kernel::report::{self, Ended};

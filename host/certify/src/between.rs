@@ -1,4 +1,4 @@
-//! What the 8 Gauss points of a panel miss of data between them.
+//! The part of data that 8 Gauss points of a panel miss between them.
 //!
 //! w̃ is the polynomial of degree 7 through the values of w at the points, and another one through those of w′ = dw/dt. The rule is exact for squares
 //! of such polynomials, so that ‖w̃ − p‖² = Σ (w − p)² weights for each p among them, and
@@ -39,7 +39,7 @@ pub fn value_missed(data: &Sum, panel: &Region, width: f64) -> f64 {
     square(most.min(by_form(&data.enclose(panel))), width)
 }
 
-/// The same of a form.
+/// The part that is missed of a form.
 pub fn form_missed(form: &Form, width: f64) -> f64 {
     square(by_form(form), width)
 }
@@ -97,7 +97,7 @@ fn tail(rho: f64, power: i32) -> f64 {
 pub struct Part {
     /// From where to where.
     pub range: [f64; 2],
-    /// What is missed.
+    /// The norm of the part that is missed.
     pub missed: [f64; 2],
     /// ∫w′² by the points.
     pub energy: f64,

@@ -22,7 +22,7 @@ pub struct ErrorBound {
     pub algebraic: f64,
     /// Oscillation: the part of f, g and q that their means leave out.
     pub oscillation: f64,
-    /// What was enclosed and not resolved: parts of the oscillation, and what A has above pieces of cells.
+    /// Parts of the oscillation that were enclosed and not resolved, and what A has above pieces of cells.
     pub unresolved: f64,
     /// The part that rounding can have hidden.
     pub rounding: f64,

@@ -284,7 +284,7 @@ impl<R: Scalar> Certifier<R> {
         let Fields { vertices: s, tau, .. } = &mut self.fields;
         let (law, given) = (assembled.law(), data.given(assembled, &[])?);
         let distortions = discretization.metric.distortions;
-        averages::fill(&discretization.cells, assembled.cells(), distortions, u, s, tau)?;
+        averages::fill(&discretization.cells, (assembled.cells(), None), distortions, u, s, tau)?;
         conforming::impose(&discretization.mesh, &discretization.edges, u, law, given.ends, s)?;
         self.fields.open(&discretization, &given, law)
     }

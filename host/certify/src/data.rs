@@ -4,17 +4,20 @@ use signorini_bound::certificate::{Curved, LoadCase, TransferForms};
 use signorini_bound::conforming::VertexData;
 use signorini_kernel::Error as KernelError;
 
-use super::curved::{Curved as Bent, curved_edges};
+use super::curved::{Curved as Bent, CurvedEdges};
+use super::deviation::Deviations;
+use super::enclosed::Enclosed;
 use super::ends::Ends;
 use super::imbalance::carried;
-use super::lifted::Lifts;
+use super::lifted::{Lifts, traces};
 use super::no_bound::NoBound;
-use super::oscillation::{Oscillation, oscillation};
+use super::oscillation::{Oscillation, of_source, with_source};
 use super::robin::{RobinPoints, robin};
 use super::transfer_forms::Forms;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Assembled, Problem};
 use signorini_scene::error::Result;
+use signorini_scene::scene::Field;
 
 /// Data of the certificate beyond [`Assembled`], in the scalar `R`.
 #[derive(Debug, Clone)]
@@ -57,7 +60,15 @@ impl Evaluated {
     /// # Errors
     /// Data that are not finite.
     pub fn new(problem: &Problem) -> Result<Self> {
-        Self::with(problem, Ends::moved)
+        Self::again(problem, &mut Enclosed::default())
+    }
+
+    /// Evaluates them with what is known from another time or other inputs.
+    ///
+    /// # Errors
+    /// As for [`Evaluated::new`].
+    pub fn again(problem: &Problem, enclosed: &mut Enclosed) -> Result<Self> {
+        Self::with(problem, Ends::moved, enclosed)
     }
 
     /// Data of one term of a sum. A term may break what the sum has to meet: where u_D is on a side of ψ that does not exist, the caller that
@@ -66,16 +77,27 @@ impl Evaluated {
     /// # Errors
     /// Data that are not finite.
     pub fn of_term(problem: &Problem) -> Result<Self> {
-        Self::with(problem, Ends::moved_on_dirichlet)
+        Self::with(problem, Ends::moved_on_dirichlet, &mut Enclosed::default())
     }
 
-    fn with(problem: &Problem, moved: fn(&Ends, &Problem) -> f64) -> Result<Self> {
+    fn with(
+        problem: &Problem,
+        moved: fn(&Ends, &Problem) -> f64,
+        enclosed: &mut Enclosed,
+    ) -> Result<Self> {
         let time = problem.time;
         let ends = Ends::at_time(problem, time)?;
-        let mut curved_edges = curved_edges(problem, time)?;
-        let lifts = match problem.capacities.is_empty() {
-            true => Lifts::default(),
-            false => Lifts::new(problem, &curved_edges)?,
+        let stores = !problem.capacities.is_empty();
+        let of_ends = (problem, &[Field::Gap, Field::Value][..]);
+        let (mut curved_edges, traces) = enclosed.ends.of(of_ends, || {
+            let deviations = Deviations::at_time(problem, time)?;
+            let curved = CurvedEdges::new(problem, &deviations)?;
+            let traces = if stores { traces(problem, &deviations, &curved)? } else { Vec::new() };
+            Ok((curved, traces))
+        })?;
+        let lifts = match stores {
+            true => Lifts::new(problem, &curved_edges, traces),
+            false => Lifts::default(),
         };
         if problem.loads.step.is_some() {
             // s follows all of them: from step to step it may not change its mind.
@@ -84,7 +106,10 @@ impl Evaluated {
         // s is off by that much, and once more where u_h is compared with it.
         let left_out = 2.0 * (curved_edges.left_out + moved(&ends, problem));
         let curved = curved_edges.records;
-        let Oscillation { of_cells, unresolved, pole } = oscillation(problem)?;
+        let Oscillation { of_cells, unresolved, pole } = with_source(
+            problem,
+            enclosed.source.of((problem, &[Field::Source]), || of_source(problem))?,
+        )?;
         let norm =
             |all: &mut dyn Iterator<Item = f64>| all.map(|osc| osc * osc).sum::<f64>().sqrt();
         let whole = norm(&mut of_cells.iter().copied());
@@ -121,6 +146,14 @@ impl<R: Scalar> Data<R> {
     /// Data that are not finite.
     pub fn new(problem: &Problem) -> Result<Self> {
         Evaluated::new(problem).map(Self::narrowed)
+    }
+
+    /// Evaluates them with what is known from another time or other inputs.
+    ///
+    /// # Errors
+    /// As for [`Data::new`].
+    pub fn again(problem: &Problem, enclosed: &mut Enclosed) -> Result<Self> {
+        Evaluated::again(problem, enclosed).map(Self::narrowed)
     }
 
     fn narrowed(data: Evaluated) -> Self {

@@ -19,7 +19,7 @@ use signorini_scene::scene::Field;
 /// Least energy, as a part of that of the largest data, of data that a cell follows. Data of an edge below it are
 /// left out; by how much in all is said ([`Deviations::dropped`]).
 const ROUNDING: f64 = 1e-14;
-/// The same part of what its points miss.
+/// Least energy of what its points miss, as that part.
 const MISSED: f64 = 1e-9;
 /// Roundings of a constant that was taken from all data, which a value less its chord may have.
 const OF_LEVEL: f64 = 4.0;
@@ -224,8 +224,13 @@ impl Deviation<'_> {
     fn samples(&self, plain: f64) -> Result<Option<Vec<Sample>>> {
         let mut samples = Vec::new();
         let rule = f64::GAUSS[DATA_POINTS - 1];
+        let looks = on_panels(LOOKS, rule);
+        // Parts are proofs, which data that leave their chord at a glance do not need here.
+        if looks.iter().map(|&[t, _]| self.value(t).abs()).any(|w| w > plain && w.is_finite()) {
+            return Ok(None);
+        }
         let points = match self.parts() {
-            parts if parts.len() == PANELS as usize => on_panels(LOOKS, rule),
+            parts if parts.len() == PANELS as usize => looks,
             parts => parts.iter().flat_map(|part| on_part(part.range, rule)).collect(),
         };
         for [t, weight] in points {

@@ -1,10 +1,10 @@
-//! The bound of the evolution on this machine: [`signorini_bound::certificate::Rates`], whose exponential is worked out here.
+//! The bound of the evolution on this machine: [`signorini_kernel::evolution::Rates`], whose exponential is worked out here.
 
 use serde::{Deserialize, Serialize};
-use signorini_bound::certificate::{Carried, PHI, Rates, THETA};
+use signorini_kernel::evolution::{Carried, PHI, Rates, THETA};
 use signorini_problem::scalar::Scalar;
 
-pub use signorini_bound::certificate::StepTerms;
+pub use signorini_kernel::evolution::StepTerms;
 
 /// The constants of steps of `length` for the decay rate λ, rounded up in `R`.
 pub fn rates<R: Scalar>(rate: f64, length: f64) -> Rates<R> {
@@ -57,7 +57,8 @@ impl Evolution {
     /// Takes in a step, by the best of the ways to balance it. ∞ from a step without terms on.
     pub fn advance(&mut self, terms: &[StepTerms<f64>]) {
         let length = terms.first().map_or(0.0, |terms| terms.length);
-        let Carried { bound, before } = rates(self.rate, length).advance(self.carried(), terms);
+        let terms: Vec<_> = terms.iter().copied().map(Some).collect();
+        let Carried { bound, before } = rates(self.rate, length).advance(self.carried(), &terms);
         (self.bound, self.before) = (bound, before);
     }
 

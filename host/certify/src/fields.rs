@@ -1,13 +1,11 @@
 //! The fields that a certificate is about, in the scalar that it is computed in.
 
-use signorini_bound::certificate::{
-    Buffers, Discretization, LoadCase, Motion, Residual, StepTerms,
-};
+use signorini_bound::certificate::{Buffers, Discretization, Handed, LoadCase, openings};
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::law::Law;
 
+use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
-use signorini_problem::{Problem, State};
 
 /// Memory of a certificate: s at the vertices and its bubbles, τ, and each cell's part.
 #[derive(Debug, Clone)]
@@ -42,10 +40,6 @@ impl<R: Scalar> Fields<R> {
         }
     }
 
-    fn motion<'a>(&'a self, begin: [&'a [R]; 2]) -> Motion<'a, R> {
-        Motion { begin, end: [&self.vertices, &self.bubbles], tau: &self.tau }
-    }
-
     /// Fills in how far s is from ψ.
     ///
     /// # Errors
@@ -56,45 +50,20 @@ impl<R: Scalar> Fields<R> {
         given: &LoadCase<R, u32>,
         law: Law<R>,
     ) -> Result<(), KernelError> {
-        let mut openings = std::mem::take(&mut self.openings);
-        if !openings.is_empty() {
-            let end = [&self.vertices[..], &self.bubbles];
-            self.motion(end).openings(of, given, law, &mut openings)?;
+        match self.openings.is_empty() {
+            true => Ok(()),
+            false => openings(of, given, law, [&self.vertices, &self.bubbles], &mut self.openings),
         }
-        self.openings = openings;
-        Ok(())
     }
 
-    /// As the kernel takes it.
+    /// The field in the kernel's form.
     pub fn buffers(&mut self) -> Buffers<'_, R> {
         let Self { vertices, bubbles, tau, indicators, .. } = self;
         Buffers { vertices, bubbles, tau, indicators }
     }
 
-    /// The terms of a step that began from `begin`, what it leaves of its equation, and its oscillation.
-    ///
-    /// # Errors
-    /// Never for fields of this problem.
-    pub fn terms(
-        &self,
-        of: &Discretization<R, u32>,
-        given: &LoadCase<R, u32>,
-        law: Law<R>,
-        (begin, length): (&State<R>, f64),
-        left: (&Residual<R>, R),
-    ) -> Result<StepTerms<f64>, KernelError> {
-        let motion = self.motion([&begin.vertices, &begin.bubbles]);
-        let distance = motion.distances(of, given)?;
-        let contact = motion.contacts(of, given, law, &begin.openings)?;
-        let StepTerms { distance, contact, oscillation, inside, residual, .. } =
-            StepTerms::new(R::narrow(length), left, distance, contact);
-        Ok(StepTerms {
-            length,
-            distance: distance.map(R::wide),
-            contact: contact.map(R::wide),
-            oscillation: oscillation.wide(),
-            inside: inside.wide(),
-            residual: residual.map(R::wide),
-        })
+    /// As the kernel takes it for cells that hand on what they lack.
+    pub fn handed(&mut self) -> Handed<'_, R> {
+        Handed { tau: &mut self.tau, indicators: &mut self.indicators }
     }
 }

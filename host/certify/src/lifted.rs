@@ -13,7 +13,7 @@
 use std::collections::BTreeMap;
 
 use super::cell::Cell;
-use super::curved::{CurvedEdges, points_along};
+use super::curved::CurvedEdges;
 use super::deviation::{Deviation, Deviations};
 use signorini_problem::{Problem, Trace};
 use signorini_scene::error::Result;
@@ -32,24 +32,14 @@ pub struct Lifts {
 }
 
 impl Lifts {
-    /// Of `problem`, whose materials store u; `curved` are its records.
-    ///
-    /// # Errors
-    /// Data that are not finite.
-    pub fn new(problem: &Problem, curved: &CurvedEdges) -> Result<Self> {
+    /// Of `problem`, whose materials store u, by its records and traces.
+    pub fn new(problem: &Problem, curved: &CurvedEdges, traces: Vec<Trace>) -> Self {
         let energy: f64 = curved.records.iter().map(|record| record.energy).sum();
         let energy = energy.max(0.0).sqrt() + curved.left_out;
-        let deviations = Deviations::at_time(problem, problem.time)?;
-        let moving = deviations.found.iter().filter(|of| may_move(problem, of.edge));
-        let traces: Vec<Trace> = moving.map(trace).collect::<Result<_>>()?;
-        let moved = match &problem.loads.step {
-            Some(step) => {
-                let masses = |cell: usize| step.content(cell);
-                moved(problem, &deviations, [&step.begin.traces, &traces], masses)?
-            }
-            None => 0.0,
-        };
-        Ok(Self { energy, moved, traces })
+        let moved = problem.loads.step.as_ref().map_or(0.0, |step| {
+            moved(problem, [&step.begin.traces, &traces], |cell| step.content(cell))
+        });
+        Self { energy, moved, traces }
     }
 
     /// From `units` to those that the problem had before.
@@ -61,6 +51,19 @@ impl Lifts {
             traces: self.traces.into_iter().map(|trace| trace.in_unit(units.u.recip())).collect(),
         }
     }
+}
+
+/// The traces of these deviations, whose records are `curved`, where they may move.
+///
+/// # Errors
+/// Data that are not finite.
+pub fn traces(
+    problem: &Problem,
+    deviations: &Deviations,
+    curved: &CurvedEdges,
+) -> Result<Vec<Trace>> {
+    let all = deviations.found.iter().zip(curved.points());
+    all.filter(|(of, _)| may_move(problem, of.edge)).map(trace).collect()
 }
 
 /// Whether time or an input changes ψ or u_D on an edge.
@@ -79,53 +82,47 @@ fn may_move(problem: &Problem, edge: usize) -> bool {
     datum.value.uses_time() || has_input
 }
 
-fn trace(deviation: &Deviation) -> Result<Trace> {
-    let (points, missed) = points_along(deviation)?;
+fn trace((deviation, (points, missed)): (&Deviation, (Vec<[f64; 2]>, f64))) -> Result<Trace> {
     let sample = |[t, weight]: [f64; 2]| Ok([t, weight, deviation.at(t)?[0]]);
     let samples = points.into_iter().map(sample).collect::<Result<_>>()?;
     Ok(Trace { edge: deviation.edge as u32, samples, missed })
 }
 
 /// (Σ k‖L − L_old‖²)^½ for traces of before and now.
-fn moved(
-    problem: &Problem,
-    deviations: &Deviations,
-    [before, now]: [&[Trace]; 2],
-    content: impl Fn(usize) -> f64,
-) -> Result<f64> {
+fn moved(problem: &Problem, [before, now]: [&[Trace]; 2], content: impl Fn(usize) -> f64) -> f64 {
     let mut of_cells = BTreeMap::new();
     let mut edges: Vec<u32> = before.iter().chain(now).map(|trace| trace.edge).collect();
     edges.sort_unstable();
     edges.dedup();
     for edge in edges {
         let of = |all: &[Trace]| all.iter().position(|trace| trace.edge == edge);
-        let [old, new] = [of(before).map(|at| &before[at]), of(now).map(|at| &now[at])];
-        let root = match (old, new, deviations.on(edge as usize)) {
-            (Some(old), Some(new), Some(deviation)) => apart(old, new, deviation)?,
-            (one, other, _) => one.into_iter().chain(other).map(Trace::size).sum(),
+        let root = match [of(before).map(|at| &before[at]), of(now).map(|at| &now[at])] {
+            [Some(old), Some(new)] => apart(old, new),
+            either => either.into_iter().flatten().map(Trace::size).sum(),
         };
         let (cell, _) = problem.topology.first_side(edge as usize);
         *of_cells.entry(cell).or_insert(0.0) +=
             (share(problem, cell) * content(cell)).sqrt() * root;
     }
-    Ok(of_cells.values().fold(0.0_f64, |sum, of| sum.hypot(*of)))
+    of_cells.values().fold(0.0_f64, |sum, of| sum.hypot(*of))
 }
 
 /// (∫(w − w_old)²)^½
-fn apart(old: &Trace, new: &Trace, deviation: &Deviation) -> Result<f64> {
+fn apart(old: &Trace, new: &Trace) -> f64 {
     let is_same = |(a, b): (&[f64; 3], &[f64; 3])| a[0] == b[0];
     if old.samples.len() != new.samples.len() || !old.samples.iter().zip(&new.samples).all(is_same)
     {
         // What one rule misses of the other's data is not known.
-        return Ok(old.size() + new.size());
+        return old.size() + new.size();
     }
-    let square = |&[t, weight, w]: &[f64; 3]| Ok(weight * (deviation.at(t)?[0] - w).powi(2));
-    let sum: f64 = old.samples.iter().map(square).sum::<Result<f64>>()?;
-    Ok(sum.sqrt() + old.missed.sqrt() + new.missed.sqrt())
+    let square =
+        |([_, weight, before], [.., now]): (&[f64; 3], &[f64; 3])| weight * (now - before).powi(2);
+    let sum: f64 = old.samples.iter().zip(&new.samples).map(square).sum();
+    sum.sqrt() + old.missed.sqrt() + new.missed.sqrt()
 }
 
 /// ‖v_E‖² over |T|∫w² at most.
-fn share(problem: &Problem, at: usize) -> f64 {
+pub(crate) fn share(problem: &Problem, at: usize) -> f64 {
     let cell = Cell::of(problem, at);
     if cell.corners().len() == 3 {
         return 0.5;

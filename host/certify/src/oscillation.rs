@@ -58,7 +58,17 @@ pub struct Oscillation {
 /// # Errors
 /// Data that are not finite.
 pub fn oscillation(problem: &Problem) -> Result<Oscillation> {
-    let (mut all, inside) = of_source(problem)?;
+    with_source(problem, of_source(problem)?)
+}
+
+/// That of f alone, and the fluxes inside the cells.
+pub type OfSource = (Oscillation, Vec<Option<Inside>>);
+
+/// The oscillation of the data with that of f.
+///
+/// # Errors
+/// Data that are not finite.
+pub fn with_source(problem: &Problem, (mut all, inside): OfSource) -> Result<Oscillation> {
     let mut through_sides = stretched::through_sides(problem, &all.of_cells, &inside);
     for edge in 0..problem.kinds.len() {
         let (at, _) = problem.topology.first_side(edge);
@@ -83,7 +93,10 @@ pub fn oscillation(problem: &Problem) -> Result<Oscillation> {
 }
 
 /// osc_T of every cell, from what is left of f − f̄, with the flux inside where the cell is stretched and f is resolved.
-fn of_source(problem: &Problem) -> Result<(Oscillation, Vec<Option<Inside>>)> {
+///
+/// # Errors
+/// Data that are not finite.
+pub fn of_source(problem: &Problem) -> Result<OfSource> {
     let f = Sum::source(&problem.scene, problem.time);
     let cells = problem.cells();
     let mut all =

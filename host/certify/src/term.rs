@@ -40,7 +40,7 @@ pub struct TermData {
     pub oscillation: f64,
     /// Why the term allows for no bound.
     pub no_bound: Option<NoBound>,
-    /// What the term adds to h, where it is an input that does.
+    /// The amount that the term adds to h, where it is an input that does.
     pub coefficient: Option<TransferPattern>,
     /// What the term adds to the spans of contact fluxes, with an entry for each contact edge; of the base, nothing where all
     /// are ∞.

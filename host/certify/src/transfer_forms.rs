@@ -44,7 +44,7 @@ impl Forms<f64> {
         Ok(forms)
     }
 
-    /// The same in another scalar.
+    /// These forms in another scalar.
     pub fn narrowed<R: Scalar>(&self) -> Forms<R> {
         let factors = self.factors.iter().map(|&x| R::narrow(x)).collect();
         Forms { laws: self.laws.clone(), factors, vanishing: self.vanishing }

@@ -61,7 +61,7 @@ pub(super) fn columns(
     columns
 }
 
-/// No load at all.
+/// No load at all; a step from where that of `problem` begins.
 pub(super) fn silent(problem: &Problem) -> Loads {
     let counts = problem.topology.counts;
     let mut silent = Loads {
@@ -69,6 +69,7 @@ pub(super) fn silent(problem: &Problem) -> Loads {
         contact_flux: vec![0.0; counts.contact],
         gap: vec![0.0; counts.contact],
         dirichlet: vec![0.0; counts.dirichlet],
+        step: problem.loads.step.clone(),
         ..Loads::default()
     };
     silent.robin.iter_mut().for_each(|record| record.ambient = 0.0);
@@ -119,7 +120,7 @@ pub(super) fn fields(problem: &Problem, given: &[FieldLoads]) -> Result<Vec<Fiel
 }
 
 /// K_FF⁻¹ applied to the columns of `right`.
-fn free_block(
+pub(super) fn free_block(
     assembled: &Assembled<f64>,
     free: usize,
     right: &[f64],

@@ -41,6 +41,9 @@ pub(super) struct Admissibles {
     pub released: Vec<(u32, Vec<f64>)>,
 }
 
+/// A form, and the contact vertices of its corrections.
+pub(super) type Assembly = (Form, Vec<u32>);
+
 /// Either the form with the functions behind it, or a sentence why there is none.
 pub(super) type Found = std::result::Result<(Form, Admissibles), String>;
 
@@ -56,6 +59,9 @@ impl FormData<'_> {
         if let Some(reason) = self.obstacle()? {
             return Ok(Err(reason));
         }
+        if let Some(step) = &pieces.step {
+            return self.of_step(step);
+        }
         let chain = match Chain::new(problem, patterns, edges, openings, released) {
             Ok(chain) => chain,
             Err(reason) => return Ok(Err(reason)),
@@ -63,7 +69,7 @@ impl FormData<'_> {
         let functions = Functions::of(problem);
         let blocks = blocks(problem, patterns, &functions, laws, released)?;
         let fluxes = self.fluxes(fields);
-        let mut s = self.boundary_values(&chain, &functions);
+        let mut s = self.boundary_values(&chain, &functions, [patterns.len(), 0]);
         let at_boundary = chain.fixed();
         let mut fixed = vec![false; functions.count()];
         at_boundary.iter().for_each(|&vertex| fixed[vertex as usize] = true);
@@ -74,27 +80,44 @@ impl FormData<'_> {
         };
         let judged = if judged.is_empty() { &blocks } else { &judged };
         complete(judged, &fixed, &fluxes, &mut s).map_err(failed(&problem.scene))?;
-        let Some(stability) = self.stability(&blocks) else {
+        let jump = jumps(problem, patterns, &functions, released)?.map(|blocks| {
+            let means: Vec<&[f64]> = fields.iter().map(|field| &field.u[..]).collect();
+            (blocks, table(problem.ends.len(), &means))
+        });
+        let released = chain.released.clone();
+        let found = self.assembled(chain, &blocks, &s, jump)?;
+        Ok(found
+            .map(|(form, contact)| (form, Admissibles { s, fluxes, functions, contact, released })))
+    }
+
+    /// The form of these rows and columns of s, and the vertices of its corrections.
+    pub(super) fn assembled(
+        &self,
+        chain: Chain,
+        blocks: &[Block],
+        s: &Table,
+        jump: Option<(Vec<Block>, Table)>,
+    ) -> Result<std::result::Result<Assembly, String>> {
+        let Columns { pieces, fields, openings } = self.columns;
+        let Pieces { problem, patterns, edges, .. } = pieces;
+        let Some(stability) = self.stability(blocks) else {
             return Ok(Err("the condensed matrix is singular to working precision".to_owned()));
         };
+        let fluxes = self.fluxes(fields);
         let assembled = Assembled::<f64>::new(problem).map_err(unfit::<f64>(&problem.scene))?;
         let widened = |factor: Vec<f64>| {
             let share = 1.0 + assembled.hidden();
             factor.into_iter().map(|entry| share * entry).collect::<Vec<_>>()
         };
-        let jump = jumps(problem, patterns, &functions, released)?.map(|blocks| {
-            let means = table(problem.ends.len(), fields, |field| &field.u);
-            widened(packed(&triangular(&blocks, &s, &means)))
-        });
         // As in `certify::Data`: for s, and for u_h beside it.
         let moved = chain.moved.iter().map(|moved| 2.0 * of_moved(problem, moved));
         let oscillation =
             patterns.iter().zip(moved).map(|(p, moved)| p.oscillation + moved).collect();
         let is_limited = !problem.loads.spans.is_empty();
         let form = Form {
-            factor: widened(packed(&triangular(&blocks, &s, &fluxes))),
-            lost: self.lost(&blocks, &s, &fluxes, &assembled, stability)?,
-            jump,
+            factor: widened(packed(&triangular(blocks, s, &fluxes))),
+            lost: self.lost(blocks, s, &fluxes, &assembled, stability)?,
+            jump: jump.map(|(blocks, means)| widened(packed(&triangular(&blocks, s, &means)))),
             vertices: chain.contact.iter().map(|(_, vertex)| *vertex).collect(),
             stability,
             corners: chain.corners,
@@ -103,17 +126,17 @@ impl FormData<'_> {
             ends: if is_limited { chain.ends } else { Vec::new() },
             span_excess: excess(problem, edges, openings),
         };
-        let (contact, released) = (chain.contact.iter().map(|of| of.0).collect(), chain.released);
-        Ok(Ok((form, Admissibles { s, fluxes, functions, contact, released })))
+        Ok(Ok((form, chain.contact.iter().map(|of| of.0).collect())))
     }
 
     /// Fluxes of columns; and means of u behind them, where laws are read off these.
-    fn fluxes(&self, fields: &[Field]) -> Table {
+    pub(super) fn fluxes(&self, fields: &[Field]) -> Table {
         let Pieces { problem, laws, .. } = self.columns.pieces;
         let edges = problem.ends.len();
-        let mut fluxes = table(edges, fields, |field| &field.flux);
+        let all = |of: fn(&Field) -> &[f64]| fields.iter().map(of).collect::<Vec<_>>();
+        let mut fluxes = table(edges, &all(|field| &field.flux));
         if laws.is_some() {
-            fluxes.values.extend(table(edges, fields, |field| &field.u).values);
+            fluxes.values.extend(table(edges, &all(|field| &field.u)).values);
         }
         fluxes
     }
@@ -138,18 +161,22 @@ impl FormData<'_> {
         Ok(reason.map(ToString::to_string))
     }
 
-    /// s where it is fixed, in all columns: p, x, d.
-    fn boundary_values(&self, chain: &Chain, functions: &Functions) -> Table {
-        let Columns { pieces, openings, .. } = self.columns;
-        let (inputs, contact) = (pieces.patterns.len(), openings.len());
-        let columns = inputs + contact + chain.contact.len();
+    /// s where it is fixed, in all columns: so many first patterns, x and d, and `more` in which it is 0 there.
+    pub(super) fn boundary_values(
+        &self,
+        chain: &Chain,
+        functions: &Functions,
+        [inputs, more]: [usize; 2],
+    ) -> Table {
+        let contact = self.columns.openings.len();
+        let columns = inputs + contact + chain.contact.len() + more;
         let mut s = Table::new(functions.count(), columns);
         for (&vertex, values) in &chain.given {
-            s.row_mut(vertex as usize)[..inputs].copy_from_slice(values);
+            s.row_mut(vertex as usize)[..inputs].copy_from_slice(&values[..inputs]);
         }
         for (at, ((vertex, place), gap)) in chain.contact.iter().zip(&chain.gap).enumerate() {
             let row = s.row_mut(*vertex as usize);
-            row[..inputs].copy_from_slice(gap);
+            row[..inputs].copy_from_slice(&gap[..inputs]);
             for (edge, weight) in place.edges.into_iter().zip(place.weights) {
                 row[inputs + edge] += weight;
             }
@@ -178,11 +205,11 @@ impl FormData<'_> {
     }
 }
 
-/// Table of the values that `of` gives of fields, edge by edge.
-fn table(edges: usize, fields: &[Field], of: impl Fn(&Field) -> &[f64]) -> Table {
-    let mut table = Table::new(edges, fields.len());
-    for (column, field) in fields.iter().enumerate() {
-        for (edge, number) in of(field).iter().enumerate() {
+/// Table of these columns, which have a number for each edge.
+pub(super) fn table(edges: usize, columns: &[&[f64]]) -> Table {
+    let mut table = Table::new(edges, columns.len());
+    for (column, numbers) in columns.iter().enumerate() {
+        for (edge, number) in numbers.iter().enumerate() {
             table.row_mut(edge)[column] = *number;
         }
     }
@@ -190,7 +217,7 @@ fn table(edges: usize, fields: &[Field], of: impl Fn(&Field) -> &[f64]) -> Table
 }
 
 /// A vertex of no cell has no value.
-fn fix_unused(blocks: &[Block], fixed: &mut [bool]) {
+pub(super) fn fix_unused(blocks: &[Block], fixed: &mut [bool]) {
     let used: BTreeSet<u32> = blocks.iter().flat_map(|block| block.functions.clone()).collect();
     for (function, fixed) in fixed.iter_mut().enumerate() {
         *fixed |= !used.contains(&(function as u32));

@@ -46,6 +46,7 @@ pub mod ranges;
 mod recovery;
 mod residual;
 mod rounding;
+mod steps;
 #[cfg(test)]
 mod tests;
 mod unit;
@@ -69,6 +70,7 @@ use signorini_certify::term::{condensed_terms, rooms_of};
 use signorini_problem::{Approach, Parts, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Input;
+pub use steps::{EvolutionForms, Memory, SteppedModel, stepped};
 
 /// Condenses `problem` for all values of its inputs; its own loads only decide whether there is a solution.
 ///
@@ -101,6 +103,10 @@ struct Pieces<'p> {
     alone: Option<Vec<bool>>,
     /// Transfer laws whose coefficient changes, where their fluxes are read off means of u.
     laws: Option<Laws>,
+    /// By default the columns beyond the inputs of the scene have these factors, and 0 where they end.
+    beyond: Vec<f64>,
+    /// What s of a step in time is a sum of, where there is a bound.
+    step: Option<steps::StepShapes>,
 }
 
 impl<'p> Pieces<'p> {
@@ -115,7 +121,19 @@ impl<'p> Pieces<'p> {
             return Err(held_by_one(&problem.scene));
         }
         let alone = held_alone(problem, &parts, &edges);
-        Ok(Self { problem, parts, patterns, spans, edges, held_by_contact, alone, laws: None })
+        let (laws, beyond) = (None, Vec::new());
+        Ok(Self {
+            problem,
+            parts,
+            patterns,
+            spans,
+            edges,
+            held_by_contact,
+            alone,
+            laws,
+            beyond,
+            step: None,
+        })
     }
 
     /// Fields of the patterns, of unit openings, of the source where there is one, and of `more` loads.
@@ -131,40 +149,13 @@ impl<'p> Pieces<'p> {
         Ok(Fields { inputs, openings, source, more })
     }
 
-    fn model(&self, fields: Fields) -> Result<(CondensedModel, Recovery)> {
-        let Self { problem, patterns, edges, .. } = self;
-        let (m, n) = (patterns.len(), edges.len());
-        let Fields { inputs: mut fields, mut openings, source, .. } = fields;
-        let opening = self.scaled(&mut openings)?;
-        fields.append(&mut openings);
-        let matrix = self.matrix(&fields[m..], &opening);
-        let of_inputs = fields.iter().zip(patterns);
-        let load =
-            |(field, p): (&Field, &TermData)| self.load(field, &p.loads().contact_flux, &opening);
-        let inputs = || problem.scene.inputs.iter();
+    fn model(&self, mut fields: Fields) -> Result<(CondensedModel, Recovery)> {
+        let (mut model, matrix) = self.without_form(&mut fields)?;
+        let Fields { inputs: mut columns, mut openings, source, .. } = fields;
+        columns.append(&mut openings);
+        let (fields, opening) = (columns, model.opening.clone());
         let columns = Columns { pieces: self, fields: &fields, openings: &opening };
-        let mut model = CondensedModel {
-            contact: n,
-            edges: edges.clone(),
-            inputs: m,
-            matrix: (0..n * n).map(|at| matrix[(at / n, at % n)]).collect(),
-            multiplier: opening.iter().map(|d| 1.0 / d).collect(),
-            load: of_inputs.map(load).collect(),
-            spans: in_unknowns(&self.spans, edges, &opening, m),
-            limits: Vec::new(),
-            defaults: std::iter::once(1.0).chain(inputs().map(|i| i.default)).collect(),
-            ranges: std::iter::once([1.0, 1.0]).chain(inputs().map(Input::interval)).collect(),
-            outputs: columns.measures()?,
-            certificate: Err(String::new()),
-            energy_unit: 1.0,
-            held_by_contact: self.held_by_contact.clone(),
-            rooms: rooms_of(problem, patterns),
-            balances: balances(problem, &self.parts, patterns, &self.spans)?,
-            opening: opening.clone(),
-        };
-        // Amplitudes of modes are no inputs of the scene.
-        model.defaults.resize(m, 0.0);
-        model.ranges.resize(m, [f64::NEG_INFINITY, f64::INFINITY]);
+        model.outputs = columns.measures()?;
         let released = &BTreeSet::new();
         let data = FormData { columns, matrix: &matrix, source: source.as_ref(), released };
         let (form, admissibles) = match data.form()? {
@@ -174,6 +165,41 @@ impl<'p> Pieces<'p> {
         model.certificate = form;
         model.choose_unit();
         Ok((model, Recovery { fields, admissibles }))
+    }
+
+    /// The model without outputs and bound, U being 1, and Ŝ; openings of the fields are scaled.
+    fn without_form(&self, fields: &mut Fields) -> Result<(CondensedModel, Mat<f64>)> {
+        let Self { problem, patterns, edges, .. } = self;
+        let (m, n) = (patterns.len(), edges.len());
+        let opening = self.scaled(&mut fields.openings)?;
+        let matrix = self.matrix(&fields.openings, &opening);
+        let load =
+            |(field, p): (&Field, &TermData)| self.load(field, &p.loads().contact_flux, &opening);
+        let inputs = || problem.scene.inputs.iter();
+        let mut model = CondensedModel {
+            contact: n,
+            edges: edges.clone(),
+            inputs: m,
+            matrix: (0..n * n).map(|at| matrix[(at / n, at % n)]).collect(),
+            multiplier: opening.iter().map(|d| 1.0 / d).collect(),
+            load: fields.inputs.iter().zip(patterns).map(load).collect(),
+            spans: in_unknowns(&self.spans, edges, &opening, m),
+            limits: Vec::new(),
+            defaults: std::iter::once(1.0).chain(inputs().map(|i| i.default)).collect(),
+            ranges: std::iter::once([1.0, 1.0]).chain(inputs().map(Input::interval)).collect(),
+            outputs: Vec::new(),
+            certificate: Err(String::new()),
+            energy_unit: 1.0,
+            held_by_contact: self.held_by_contact.clone(),
+            rooms: rooms_of(problem, patterns),
+            balances: balances(problem, &self.parts, patterns, &self.spans)?,
+            opening,
+        };
+        // Amplitudes of modes are no inputs of the scene, nor is what a step begins from.
+        model.defaults.extend(&self.beyond);
+        model.defaults.resize(m, 0.0);
+        model.ranges.resize(m, [f64::NEG_INFINITY, f64::INFINITY]);
+        Ok((model, matrix))
     }
 
     /// d_i = 1/√S_ii, by which the fields of unit openings are multiplied.

@@ -1,6 +1,7 @@
 //! The way back from a condensed answer: u and σ_h on the whole mesh, and the s and τ of its bound.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
@@ -43,6 +44,16 @@ impl Recovery {
             flux.iter_mut().zip(&field.flux).for_each(|(sum, flux)| *sum += factor * flux);
         }
         (u, flux)
+    }
+
+    /// Multiplies columns that are no inputs of the scene by `unit`, as [`CondensedModel::scale_inputs`] does.
+    pub(super) fn scale_inputs(&mut self, columns: Range<usize>, unit: f64) {
+        self.fields[columns.clone()].iter_mut().for_each(|field| field.scale(unit));
+        for table in self.admissibles.iter_mut().flat_map(|of| [&mut of.s, &mut of.fluxes]) {
+            let width = table.columns;
+            let rows = table.values.chunks_mut(width);
+            rows.for_each(|row| row[columns.clone()].iter_mut().for_each(|entry| *entry *= unit));
+        }
     }
 
     /// s and the mended τ that the bound of (p, x) is about; `None` where there is no bound.

@@ -62,16 +62,29 @@ pub(super) fn jumps(
     functions: &Functions,
     released: &BTreeSet<u32>,
 ) -> Result<Option<Vec<Block>>> {
-    let deviations = deviations(problem, patterns, released)?;
-    let is_lifted = deviations.iter().any(|of| !of.found.is_empty());
+    let is_lifted = deviations(problem, patterns, released)?.iter().any(|of| !of.found.is_empty());
     let has_source = patterns.iter().any(|p| p.loads().triangles.iter().any(|&load| load != 0.0));
     let is_constant = |at| Conductivity::of(problem, at).is_constant();
     let is_plain = problem.mesh.quads.is_empty() && (0..problem.cells()).all(is_constant);
     if is_plain && !(is_lifted && has_source) {
         return Ok(None);
     }
-    let of_means = |at| of_cell(problem, at, functions, &deviations, Of::Means);
-    (0..problem.cells()).map(of_means).collect::<Result<Vec<_>>>().map(Some)
+    of_means(problem, patterns, functions, released).map(Some)
+}
+
+/// Those rows of all cells.
+///
+/// # Errors
+/// Data that are not finite.
+pub(super) fn of_means(
+    problem: &Problem,
+    patterns: &[TermData],
+    functions: &Functions,
+    released: &BTreeSet<u32>,
+) -> Result<Vec<Block>> {
+    let deviations = deviations(problem, patterns, released)?;
+    let of_cell = |at| of_cell(problem, at, functions, &deviations, Of::Means);
+    (0..problem.cells()).map(of_cell).collect()
 }
 
 /// Deviations of each pattern's data from their chords that s follows: none between vertices that are released.
@@ -247,7 +260,7 @@ fn points_for(cell: &Cell, conductivity: &Conductivity) -> usize {
 
 /// Reference coordinates with weights that lack the area element, with `rule` points a direction or,
 /// where sides are `curved`, those that integrate what the sides carry inside.
-fn points(cell: &Cell, rule: usize, curved: &[usize]) -> Vec<([f64; 3], f64)> {
+pub(super) fn points(cell: &Cell, rule: usize, curved: &[usize]) -> Vec<([f64; 3], f64)> {
     let along = on_panels(FINE, &gauss(POINTS));
     match (cell, curved) {
         (Cell::Triangle(_), []) => on_triangle(cell, 0, &gauss(rule), &gauss(rule)),

@@ -77,6 +77,8 @@ impl FormData<'_> {
         let sides = triangles.iter().map(|of| &of[..]).chain(quads.iter().map(|of| &of[..]));
         let of_cells: f64 = sides
             .enumerate()
+            // A cell that stores something keeps what it lacks: that stands in its rows.
+            .filter(|(at, _)| self.columns.pieces.problem.loads.content(*at) == 0.0)
             .map(|(at, sides)| {
                 let load = loads.map_or(0.0, |loads| loads.of_cell(at));
                 let (mut sum, mut size) = (load, load.abs());

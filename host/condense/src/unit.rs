@@ -1,6 +1,8 @@
 //! The energy unit U: a power of two, so that scaling rounds nothing. Where the defaults of the inputs make next to
 //! nothing, what one unit of each input makes tells the size: a large input would overflow f32 otherwise.
 
+use std::ops::Range;
+
 use super::factor::column;
 use super::{CondensedModel, Form, Measure};
 
@@ -37,6 +39,23 @@ impl CondensedModel {
             Ok(x) => self.bound(p, &x).unwrap_or(1.0),
             Err(_) => 1.0,
         }
+    }
+
+    /// Multiplies columns that are no inputs of the scene by `unit`: what was one of them stands for that.
+    pub fn scale_inputs(&mut self, columns: Range<usize>, unit: f64) {
+        self.load[columns.clone()].iter_mut().flatten().for_each(|entry| *entry *= unit);
+        for measure in &mut self.outputs {
+            if let Measure::Linear { of_inputs, .. } | Measure::Flux { of_inputs, .. } = measure {
+                let own = of_inputs.iter_mut().skip(columns.start).take(columns.len());
+                own.for_each(|factor| *factor *= unit);
+            }
+        }
+        let Ok(form) = &mut self.certificate else { return };
+        let entries = columns.start * (columns.start + 1) / 2..columns.end * (columns.end + 1) / 2;
+        for factor in std::iter::once(&mut form.factor).chain(&mut form.jump) {
+            factor[entries.clone()].iter_mut().for_each(|entry| *entry *= unit);
+        }
+        form.lost[columns].iter_mut().for_each(|lost| *lost *= unit);
     }
 
     /// Goes from U = 1 to `unit`.

@@ -9,7 +9,7 @@ use super::digits::percent_above;
 use super::edges::edges_csv;
 use super::fields::{Drawn, picture};
 use super::vtu::contact_vtu;
-use signorini_intervals::Found;
+use signorini_intervals::{Coverage, Found};
 use signorini_problem::Problem;
 use signorini_problem::threads::on_two_threads;
 use signorini_scene::error::Result;
@@ -43,7 +43,8 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// Works out what follows from a solution; `more` is what there is to warn of beside what is seen in it.
+    /// Works out what follows from a solution, intervals where they are asked for; `more` is what there is to warn of beside what is
+    /// seen in it.
     ///
     /// # Errors
     /// Data that are not finite where outputs or errors ask for them; a probe outside the mesh.
@@ -52,11 +53,13 @@ impl Answer {
         solution: Solution,
         energy_norm: Option<f64>,
         asked: SolverKind,
+        intervals: Coverage,
         more: Option<String>,
     ) -> Result<Self> {
         let is_told = more.is_some();
         let levels = free_levels(&problem, &solution)?;
         problem.warnings.extend(levels.iter().map(FreeLevel::sentence).chain(more));
+        problem.warnings.extend(solution.given_up.clone());
         let part = solution.relative_bound(energy_norm).filter(|part| *part > LARGE);
         if let (Some(part), false) = (part, is_told) {
             let dominant = Dominant::of(&problem, &solution)?;
@@ -73,7 +76,7 @@ impl Answer {
         let errors = of_solution(&problem, &solution)?;
         problem.warnings.extend(contradiction(&solution, errors.as_ref()));
         let outputs = outputs(&problem, &solution)?;
-        let mut intervals = signorini_intervals::of_outputs(&problem, &solution);
+        let mut intervals = signorini_intervals::of_outputs(&problem, &solution, intervals);
         signorini_intervals::estimate(&problem, &outputs, &mut intervals);
         Ok(Self { problem, solution, energy_norm, asked, errors, outputs, intervals })
     }
@@ -92,6 +95,14 @@ impl Answer {
             [("edges.csv", &edges), ("solution.vtu", &cells), ("contact.vtu", &contact)];
         let write = |(name, bytes): &(&str, Bytes)| write_atomically(&out.join(name), &bytes()?);
         on_two_threads(&files, write, || ())?;
+        self.write_summary(out)
+    }
+
+    /// Writes `summary.json` alone.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn write_summary(&self, out: &Path) -> Result<()> {
         write_atomically(&out.join("summary.json"), self.summary().json().as_bytes())
     }
 }

@@ -9,7 +9,7 @@ use signorini_certify::{ErrorBound, NoBound};
 use signorini_intervals::OutputBound;
 use signorini_scene::scene::units::Units;
 use signorini_solve::norms::Errors;
-use signorini_solve::{Factored, Ran, ScalarKind, Seconds, SolverKind};
+use signorini_solve::{Factored, Multigrid, Ran, ScalarKind, Seconds, SolverKind};
 
 /// The object, keys in the order of the file.
 #[derive(Debug, Clone, Serialize)]
@@ -31,6 +31,9 @@ pub struct Summary {
     conjugate_iterations: u32,
     /// Work of the factor, where one solved it; else null.
     factor: Option<Factored>,
+    /// Work of multigrid, where that solved it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    multigrid: Option<Multigrid>,
     /// Units of the solve, each a power of two: 1 and 1 unless numbers were far from that.
     scales: Units,
     relaxation: f64,
@@ -88,6 +91,7 @@ impl Answer {
             sweeps: solution.sweeps,
             conjugate_iterations: solution.conjugate,
             factor: solution.factored,
+            multigrid: solution.multigrid,
             scales: solution.units,
             relaxation: solution.omega,
             converged: solution.converged(),

@@ -6,9 +6,6 @@ use std::process::Command;
 
 use crate::objects::{Symbol, run, symbols};
 
-/// Constants of the build that the library does not have: their sizes are what they tell.
-const SIZES: [&str; 2] = ["size_of_state", "size_of_report"];
-
 /// The programs that take objects apart and put them together.
 pub(crate) struct Binutils {
     /// Before the name of each: those for a board have one.
@@ -82,19 +79,14 @@ impl Binutils {
         self.run(self.command("ar").arg("rcsD").arg(&archive).args(objects)).map(|_| archive)
     }
 
-    /// Bytes of a state and of a report.
-    pub fn sizes(&self, whole: &Path, name: &str, folder: &Path) -> Result<[usize; 2], String> {
-        let object = folder.join(format!("{name}.sizes.o"));
-        let names = SIZES.map(|own| format!("{name}_{own}"));
-        self.linked(whole, &names, &object)?;
+    /// Bytes of the constant `name` of `whole`, which the library does not have: its size is what it tells.
+    pub fn size(&self, whole: &Path, name: &str, folder: &Path) -> Result<usize, String> {
+        let object = folder.join(format!("{name}.o"));
+        self.linked(whole, &[name.to_owned()], &object)?;
         let found = symbols(self.prefix, &object)?;
-        let size = |name: &String| {
-            let symbol = found.iter().find(|symbol| symbol.name == *name && symbol.size > 0);
-            symbol
-                .map(|symbol| symbol.size as usize)
-                .ok_or(format!("the library does not tell {name}"))
-        };
-        Ok([size(&names[0])?, size(&names[1])?])
+        let symbol = found.iter().find(|symbol| symbol.name == name && symbol.size > 0);
+        let missing = || format!("the library does not tell {name}");
+        symbol.map(|symbol| symbol.size as usize).ok_or_else(missing)
     }
 }
 

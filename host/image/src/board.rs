@@ -49,7 +49,7 @@ pub const M4F: Board = Board {
     ram: 4 << 20,
 };
 
-/// The same core with its unit left unused.
+/// The core of the M4F with its unit left unused.
 pub const M4: Board = Board { name: "M4", word: "m4-soft", triple: TRIPLES[0], ..M4F };
 
 /// Cortex-M7 with a unit for f64.
@@ -84,10 +84,10 @@ pub const M4F_192K: Board = Board {
     ..M4F
 };
 
-/// The same part on a desk: QEMU is not asked.
+/// The part on a desk: QEMU is not asked.
 pub const HARDWARE: Board = Board { name: "STM32F407", memory: "stm32f407", ..M4F_192K };
 
-/// What is built: a package of `tests/firmware`, some of its binaries (all, where empty), features.
+/// The program to build: a package of `tests/firmware`, some of its binaries (all, where empty), features.
 #[derive(Debug, Clone, Copy)]
 pub struct Build<'a> {
     /// The package.

@@ -5,7 +5,7 @@ use std::env;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-/// What a checkout has at its root, and none of its folders has.
+/// Files and folders that a checkout has at its root, and none of its folders has.
 const SIGNS: [&str; 3] = ["xtask/Cargo.toml", "kernel/Cargo.toml", "meshes/scenes"];
 
 /// The root of the checkout, found once: at or above the folder of the package that cargo runs, of the current folder,
@@ -19,7 +19,7 @@ pub fn find() -> Result<&'static Path, String> {
     found.map(PathBuf::as_path).map_err(Clone::clone)
 }
 
-/// The same for who comes after [`find`] has been asked.
+/// The root of the checkout, for who comes after [`find`] has been asked.
 pub fn root() -> &'static Path {
     find().unwrap_or(Path::new("."))
 }

@@ -1,4 +1,4 @@
-//! What a scene became when it was baked, as programs read it: `signorini bake --json`.
+//! A scene as it was baked, as programs read it: `signorini bake --json`.
 
 use serde::{Deserialize, Serialize};
 
@@ -24,6 +24,13 @@ pub struct Chosen {
     /// The length of a step, of a model that steps in time.
     #[serde(default)]
     pub step: Option<f64>,
+    /// States of a condensed model that steps in time; 0 of others.
+    #[serde(default)]
+    pub memory: u32,
+    /// The slowest and the fastest time constant with open contact, of a model that steps in time: the one guaranteed and none where
+    /// contact alone holds a part, the other an estimate.
+    #[serde(default)]
+    pub time_constants: Option<[Option<f64>; 2]>,
     /// The meaning of each output.
     #[serde(default)]
     pub outputs: Vec<String>,
@@ -39,11 +46,13 @@ pub struct WorstCase {
     pub exchanges: Option<u32>,
     /// Instructions on a Cortex-M4F, from counted stages; none where nothing is proved, or where they depend on operands.
     pub instructions: Option<u64>,
-    /// Whether the tick ends with the solution in so many: by the signs of the matrix, and every input has a range.
+    /// Whether the tick ends with the solution in so many: by the signs of the matrix, and every input has a range; of steps in time
+    /// unless it is refused, whatever the ranges.
     pub proven: bool,
 }
 
-/// Contact edges by what they do for all inputs within their ranges, and how large the error bound is, as far as is proved.
+/// Contact edges by what they do for all inputs within their ranges, in time in every exact step on the mesh, and how large the error
+/// bound is, as far as is proved.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Ranges {
     /// The contact edges of the scene.

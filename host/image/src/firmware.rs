@@ -1,4 +1,4 @@
-//! What a scene costs on a board, and whether it is right there: `firmware.json`.
+//! The cost of a scene on a board, and whether it is right there: `firmware.json`.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -14,10 +14,7 @@ use crate::room::NoResult;
 use crate::ticks::{Ticks, Values, text};
 use crate::worst::{WorstStart, WorstTick, without_range};
 
-/// Ticks that both programs play.
-const TICKS: usize = 101;
-
-/// What an image prints in place of a count that its counter could not hold.
+/// The word that an image prints in place of a count that its counter could not hold.
 const BEYOND: &str = "beyond-the-counter";
 
 /// Instructions of a tick.
@@ -108,8 +105,9 @@ impl Firmware {
             (said, desk.join().unwrap_or_else(|_| Err("the desk's build panicked".to_owned())))
         });
         let (said, desk) = (said?, desk?);
-        if said.count() != TICKS {
-            return Err(format!("the board has played {} of {TICKS} ticks", said.count()).into());
+        let ticks = module.played()?;
+        if said.count() != ticks {
+            return Err(format!("the board has played {} of {ticks} ticks", said.count()).into());
         }
         let Footprint { statics, stack } = Footprint::new(&module.image(board)?, &said)?;
         let word = |name| desk.notes(name).filter_map(|words| words.first()).cloned();
@@ -128,9 +126,9 @@ impl Firmware {
             ram_bytes: statics.ram + stack,
             flash_bytes: statics.flash(),
             stack_bytes: stack,
-            ticks: TICKS,
+            ticks,
             step: module.chosen.step,
-            memory: 0,
+            memory: module.chosen.memory,
             kernel_features: module.chosen.kernel_features.clone(),
             ranges: module.chosen.ranges,
             worst_case: module.chosen.worst_case,
@@ -150,7 +148,7 @@ impl Firmware {
 
     /// The figures of `scene` for a person.
     pub fn table(&self, scene: &str) -> String {
-        let Self { board, scalar, model, ram_bytes, flash_bytes, stack_bytes, .. } = self;
+        let Self { board, scalar, model, ram_bytes, flash_bytes, stack_bytes, ticks, .. } = self;
         let Instructions { median, max, .. } = self.instructions_per_tick;
         let mut table = format!("\n{scene} on {board}, {scalar}, {model}\n");
         let names = self.outputs.0.iter().map(|(name, _)| name.chars().count());
@@ -165,7 +163,7 @@ impl Firmware {
             let _ = writeln!(table, "  {name:<width$}  {board:>24}{desk:>24}{off}");
         }
         let equal = self.difference.as_deref().unwrap_or("the same bits on both");
-        let _ = writeln!(table, "  {TICKS} ticks: {equal}");
+        let _ = writeln!(table, "  {ticks} ticks: {equal}");
         let _ = writeln!(table, "  instructions per tick: {median} in the median, {max} at most");
         table += &self.worst();
         let _ = writeln!(
@@ -284,7 +282,7 @@ fn instructions(board: &Ticks) -> Result<Instructions, NoResult> {
     let mut counts = board.numbers("instructions")?;
     let first = counts.first().copied();
     counts.sort_unstable();
-    let (median, max) = (counts.get(TICKS / 2).copied(), counts.get(TICKS - 1).copied());
+    let (median, max) = (counts.get(counts.len() / 2).copied(), counts.last().copied());
     let all = first.zip(median).zip(max);
     let ((first, median), max) = all.ok_or_else(|| "a tick was not counted".to_owned())?;
     Ok(Instructions { first, median, max })

@@ -1,4 +1,4 @@
-//! What an image of a baked scene takes of a device.
+//! The flash, RAM and stack that an image of a baked scene takes of a device.
 
 use std::path::Path;
 

@@ -13,6 +13,7 @@ pub mod board;
 pub mod cargo;
 pub mod checkout;
 pub mod chosen;
+pub mod files;
 pub mod firmware;
 pub mod footprint;
 pub mod library;

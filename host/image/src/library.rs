@@ -15,6 +15,7 @@ use std::process::Command;
 use crate::binutils::Binutils;
 use crate::board::{Board, Build, M4, M4F, M7, M33};
 use crate::cargo::{build, cargo, root, target_dir};
+use crate::files;
 use crate::lock;
 use crate::objects::ARM;
 use crate::tools;
@@ -57,8 +58,8 @@ pub const MACHINES: [Machine; 5] = [
     Machine { word: "host", board: None, flags: &[] },
 ];
 
-/// Functions and constants of a header, without the scene's name and an underscore before each.
-pub const EXPORTS: [&str; 14] = [
+/// Functions and constants of every header, without the scene's name and an underscore before each.
+const EXPORTS: [&str; 14] = [
     "init",
     "tick",
     "reset",
@@ -84,8 +85,26 @@ pub fn mark(module: &str) -> String {
     format!("_of_{scene}_{:08x}", module.bytes().fold(0x811c_9dc5, hash))
 }
 
-/// Those of the second object: host/c says why it is one.
-pub const EXPORTS_WITHIN: [&str; 1] = ["tick_within"];
+/// The functions of a controller that steps in time, beside them.
+const EXPORTS_IN_TIME: [&str; 3] = ["save", "restore", "window"];
+
+/// The functions of the second object: host/c says why it is one.
+const EXPORTS_WITHIN: [&str; 1] = ["tick_within"];
+
+/// Functions and constants that the library of a module shows, without the scene's name and an underscore before each.
+pub fn exports(steps_in_time: bool) -> Vec<&'static str> {
+    [&of_first(steps_in_time)[..], &EXPORTS_WITHIN].concat()
+}
+
+/// The functions of the first object.
+fn of_first(steps_in_time: bool) -> Vec<&'static str> {
+    [&EXPORTS[..], if steps_in_time { &EXPORTS_IN_TIME } else { &[] }].concat()
+}
+
+/// Whether the controller of a module steps in time: then it has a state that outlives the program.
+pub fn steps_in_time(module: &str) -> bool {
+    module.contains("\npub type State = ")
+}
 
 /// A library.
 #[derive(Debug)]
@@ -96,6 +115,8 @@ pub struct Library {
     pub state: usize,
     /// Bytes of a report.
     pub report: usize,
+    /// Bytes of what outlives the program, of a controller that steps in time.
+    pub saved: Option<usize>,
     /// Its [`mark`].
     pub mark: String,
 }
@@ -114,7 +135,7 @@ impl Library {
         let bench = Bench::new(module, features, name, on)?;
         let within = bench.object(&bench.built(&["within"])?, &EXPORTS_WITHIN)?;
         let whole = bench.built(&[])?;
-        bench.library(&whole, &[bench.object(&whole, &EXPORTS)?, within])
+        bench.library(&whole, &[bench.object(&whole, &of_first(bench.steps_in_time))?, within])
     }
 
     /// The library without its tick with a deadline, built with features of host/c's own, and with more functions: for the
@@ -132,7 +153,8 @@ impl Library {
     ) -> Result<Self, String> {
         let bench = Bench::new(module, features, name, on)?;
         let whole = bench.built(own)?;
-        bench.library(&whole, &[bench.object(&whole, &[&EXPORTS[..], more].concat())?])
+        let shown = [&of_first(bench.steps_in_time)[..], more].concat();
+        bench.library(&whole, &[bench.object(&whole, &shown)?])
     }
 }
 
@@ -142,6 +164,7 @@ struct Bench<'a> {
     features: &'a [String],
     name: &'a str,
     on: &'a Machine,
+    steps_in_time: bool,
     mark: String,
     folder: PathBuf,
     scene: PathBuf,
@@ -161,14 +184,16 @@ impl<'a> Bench<'a> {
         let folder = target_dir("c").join(on.word);
         let turn = lock::hold(&folder.join("lock"))?;
         let scene = folder.join("scene.rs");
-        fs::write(&scene, module).map_err(|error| format!("{}: {error}", scene.display()))?;
+        files::write(&scene, module)?;
         let tools = Binutils { prefix: if on.board.is_some() { ARM } else { "" } };
-        Ok(Self { tools, features, name, on, mark: mark(module), folder, scene, _turn: turn })
+        let (mark, steps_in_time) = (mark(module), steps_in_time(module));
+        Ok(Self { tools, features, name, on, steps_in_time, mark, folder, scene, _turn: turn })
     }
 
     /// The archive of cargo, built with these features of host/c.
     fn built(&self, own: &[&str]) -> Result<PathBuf, String> {
-        let features = features_of(self.features, own);
+        let in_time: &[&str] = if self.steps_in_time { &["in-time"] } else { &[] };
+        let features = features_of(self.features, &[own, in_time].concat());
         let (mut command, built) = build_command(self.on, &features, &self.scene)?;
         command.env("SIGNORINI_SCENE", &self.scene).env("SIGNORINI_C_NAME", self.name);
         build(command, true)?;
@@ -177,18 +202,21 @@ impl<'a> Bench<'a> {
 
     /// An object of `whole` that shows these exports alone.
     fn object(&self, whole: &Path, exports: &[&str]) -> Result<PathBuf, String> {
-        let is_of_header = |own: &&str| EXPORTS.contains(own) || EXPORTS_WITHIN.contains(own);
-        let marked = |own: &&str| if is_of_header(own) { self.mark.as_str() } else { "" };
+        let of_header = self::exports(self.steps_in_time);
+        let marked = |own| if of_header.contains(own) { self.mark.as_str() } else { "" };
         let shown: Vec<_> = exports.iter().map(|own| (*own, marked(own))).collect();
         self.tools.object(whole, self.name, &shown, &self.folder)
     }
 
     fn library(&self, whole: &Path, objects: &[PathBuf]) -> Result<Library, String> {
         let archive = self.tools.archive(self.name, objects, &self.folder)?;
-        let [state, report] = self.tools.sizes(whole, self.name, &self.folder)?;
+        let size =
+            |of: &str| self.tools.size(whole, &format!("{}_size_of_{of}", self.name), &self.folder);
+        let (state, report) = (size("state")?, size("report")?);
+        let saved = self.steps_in_time.then(|| size("saved")).transpose()?;
         let archive =
             fs::read(&archive).map_err(|error| format!("{}: {error}", archive.display()))?;
-        Ok(Library { archive, state, report, mark: self.mark.clone() })
+        Ok(Library { archive, state, report, saved, mark: self.mark.clone() })
     }
 }
 

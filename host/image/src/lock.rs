@@ -1,7 +1,9 @@
 //! Commands that run at the same time and would use the same files take turns.
 
-use std::fs::{self, File, TryLockError};
+use std::fs::{File, TryLockError};
 use std::path::Path;
+
+use crate::files;
 
 /// Waits until no other holder of the lock file `path` is left; it is free again when what is returned is dropped, or when
 /// this process ends, however that happens. Where a file system has no locks, nobody waits.
@@ -10,7 +12,7 @@ use std::path::Path;
 /// A file that cannot be made.
 pub fn hold(path: &Path) -> Result<File, String> {
     let failed = |error: std::io::Error| format!("{}: {error}", path.display());
-    fs::create_dir_all(path.parent().unwrap_or(Path::new("."))).map_err(failed)?;
+    files::folder(path.parent().unwrap_or(Path::new(".")))?;
     let file = File::options().create(true).append(true).open(path).map_err(failed)?;
     if let Err(TryLockError::WouldBlock) = file.try_lock() {
         eprintln!("waiting for another command that uses {}", path.display());
@@ -22,6 +24,7 @@ pub fn hold(path: &Path) -> Result<File, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
     use std::sync::Mutex;
     use std::thread;
     use std::time::Duration;

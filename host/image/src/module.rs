@@ -13,6 +13,7 @@ use std::sync::Arc;
 use crate::board::{Board, Build};
 use crate::cargo::{build, cargo, root, target_dir};
 use crate::chosen::Chosen;
+use crate::files;
 use crate::lock;
 use crate::once::Once;
 use crate::room::NoResult;
@@ -20,6 +21,9 @@ use crate::ticks::Ticks;
 use crate::toolchain::output;
 
 const PACKAGE: &str = "signorini-scene";
+
+/// Ticks with drawn inputs that both programs play.
+const DRAWN: usize = 101;
 
 /// A module.
 #[derive(Debug)]
@@ -32,6 +36,8 @@ pub struct Module {
     quiet: bool,
     /// Features of its programs.
     more: &'static [&'static str],
+    /// The log that its programs play.
+    log: Option<PathBuf>,
     /// Programs by machine.
     programs: Once<PathBuf>,
     /// Ticks by machine.
@@ -56,8 +62,8 @@ impl Module {
         let file = folder.join(format!("{name}.rs"));
         take(&fresh, &file)?;
         let (programs, ticks) = (Once::default(), Once::default());
-        let (name, quiet, more) = (name.to_owned(), false, &[][..]);
-        Ok(Self { name, file, _turn: Arc::new(turn), quiet, more, programs, ticks, chosen })
+        let (name, quiet, more, log) = (name.to_owned(), false, &[][..], None);
+        Ok(Self { name, file, _turn: Arc::new(turn), quiet, more, log, programs, ticks, chosen })
     }
 
     /// Puts its builds out of sight.
@@ -69,22 +75,55 @@ impl Module {
     /// With programs whose ticks say where their outputs lie.
     #[must_use]
     pub fn that_locates(&self) -> Self {
-        let (programs, ticks) = (Once::default(), Once::default());
+        Self { more: &["between"], ..self.with_programs("between") }
+    }
+
+    /// With programs that play the log `file` instead of drawn inputs.
+    ///
+    /// # Errors
+    /// There is no such file.
+    pub fn that_replays(&self, file: &Path) -> Result<Self, String> {
+        let log = file.canonicalize().map_err(|error| format!("{}: {error}", file.display()))?;
+        let name = log.file_stem().unwrap_or_default().display().to_string();
+        Ok(Self { log: Some(log), ..self.with_programs(&name) })
+    }
+
+    /// The same module, with programs of its own that `what` tells apart.
+    fn with_programs(&self, what: &str) -> Self {
         Self {
-            name: format!("{}--between", self.name),
+            name: format!("{}--{what}", self.name),
             file: self.file.clone(),
             _turn: Arc::clone(&self._turn),
-            quiet: self.quiet,
-            more: &["between"],
-            programs,
-            ticks,
+            log: self.log.clone(),
+            programs: Once::default(),
+            ticks: Once::default(),
             chosen: self.chosen.clone(),
+            ..*self
         }
+    }
+
+    /// The number of ticks that its programs play.
+    ///
+    /// # Errors
+    /// A log that cannot be read.
+    pub fn played(&self) -> Result<usize, String> {
+        let Some(log) = &self.log else { return Ok(DRAWN) };
+        let text =
+            fs::read_to_string(log).map_err(|error| format!("{}: {error}", log.display()))?;
+        Ok(text.lines().count().saturating_sub(1))
     }
 
     /// The file that holds it.
     pub fn file(&self) -> &Path {
         &self.file
+    }
+
+    /// The text of its file.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn text(&self) -> Result<String, String> {
+        files::text(&self.file)
     }
 
     /// The image of a board.
@@ -104,7 +143,11 @@ impl Module {
     /// A build that fails.
     pub fn worst(&self, board: &Board) -> Result<PathBuf, String> {
         let follows = self.chosen.kernel_features.iter().any(|feature| feature == "transfer");
-        let bin = if follows { "worst_modes" } else { "worst" };
+        let bin = match (follows, self.chosen.memory) {
+            (true, _) => "worst_modes",
+            (false, 0) => "worst",
+            (false, _) => "worst_steps",
+        };
         self.linked(bin, board, &[bin])
     }
 
@@ -138,7 +181,7 @@ impl Module {
         let what =
             Build { package: PACKAGE, bins: &[bin], features: &features, scenes: &self.file };
         let (mut command, folder) = board.build(what)?;
-        command.env("SIGNORINI_SCENE", &self.file);
+        self.name_sources(&mut command);
         let machine = match bin {
             "scene" => board.memory_name(),
             _ => format!("{}.{bin}", board.memory_name()),
@@ -157,8 +200,18 @@ impl Module {
         let own = ["desk"].iter().chain(self.more).map(|&own| own.to_owned()).collect();
         let features = [self.of_kernel(), own].concat();
         command.arg("--features").arg(features.join(","));
-        command.env("SIGNORINI_SCENE", &self.file).current_dir(root().join("tests/firmware"));
+        self.name_sources(&mut command);
+        command.current_dir(root().join("tests/firmware"));
         self.made(command, &folder.join("desk/scene_desk"), "desk")
+    }
+
+    /// Tells the build script of module and log.
+    fn name_sources(&self, command: &mut Command) {
+        command.env("SIGNORINI_SCENE", &self.file);
+        match &self.log {
+            Some(log) => command.env("SIGNORINI_LOG", log),
+            None => command.env_remove("SIGNORINI_LOG"),
+        };
     }
 
     fn of_kernel(&self) -> Vec<String> {
@@ -189,7 +242,5 @@ pub fn take(fresh: &Path, kept: &Path) -> Result<(), String> {
 }
 
 fn folder() -> Result<PathBuf, String> {
-    let folder = target_dir("firmware").join("baked");
-    let made = fs::create_dir_all(&folder);
-    made.map(|()| folder.clone()).map_err(|error| format!("{}: {error}", folder.display()))
+    files::folder(&target_dir("firmware").join("baked"))
 }

@@ -1,4 +1,4 @@
-//! What objects, archives and images hold: sections and symbols, by `size` and `nm` of binutils.
+//! Sections and symbols of objects, archives and images, by `size` and `nm` of binutils.
 
 use std::path::Path;
 use std::process::Command;
@@ -8,7 +8,7 @@ use crate::toolchain::output;
 /// Before the names of programs for boards.
 pub const ARM: &str = "arm-none-eabi-";
 
-/// What every C compiler may call, and every C library has.
+/// Functions that every C compiler may call, and every C library has.
 const OF_C: [&str; 5] = ["memcpy", "memmove", "memset", "memcmp", "memclr"];
 
 /// A symbol.

@@ -1,4 +1,4 @@
-//! What the two programs print: lines that must be equal, and notes (`@ …`) that are each machine's own.
+//! The output of the two programs: lines that must be equal, and notes (`@ …`) that are each machine's own.
 
 use serde::ser::SerializeMap as _;
 use serde::{Serialize, Serializer};

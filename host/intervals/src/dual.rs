@@ -12,7 +12,7 @@ use signorini_problem::{Loads, Problem, State};
 use signorini_scene::error::Result;
 use signorini_scene::expression::Expression;
 use signorini_scene::scene::{Condition, Field, Located, Scene};
-use signorini_solve::SharedFactor;
+use signorini_solve::SharedSolver;
 
 /// z at the vertices and its bubbles, and ζ in the place of τ; z is not yet within what contact asks of it.
 pub(super) type Weights = CertifiedFields;
@@ -54,7 +54,7 @@ impl Dual {
     /// Solves it where |ζ·n| may be up to `part` of λ on contact edges; nothing where it has no solution.
     pub fn solve(
         &mut self,
-        factor: &SharedFactor,
+        solver: &SharedSolver,
         contact: &[ContactEdge],
         goal: &Goal,
         part: f64,
@@ -67,7 +67,7 @@ impl Dual {
         let loads = &mut self.problem.loads;
         loads.contact_flux = bases;
         loads.spans = contact.iter().map(|of| 2.0 * part * of.room).collect();
-        let solution = factor.solve(&self.problem).ok()??;
+        let solution = solver.solve(&self.problem).ok()??;
         solution.bound.map(|_| solution.certified)
     }
 }

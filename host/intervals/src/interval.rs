@@ -18,7 +18,7 @@ use signorini_problem::Problem;
 use signorini_problem::functional::of_one;
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Output, Quantity};
-use signorini_solve::SharedFactor;
+use signorini_solve::SharedSolver;
 
 /// Parts c that are tried, and by how much each is larger than the last.
 const TRIALS: usize = 8;
@@ -43,7 +43,7 @@ pub(super) const UNSOLVED: &str =
 
 /// Facts on the solution that all intervals share.
 pub(super) struct Known<'p> {
-    pub factor: &'p SharedFactor,
+    pub solver: &'p SharedSolver,
     /// Weights without contact, by the names of their outputs.
     pub kept: &'p Mutex<BTreeMap<String, Weights>>,
     pub problem: &'p Problem,
@@ -117,12 +117,12 @@ impl Known<'_> {
     /// Weights of an output: without contact those of all answers.
     fn weights(&self, name: &str, goal: &Goal, dual: &mut Dual, part: f64) -> Option<Weights> {
         if !self.contact.is_empty() {
-            return dual.solve(self.factor, &self.contact, goal, part);
+            return dual.solve(self.solver, &self.contact, goal, part);
         }
         if let Some(known) = self.kept.lock().ok()?.get(name) {
             return Some(known.clone());
         }
-        let found = dual.solve(self.factor, &[], goal, part)?;
+        let found = dual.solve(self.solver, &[], goal, part)?;
         self.kept.lock().ok()?.insert(name.to_owned(), found.clone());
         Some(found)
     }
@@ -184,7 +184,7 @@ impl Known<'_> {
         }
     }
 
-    /// That of data alone: what s changes by inside cells in a step is known.
+    /// An interval's part from data alone: what s changes by inside cells in a step is known.
     fn oscillation(&self) -> f64 {
         let ways = self.answer.certified.evolution.iter().map(|way| way.oscillation);
         match self.problem.loads.step {

@@ -1,4 +1,4 @@
-//! What is known of all answers of a controller, before any tick.
+//! Bounds on all answers of a controller, known before any tick.
 
 use signorini_certify::Column;
 

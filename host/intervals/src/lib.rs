@@ -31,6 +31,7 @@
 
 mod answer;
 mod contact;
+mod coverage;
 mod dual;
 mod estimate;
 mod evolved;
@@ -54,6 +55,7 @@ use std::sync::Mutex;
 
 pub use answer::{Answered, Found, OutputBound, zero_rounding};
 use contact::contact_edges;
+pub use coverage::{Coverage, MOST_UNKNOWNS};
 use dual::Weights;
 pub use estimate::estimate;
 pub use evolved::over_time;
@@ -66,17 +68,21 @@ use signorini_problem::functional::{of_one, wanted};
 use signorini_problem::threads::on_two_threads;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Output;
-use signorini_solve::{SharedFactor, Solution};
+use signorini_solve::{SharedSolver, Solution};
 
-/// Beyond so many unknowns no intervals are worked out: each takes some solutions of a linear problem.
-pub const MOST_UNKNOWNS: usize = 200_000;
-
-/// Intervals of every output of a solution, with those that a scene without any has.
-pub fn of_outputs(problem: &Problem, solution: &Solution) -> BTreeMap<String, Found> {
+/// Intervals of every output of a solution, with those that a scene without any has; none at all where they are not asked for.
+pub fn of_outputs(
+    problem: &Problem,
+    solution: &Solution,
+    coverage: Coverage,
+) -> BTreeMap<String, Found> {
+    if coverage == Coverage::None {
+        return BTreeMap::new();
+    }
     let Some((scaled, own)) = solution.in_its_units() else {
-        return of_answer(problem, &solution.into());
+        return of_answer(problem, &solution.into(), coverage);
     };
-    let mut all = of_answer(scaled, &own.into());
+    let mut all = of_answer(scaled, &own.into(), coverage);
     for output in wanted(&problem.scene).iter() {
         if let Some(Ok(found)) = all.get_mut(&output.name.value) {
             let of_one = of_one(scaled, output);
@@ -87,11 +93,14 @@ pub fn of_outputs(problem: &Problem, solution: &Solution) -> BTreeMap<String, Fo
 }
 
 /// Intervals of any answer whose numbers are near 1.
-pub fn of_answer(problem: &Problem, answer: &Answered) -> BTreeMap<String, Found> {
-    let is_small = problem.topology.counts.unknowns() <= MOST_UNKNOWNS;
+pub fn of_answer(
+    problem: &Problem,
+    answer: &Answered,
+    coverage: Coverage,
+) -> BTreeMap<String, Found> {
     let mut lasting = Lasting::default();
-    if answer.bound.is_some() && is_small {
-        // Without a factor there is a reason instead of an interval.
+    if answer.bound.is_some() && coverage.takes(problem) {
+        // Without a solver there is a reason instead of an interval.
         let _ = lasting.renew(problem);
     }
     of_next(problem, answer, &lasting)
@@ -100,8 +109,8 @@ pub fn of_answer(problem: &Problem, answer: &Answered) -> BTreeMap<String, Found
 /// Data that stay from answer to answer of one scene on one mesh.
 #[derive(Default)]
 pub struct Lasting {
-    /// The factor of its matrix.
-    factor: Option<Box<SharedFactor>>,
+    /// The solver of its matrix.
+    solver: Option<Box<SharedSolver>>,
     /// ∫h of the laws of transfer in it.
     transfers: Vec<f64>,
     /// z and ζ of the outputs by their names, where there is no contact.
@@ -112,13 +121,13 @@ impl Lasting {
     /// Works out anew what is not that of `problem` any more.
     ///
     /// # Errors
-    /// A matrix without a factor.
+    /// A matrix that nothing solves.
     pub fn renew(&mut self, problem: &Problem) -> Result<()> {
         let laws = problem.loads.robin.iter();
         let transfers: Vec<f64> = laws.map(|law| law.coefficient).collect();
-        if self.factor.is_none() || self.transfers != transfers {
-            let factor = SharedFactor::of(problem)?.map(Box::new);
-            *self = Self { factor, transfers, weights: Mutex::default() };
+        if self.solver.is_none() || self.transfers != transfers {
+            let solver = SharedSolver::of(problem)?.map(Box::new);
+            *self = Self { solver, transfers, weights: Mutex::default() };
         }
         Ok(())
     }
@@ -147,13 +156,15 @@ fn intervals(
 ) -> Result<Vec<Found>> {
     let none = |why: &str| Ok(vec![Err(why.to_owned()); all.len()]);
     let Some(bound) = answer.bound else { return none("the solution has no error bound") };
-    if problem.topology.counts.unknowns() > MOST_UNKNOWNS {
-        return none(&format!("the mesh has more than {MOST_UNKNOWNS} unknowns"));
-    }
-    let Some(factor) = &lasting.factor else { return none("its linear problem has no factor") };
+    let Some(solver) = &lasting.solver else {
+        return match Coverage::Small.takes(problem) {
+            true => none("its linear problem has no factor"),
+            false => none(&coverage::too_many()),
+        };
+    };
     let deviations = followed(problem, &answer.certified.admissible())?;
     let known = Known {
-        factor,
+        solver,
         kept: &lasting.weights,
         problem,
         answer,

@@ -46,11 +46,11 @@ pub struct Midpoint {
     pub part: [f64; 2],
     /// ‖A^½∇z‖ + ‖A^{−½}ζ‖
     pub sizes: f64,
-    /// What loads may miss of the output, over the total.
+    /// The part of an output that loads may miss, over the total.
     pub loads: f64,
     /// How much of a certificate's distance counts.
     pub distance: f64,
-    /// What the law of contact keeps the output above.
+    /// The value that the law of contact keeps the output above.
     pub least: f64,
 }
 
@@ -133,8 +133,8 @@ impl Weighing<'_> {
         for part in self.parts(&contact) {
             let held: Vec<_> = contact.iter().map(|of| of.held(of.is_held(part))).collect();
             let (Some(of_z), Some(of_zeta)) = (
-                dual.solve(&self.factor, &held, goal, far),
-                dual.solve(&self.factor, &contact, goal, part),
+                dual.solve(&self.solver, &held, goal, far),
+                dual.solve(&self.solver, &contact, goal, part),
             ) else {
                 continue;
             };

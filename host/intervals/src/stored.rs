@@ -1,4 +1,4 @@
-//! What storage adds to the products in a step of time: the residuals of its equation and of that of the weights.
+//! Storage in the products of a step in time: the residuals of its equation and of that of the weights.
 //!
 //! ```text
 //!   R = ∇·τ + f − k(s − s_old),   R_z = ∇·ζ + j − kz,   ∫R z + ∫R_z (u − s)     beside the products of the fluxes
@@ -19,13 +19,13 @@ use signorini_solve::ScalarKind;
 /// Roundings of the terms of a sum over a cell.
 const ROUNDINGS: f64 = 32.0;
 
-/// What the cells of a step store.
+/// The storage of a step's cells.
 pub(super) struct Stored<'p> {
     problem: &'p Problem,
     step: &'p Step,
     /// k|T| of each cell, and k/(k + π²α/h²).
     cells: Vec<[f64; 2]>,
-    /// What the scalar of s and τ rounds of the terms of R: a cell that is in balance but for that counts as such.
+    /// Rounding of the terms of R in the scalar of s and τ: a cell that is in balance but for that counts as such.
     rounding: f64,
 }
 

@@ -31,7 +31,7 @@ use signorini_problem::{EdgeKind, Parts, Problem, Sum};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Field, Input, Output, Quantity};
 use signorini_solve::energy_norm::nonconformity;
-use signorini_solve::{ScalarKind, SharedFactor};
+use signorini_solve::{ScalarKind, SharedSolver};
 
 /// Why an output needs no weights.
 const GIVEN: &str = "the data give it, up to their quadrature";
@@ -95,17 +95,17 @@ fn unseen(problem: &Problem) -> Result<f64> {
     Ok(most)
 }
 
-/// What all weights of a problem are made with.
+/// The ingredients of all weights of a problem.
 pub(super) struct Weighing<'p> {
     pub problem: &'p Problem,
-    pub factor: SharedFactor,
+    pub solver: SharedSolver,
     pub corners: Vec<Problem>,
     pub answers: &'p Answers<'p>,
     unseen: f64,
 }
 
 impl<'p> Weighing<'p> {
-    /// What the weights of a problem are made with, or why it has none.
+    /// The ingredients of a problem's weights, or why it has none.
     pub fn new(
         problem: &'p Problem,
         answers: &'p Answers<'p>,
@@ -119,12 +119,12 @@ impl<'p> Weighing<'p> {
                 "contact alone holds a part: what a tick leaves open passes through any of its edges",
             );
         }
-        let Some(factor) = SharedFactor::of(problem)? else {
+        let Some(solver) = SharedSolver::of(problem)? else {
             return none("its linear problem has no factor");
         };
         let unseen = unseen(problem)?;
         let corners = corners(problem)?;
-        Ok(Ok(Self { problem, factor, corners, answers, unseen }))
+        Ok(Ok(Self { problem, solver, corners, answers, unseen }))
     }
 
     /// What is missed of loads in an output, over the total: as much of each as z is there, and of the end that a force is measured from.
@@ -181,7 +181,7 @@ impl<'p> Weighing<'p> {
         for part in self.parts(&contact) {
             // z is free where all of [0, 1] is within its part, and has its value on all other contact edges.
             let held: Vec<_> = contact.iter().map(|of| of.held(of.is_held(part))).collect();
-            let Some(solved) = dual.solve(&self.factor, &held, goal, far) else {
+            let Some(solved) = dual.solve(&self.solver, &held, goal, far) else {
                 return Ok(Err(UNSOLVED.to_owned()));
             };
             for takes_least in [true, false] {
@@ -234,7 +234,7 @@ impl<'p> Weighing<'p> {
 
     fn mean(&self, goal: &Goal, on_contact: bool) -> Result<Weighed> {
         let (problem, contact) = (self.problem, self.contact());
-        let solved = Dual::new(problem, goal)?.solve(&self.factor, &contact, goal, 0.0);
+        let solved = Dual::new(problem, goal)?.solve(&self.solver, &contact, goal, 0.0);
         let Some(solved) = solved else {
             return Ok(Err(UNSOLVED.to_owned()));
         };

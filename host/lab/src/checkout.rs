@@ -3,8 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use signorini_image::checkout::find;
-use signorini_scene::error::{Error, InputError, Result};
-use signorini_scene::scene::Scene;
+use signorini_scene::{Error, InputError, Result, Scene};
 
 /// The root of the checkout.
 ///

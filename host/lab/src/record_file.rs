@@ -6,7 +6,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use signorini_scene::error::{Error, Result};
+use signorini_scene::{Error, Result};
 
 /// The record at `path`; none where there is no file.
 ///

@@ -24,6 +24,8 @@ pub enum Approach {
     Condensation,
     /// The elimination for every value of one transfer coefficient.
     Modes,
+    /// The elimination for steps in time, with a few states.
+    Stepped,
     /// The kernel's tick on the mesh.
     Tick,
     /// The full model that `bake` writes: that tick, with loads linear in inputs.
@@ -47,8 +49,12 @@ pub struct Lack {
 }
 
 impl Approach {
-    /// How `problem` is condensed: for every value of a transfer coefficient where one input changes it.
+    /// How `problem` is condensed: in steps where it stores something, else for every value of a transfer coefficient where one input
+    /// changes it.
     pub fn condensing(problem: &Problem) -> Self {
+        if problem.scene.stores() {
+            return Self::Stepped;
+        }
         let inputs = problem.scene.inputs.iter();
         match inputs.filter(|input| input.field.value == Field::Coefficient).count() {
             1 => Self::Modes,
@@ -97,20 +103,21 @@ impl Approach {
     /// How it refuses a problem with this property, if it does.
     const fn refusal(self, property: Property) -> Option<fn(&Problem) -> InputError> {
         use Approach::{
-            Baselines, Condensation, Export, Factor, FactoredTicks, FullModel, Modes, Tick,
+            Baselines, Condensation, Export, Factor, FactoredTicks, FullModel, Modes, Stepped, Tick,
         };
         match property {
             Property::NoContact => match self {
                 Baselines => Some(nothing_to_compare),
-                Condensation | Modes | Tick | FullModel | Factor | FactoredTicks | Export => None,
+                Condensation | Modes | Stepped | Tick | FullModel | Factor | FactoredTicks
+                | Export => None,
             },
             Property::ManyContactEdges => match self {
-                Condensation | Modes => Some(too_many),
+                Condensation | Modes | Stepped => Some(too_many),
                 Tick | FullModel | Factor | FactoredTicks | Export | Baselines => None,
             },
             // Where that leaves a matrix singular, the factor finds it out.
             Property::FloatingPart => match self {
-                Condensation | Modes => Some(no_level),
+                Condensation | Modes | Stepped => Some(no_level),
                 Tick | FullModel => Some(|problem| no_tick(problem, "nothing holds")),
                 Factor | FactoredTicks | Export | Baselines => None,
             },
@@ -118,29 +125,29 @@ impl Approach {
                 Tick | FullModel => Some(|problem| no_tick(problem, "contact alone holds")),
                 // Where h is what may fail to hold it, its matrix is singular for some h alone.
                 Modes => Some(|problem| no_tick(problem, "contact alone holds")),
+                Stepped => Some(no_walk),
                 Condensation | Factor | FactoredTicks | Export | Baselines => None,
             },
             Property::LoadInTime => match self {
-                Condensation | Modes | FullModel => Some(no_clock),
+                Condensation | Modes | Stepped | FullModel => Some(no_clock),
                 Tick | Factor | FactoredTicks | Export | Baselines => None,
             },
             Property::TransferInput => match self {
-                Condensation | Export => Some(one_matrix),
+                Condensation | Stepped | Export => Some(one_matrix),
                 FactoredTicks => Some(one_factor),
                 FullModel | Modes | Tick | Factor | Baselines => None,
             },
             Property::Limit => match self {
                 Export => Some(two_sides),
-                Condensation | Modes | Tick | FullModel | Factor | FactoredTicks | Baselines => {
-                    None
-                }
+                Condensation | Modes | Stepped | Tick | FullModel | Factor | FactoredTicks
+                | Baselines => None,
             },
             Property::Step => match self {
                 Condensation | Modes | Tick | Export | Baselines => Some(no_steps),
-                FullModel | Factor | FactoredTicks => None,
+                Stepped | FullModel | Factor | FactoredTicks => None,
             },
             Property::Window => match self {
-                Condensation | Modes | FullModel => Some(no_window),
+                Condensation | Modes | Stepped | FullModel => Some(no_window),
                 Tick | Factor | FactoredTicks | Export | Baselines => None,
             },
         }
@@ -183,6 +190,13 @@ fn no_tick(problem: &Problem, held: &str) -> InputError {
     InputError::new(message).file(&scene.path).hint(hint)
 }
 
+/// No static shape of such a part can be told from a level that it has.
+fn no_walk(problem: &Problem) -> InputError {
+    let message = "boundary: contact alone holds a part, which has no condensed model in time";
+    let hint = "take the full model (--full, model = \"full\"), or give the part a dirichlet or robin boundary";
+    InputError::new(message).file(&problem.scene.path).hint(hint)
+}
+
 /// Firmware has no clock of the scene's.
 fn no_clock(problem: &Problem) -> InputError {
     let scene = &problem.scene;
@@ -207,15 +221,8 @@ fn one_matrix(problem: &Problem) -> InputError {
 fn no_steps(problem: &Problem) -> InputError {
     let stores = problem.scene.materials.iter().find(|material| material.stores());
     let place = stores.map(|material| &material.capacity);
-    refused_at(problem, place, "no condensed model steps in time yet".to_owned())
+    refused_at(problem, place, "steps in time are not for this model".to_owned())
         .hint("take the full model (--full, model = \"full\"); without `capacity` the controller is the steady one")
-}
-
-impl Problem {
-    /// The refusal of a condensed model that would step in time.
-    pub fn no_steps(&self) -> InputError {
-        no_steps(self)
-    }
 }
 
 /// No controller carries what its steps leave of their equations.

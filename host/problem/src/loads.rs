@@ -39,7 +39,7 @@ pub struct Loads<R = f64> {
     pub gap: Vec<R>,
     /// Mean of u_D on each Dirichlet edge.
     pub dirichlet: Vec<R>,
-    /// What the cells store, where the problem is a step in time.
+    /// The storage of the cells, where the problem is a step in time.
     pub step: Option<Step<R>>,
     /// The most that is missed of ∫f, ∫g, ∫q and their limits in all: out of balance, and seen by no mean.
     pub missed: f64,

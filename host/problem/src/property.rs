@@ -43,7 +43,7 @@ properties! {
     TransferInput,
     /// The flux of a contact boundary has a limit, or no least value.
     Limit,
-    /// It is a step in time.
+    /// The problem is a step in time.
     Step,
     /// An output is the bound over time.
     Window,

@@ -15,7 +15,7 @@ pub struct Room {
 }
 
 impl Room {
-    /// As the kernel has it.
+    /// Room in the kernel's form.
     pub fn view(&self) -> flux_range::Room<'_, f64> {
         flux_range::Room { terms: &self.terms, size: self.size }
     }

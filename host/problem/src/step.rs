@@ -22,7 +22,14 @@ use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 
-/// What one step hands on to the next, in the scalar `R`.
+impl Loads {
+    /// What a cell stores in a step for each unit of u, k|T|; 0 where the problem is no step.
+    pub fn content(&self, cell: usize) -> f64 {
+        self.step.as_ref().map_or(0.0, |step| step.content(cell))
+    }
+}
+
+/// The state that one step hands on to the next, in the scalar `R`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct State<R = f64> {
@@ -34,7 +41,7 @@ pub struct State<R = f64> {
     pub bubbles: Vec<R>,
     /// The means of (s − ψ)⁺ and (ψ − s)⁺ along each contact edge.
     pub openings: Vec<[R; 2]>,
-    /// What s followed of curved data that may move.
+    /// The curved data that s followed and that may move.
     pub traces: Vec<Trace>,
     /// ‖A^½∇·‖ of all that s followed of curved data.
     pub lifted: f64,
@@ -108,9 +115,9 @@ pub struct Step<R = f64> {
     masses: [Vec<R>; 2],
     /// dt
     pub length: f64,
-    /// What the step before has left.
+    /// The state that the step before has left.
     pub begin: State<R>,
-    /// What K_ii has beyond the element matrices, one per unknown: M_E, and ∫h of a transfer law.
+    /// The part of K_ii beyond the element matrices, one per unknown: M_E, and ∫h of a transfer law.
     pub(super) diagonal: Vec<R>,
 }
 
@@ -136,7 +143,7 @@ impl<R: Scalar> Step<R> {
         self.masses.each_ref().map(Vec::as_slice)
     }
 
-    /// As the kernel takes it.
+    /// The step in the kernel's form.
     ///
     /// # Errors
     /// Numbers that are not admissible in this scalar.

@@ -116,7 +116,7 @@ impl<'s> Sum<'s> {
         added.fold(of(&self.base.value), |sum, term| sum + term)
     }
 
-    /// The same less some function that is linear along the region.
+    /// The sum less some function that is linear along the region.
     pub fn bend(&self, region: &Region, rho: f64) -> f64 {
         let of = |expression: &Expression| expression.bend(region, rho, self.time);
         let added = self.inputs.iter().map(|(weight, pattern)| weight.abs() * of(&pattern.value));

@@ -9,6 +9,7 @@ use std::thread;
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 use signorini_bake::setting;
 use signorini_problem::Problem;
 use signorini_problem::functional::wanted;
@@ -29,13 +30,16 @@ const STACK: usize = 64 << 20;
 enum Call {
     Tick(Vec<f64>, Sender<Result<Told>>),
     Reset(Sender<()>),
+    Window(Sender<Option<[f64; 2]>>),
+    State(Sender<Option<Vec<u8>>>),
+    Restore(Vec<u8>, Sender<Result<()>>),
 }
 
 /// What a tick came to: how it ended, outputs, how far each may be off and between which values it lies (∞ where nothing is
 /// guaranteed), bound and its part of u, exchanges and sweeps, contact force and length.
 type Told = (String, Vec<f64>, Known, Option<[f64; 2]>, u32, [f64; 2]);
 
-/// What is known of outputs.
+/// The bounds of outputs that are known.
 type Known = (Vec<f64>, Vec<[f64; 2]>);
 
 /// The controller of a scene.
@@ -95,6 +99,19 @@ impl Controller {
     fn reset(&self, py: Python<'_>) -> PyResult<()> {
         self.ask(py, Call::Reset)
     }
+
+    fn window(&self, py: Python<'_>) -> PyResult<Option<[f64; 2]>> {
+        self.ask(py, Call::Window)
+    }
+
+    fn state<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyBytes>>> {
+        Ok(self.ask(py, Call::State)?.map(|state| PyBytes::new(py, &state)))
+    }
+
+    fn restore(&self, py: Python<'_>, state: Vec<u8>) -> PyResult<()> {
+        let told = self.ask(py, |answer| Call::Restore(state, answer))?;
+        told.map_err(|error| raised(py, error, self.is_file))
+    }
 }
 
 impl Controller {
@@ -146,6 +163,15 @@ fn serve(problem: &Problem, session: &mut dyn Session, module: &Module, calls: &
             Call::Reset(done) => {
                 session.restart();
                 let _ = done.send(());
+            }
+            Call::Window(answer) => {
+                let _ = answer.send(session.window());
+            }
+            Call::State(answer) => {
+                let _ = answer.send(session.state());
+            }
+            Call::Restore(state, answer) => {
+                let _ = answer.send(session.set_state(&state));
             }
         }
     }

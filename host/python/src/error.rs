@@ -10,7 +10,7 @@ create_exception!(
     signorini,
     SceneError,
     PyValueError,
-    "The scene, its mesh or an argument is wrong.\n\nAttributes: message, file, line, key, hint and, of a controller, refusal (no-solution, not-unique, excluded, empty-range or not-finite); each is None where there is none."
+    "The scene, its mesh or an argument is wrong.\n\nAttributes: message, file, line, key, hint and, of a controller, refusal (no-solution, not-unique, excluded, empty-range, not-finite, foreign-state or damaged-state); each is None where there is none."
 );
 
 /// The exception of an error; `is_file` tells whether the scene is a file that a person can look into.

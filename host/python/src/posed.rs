@@ -9,6 +9,7 @@ use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::arrays::Arrays;
 use signorini_scene::scene::Scene;
+use signorini_session::tick::Moment;
 use signorini_solve::adaptive::{MeshOfScene, mesh_for_scene, mesh_of_scene};
 
 /// A scene: a file, or the text of one; another mesh file, or a mesh in arrays; inputs by name.
@@ -75,6 +76,8 @@ pub struct PosedScene {
     mesh: Option<Mesh>,
     /// Points of the arrays that have become vertices; empty where the mesh is a file's.
     pub origins: Vec<u32>,
+    /// Inputs with values of the caller's.
+    inputs: Vec<(usize, f64)>,
 }
 
 impl GivenScene {
@@ -96,10 +99,12 @@ impl GivenScene {
         if let Some(file) = self.mesh_file {
             scene.mesh.value = file;
         }
+        let mut inputs = Vec::new();
         for (name, value) in &self.inputs {
             let at = scene.input_number(name)?;
             scene.check_input(at, *value)?;
             scene.inputs[at].default = *value;
+            inputs.push((at, *value));
         }
         let (mesh, origins) = match self.arrays {
             None => (None, Vec::new()),
@@ -108,11 +113,18 @@ impl GivenScene {
                 arrays.mesh().map(|(mesh, origins)| (Some(mesh), origins))?
             }
         };
-        Ok(PosedScene { scene, mesh, origins })
+        Ok(PosedScene { scene, mesh, origins, inputs })
     }
 }
 
 impl PosedScene {
+    /// Gives the inputs the values of a state, but for those of the caller.
+    pub fn go_on_from(&mut self, last: &Moment) {
+        for (at, value) in last.values().chain(self.inputs.iter().copied()) {
+            self.scene.inputs[at].default = value;
+        }
+    }
+
     /// The mesh before the setting changes it.
     ///
     /// # Errors

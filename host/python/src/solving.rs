@@ -9,6 +9,7 @@ use pyo3::types::PyDict;
 use signorini_files::answer::Answer;
 use signorini_files::contact::State;
 use signorini_files::fields::Drawn;
+use signorini_intervals::Coverage;
 use signorini_problem::{EdgeKind, Problem};
 use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::term::at_rest_warning;
@@ -32,6 +33,7 @@ pub struct How {
     max_sweeps: Option<u32>,
     max_error: Option<String>,
     max_unknowns: Option<usize>,
+    intervals: Option<bool>,
 }
 
 /// Solves a scene; writes its files where a folder is given. What is found, by name.
@@ -50,14 +52,16 @@ pub fn solve<'py>(
         .transpose()
         .map_err(|why| PyValueError::new_err(format!("max_error: {why}")))?;
     let most_unknowns = how.max_unknowns.unwrap_or(MOST_UNKNOWNS);
+    let intervals = how.intervals();
     let is_file = scene.is_file();
     let found = work(py, move |given_up| {
         let posed = scene.read()?;
         let answer = match goal {
-            None => on_its_mesh(&posed, &asked),
+            None => on_its_mesh(&posed, &asked, intervals),
             Some(goal) => {
                 let options = asked.options(posed.scene.setting.and_then(|setting| setting.scalar));
-                refined(&posed, &Wanted { goal, most_unknowns, options }, &asked, given_up)
+                let wanted = Wanted { goal, most_unknowns, options };
+                refined(&posed, &wanted, (&asked, intervals), given_up)
             }
         }?;
         out.map_or(Ok(()), |out| answer.write(&out))?;
@@ -81,24 +85,30 @@ impl How {
             refined,
         })
     }
+
+    fn intervals(&self) -> Coverage {
+        match self.intervals {
+            None => Coverage::Small,
+            Some(true) => Coverage::All,
+            Some(false) => Coverage::None,
+        }
+    }
 }
 
-fn on_its_mesh(posed: &PosedScene, asked: &SolveRequest) -> Result<Answer> {
+fn on_its_mesh(posed: &PosedScene, asked: &SolveRequest, intervals: Coverage) -> Result<Answer> {
     let mut problem = posed.problem()?;
-    posed.scene.check_at_rest()?;
     problem.warnings.extend(at_rest_warning(&posed.scene));
     let solution = asked.solve(&problem)?;
     let energy_norm = energy_norm::of_solution(&problem, &solution)?;
-    Answer::new(problem, solution, energy_norm, asked.solver.unwrap_or_default(), None)
+    Answer::new(problem, solution, energy_norm, asked.solver.unwrap_or_default(), intervals, None)
 }
 
 fn refined(
     posed: &PosedScene,
     wanted: &Wanted,
-    asked: &SolveRequest,
+    (asked, intervals): (&SolveRequest, Coverage),
     given_up: &GivenUp,
 ) -> Result<Answer> {
-    posed.scene.check_at_rest()?;
     let go_on = |_: &_| Ok(!given_up.load(Ordering::Relaxed));
     let setting = posed.scene.setting.unwrap_or_default();
     let mesh =
@@ -107,7 +117,8 @@ fn refined(
     let mut problem = level.problem;
     problem.warnings.extend(at_rest_warning(&posed.scene));
     let why = stop.why(&level.solution);
-    Answer::new(problem, level.solution, level.energy_norm, asked.solver.unwrap_or_default(), why)
+    let solver = asked.solver.unwrap_or_default();
+    Answer::new(problem, level.solution, level.energy_norm, solver, intervals, why)
 }
 
 /// What takes long to work out, and no interpreter.

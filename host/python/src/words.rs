@@ -16,6 +16,7 @@ pub fn solver(word: Option<&str>) -> PyResult<Option<SolverKind>> {
         ("auto", SolverKind::Auto),
         ("kernel", SolverKind::Kernel),
         ("direct", SolverKind::Direct),
+        ("multigrid", SolverKind::Multigrid),
     ];
     chosen("solver", word, &all)
 }

@@ -71,6 +71,14 @@ def test_the_summary_is_the_command_line_s(scenes, command):
     assert result.outputs["wet"].center is None and "length" in result.outputs["wet"].reason
 
 
+def test_intervals_can_be_left_out(scenes):
+    scene = scenes / "levee.toml"
+    assert signorini.solve(scene).summary["output_bounds"]
+    assert not signorini.solve(scene, intervals=False).summary["output_bounds"]
+    with pytest.raises(TypeError, match="expected True or False"):
+        signorini.solve(scene, intervals="no")
+
+
 def test_fields_are_those_of_the_files(scenes, tmp_path):
     result = signorini.solve(scenes / "strip.toml", out=tmp_path)
     written = meshio.read(tmp_path / "solution.vtu")

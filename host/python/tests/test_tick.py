@@ -215,7 +215,88 @@ kind = "force"
         assert raised.value.refusal == why
     assert controller(push=-1) == before
     for baked in (False, True):
-        ticks = signorini.tick(scene, mesh, times=[0, 1, 2, 3], inputs={"push": [-1, 2, 1, -1]}, baked=baked)
+        with pytest.warns(signorini.SolveWarning, match="2 of 4 ticks have no solution"):
+            ticks = signorini.tick(scene, mesh, times=[0, 1, 2, 3], inputs={"push": [-1, 2, 1, -1]}, baked=baked)
         assert ticks.status.tolist()[1:3] == ["no-solution", "not-unique"]
         assert np.isnan(ticks.outputs["power"][1:3]).all()
         assert np.allclose(ticks.outputs["power"][[0, 3]], 2)
+
+
+@pytest.fixture
+def warm(scenes):
+    """A scene whose ticks are steps in time."""
+    return scenes / "antiicing-warm.toml"
+
+
+def test_steps_in_time_are_those_of_the_command_line(warm, command):
+    out = command("tick", warm, "--ticks", "3", "--step", "0.25")
+    ticks = signorini.tick(warm, ticks=3, step=0.25)
+    table, bounds = columns(out / "ticks.csv"), columns(out / "output_bounds.csv")
+    assert ticks.status[0] == "start" and ticks.t.tolist() == [0, 0.25, 0.5, 0.75]
+    for key in ("error_bound", "window_energy", "window_seconds"):
+        assert np.array_equal(getattr(ticks, key), numbers(table[key]), equal_nan=True), key
+    assert np.isnan(ticks.window_error).all()
+    for name in ("nose_skin", "nose_skin_step"):
+        ends = [numbers(bounds[f"{name}_{end}"]) if f"{name}_{end}" in bounds else np.full(4, np.nan) for end in ("least", "most")]
+        assert np.array_equal(ticks.output_bounds[name].T, ends, equal_nan=True), name
+    assert np.isfinite(ticks.output_bounds["nose_skin_step"][1:]).all()
+    # Times that are given have no row of the start, and follow each other by the step.
+    assert signorini.tick(warm, times=[0.5, 1], step=0.5, intervals=False).t.tolist() == [0.5, 1]
+    with pytest.raises(signorini.SceneError, match="expected the step 0.5"):
+        signorini.tick(warm, times=[0.5, 1.2], step=0.5)
+
+
+def test_a_play_goes_on_from_its_file(warm, tmp_path):
+    state, jump = tmp_path / "state.json", {"ambient": -30}
+    whole = signorini.tick(warm, ticks=5, inputs=jump, tolerance=1e-9)
+    signorini.tick(warm, ticks=2, inputs=jump, tolerance=1e-9, save=state)
+    rest = signorini.tick(warm, ticks=3, tolerance=1e-9, begin=state)
+    assert np.array_equal(rest.t, whole.t[3:]) and np.array_equal(rest.window_energy, whole.window_energy[3:])
+    for name, values in rest.outputs.items():
+        assert np.array_equal(values, whole.outputs[name][3:]), name
+    other = signorini.tick(warm, ticks=3, inputs={"ambient": 0}, tolerance=1e-9, begin=state)
+    assert not np.array_equal(other.outputs["nose_skin"], rest.outputs["nose_skin"])
+    with pytest.raises(signorini.SceneError, match="step: the state is one of step 1"):
+        signorini.tick(warm, ticks=3, step=0.25, begin=state)
+    with pytest.raises(ValueError, match="baked takes no save"):
+        signorini.tick(warm, ticks=3, baked=True, save=state)
+
+
+def test_ticks_say_what_they_warn_of(scenes, tmp_path):
+    text = (scenes / "levee.toml").read_text().replace('mesh = "', f'mesh = "{scenes}/')
+    scene = tmp_path / "stored.toml"
+    scene.write_text(text.replace("[material.sand]", "[material.sand]\ncapacity = 1", 1))
+    with pytest.warns(signorini.SolveWarning, match="capacity"):
+        ticks = signorini.tick(scene, ticks=1, intervals=False)
+    assert any("capacity" in sentence for sentence in ticks.warnings)
+
+
+def test_a_controller_goes_on_from_its_state(warm, scenes):
+    one, other = signorini.Controller(warm), signorini.Controller(warm)
+    start, begun = one.state(), one.window()
+    for ambient in (-22, -30, -35):
+        one(ambient=ambient)
+    state, window = one.state(), one.window()
+    # A stated start has no bound over time before its first step.
+    assert window != begun and np.isfinite(window).all()
+    then = [one(ambient=ambient) for ambient in (-35, -10)]
+    other(ambient=5)
+    other.restore(state)
+    assert other.window() == window and other.state() == state
+    assert [other(ambient=ambient) for ambient in (-35, -10)] == then and other.window() == one.window()
+    for at in (0, 3, 9, 16, len(state) // 2):
+        damaged = bytearray(state)
+        damaged[at] ^= 4
+        with pytest.raises(signorini.SceneError) as raised:
+            other.restore(bytes(damaged))
+        assert raised.value.refusal == ("foreign-state" if at < 8 else "damaged-state")
+    for foreign in (b"", bytes(len(state)), state[:-8]):
+        with pytest.raises(signorini.SceneError):
+            other.restore(foreign)
+    assert other.state() == one.state()
+    other.restore(start)
+    assert other.window() == begun
+    other.reset()
+    assert other.state() == start
+    with pytest.raises(ValueError, match="does not step in time"):
+        signorini.Controller(scenes / "levee.toml").state()

@@ -54,7 +54,7 @@ impl Factor {
         problem.check()?;
         let matrix = Matrix::of(problem);
         let condensation = Condensation::new(&matrix)?;
-        let floating = matrix.floating_components(problem.floating);
+        let floating = problem.floating_components();
         Ok(Self { matrix, condensation, floating })
     }
 

@@ -27,7 +27,10 @@ pub struct Problem<'a> {
 
 impl Problem<'_> {
     /// Everything that the solver relies on, except symmetry and definiteness.
-    pub(super) fn check(&self) -> Result<(), ReferenceError> {
+    ///
+    /// # Errors
+    /// What is wrong, with the array's name.
+    pub fn check(&self) -> Result<(), ReferenceError> {
         let (n, contact) = (self.load.len(), self.lower.len());
         let malformed = |what| Err(ReferenceError::Malformed(what));
         if self.row_ptr.len() != n + 1 || n > i32::MAX as usize {
@@ -55,6 +58,46 @@ impl Problem<'_> {
         check_finite("load", self.load)?;
         check_finite("lower", self.lower)
     }
+
+    /// n − n_c
+    pub fn free(&self) -> usize {
+        self.load.len() - self.lower.len()
+    }
+
+    /// The columns and values of a row.
+    pub fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
+        let range = self.row_ptr[row] as usize..self.row_ptr[row + 1] as usize;
+        let columns = self.col_idx[range.clone()].iter().map(|&column| column as usize);
+        columns.zip(self.values[range].iter().copied())
+    }
+
+    /// The contact unknowns (numbered within C) of each connected component of the matrix graph with a `floating` one:
+    /// nothing holds it but contact.
+    pub fn floating_components(&self) -> Vec<Vec<usize>> {
+        let floats = self.floating.contains(&true);
+        let mut visited = vec![false; if floats { self.load.len() } else { 0 }];
+        let seeds = self.floating.iter().enumerate().filter(|&(_, &floats)| floats);
+        seeds
+            .map(|(contact, _)| self.contact_reached_from(self.free() + contact, &mut visited))
+            .filter(|component| !component.is_empty())
+            .collect()
+    }
+
+    /// The unvisited contact unknowns that a walk through the graph of K reaches.
+    fn contact_reached_from(&self, seed: usize, visited: &mut [bool]) -> Vec<usize> {
+        let (mut reached, mut pending) = (Vec::new(), Vec::new());
+        let mut visit = |unknown: usize, pending: &mut Vec<usize>| {
+            if !std::mem::replace(&mut visited[unknown], true) {
+                pending.push(unknown);
+            }
+        };
+        visit(seed, &mut pending);
+        while let Some(unknown) = pending.pop() {
+            reached.extend(unknown.checked_sub(self.free()));
+            self.row(unknown).for_each(|(neighbour, _)| visit(neighbour, &mut pending));
+        }
+        reached
+    }
 }
 
 /// Names the first entry that is infinite or not a number.
@@ -80,7 +123,7 @@ impl Matrix {
             row_ptr: problem.row_ptr.to_vec(),
             col_idx: problem.col_idx.to_vec(),
             values: problem.values.to_vec(),
-            free: problem.load.len() - problem.lower.len(),
+            free: problem.free(),
         }
     }
 
@@ -106,34 +149,5 @@ impl Matrix {
         self.row(row)
             .find(|&entry| self.col_idx[entry] as usize == row && self.values[entry] > 0.0)
             .ok_or(ReferenceError::NotPositiveDefinite { unknown: row })
-    }
-
-    /// The contact unknowns (numbered within C) of each connected component of the matrix graph with a `floating` one:
-    /// nothing holds it but contact.
-    pub fn floating_components(&self, floating: &[bool]) -> Vec<Vec<usize>> {
-        let mut visited = vec![false; if floating.is_empty() { 0 } else { self.unknowns() }];
-        let seeds = floating.iter().enumerate().filter(|&(_, &floats)| floats);
-        seeds
-            .map(|(contact, _)| self.contact_reached_from(self.free + contact, &mut visited))
-            .filter(|component| !component.is_empty())
-            .collect()
-    }
-
-    /// The unvisited contact unknowns that a walk through the graph of K reaches.
-    fn contact_reached_from(&self, seed: usize, visited: &mut [bool]) -> Vec<usize> {
-        let (mut reached, mut pending) = (Vec::new(), Vec::new());
-        let mut visit = |unknown: usize, pending: &mut Vec<usize>| {
-            if !std::mem::replace(&mut visited[unknown], true) {
-                pending.push(unknown);
-            }
-        };
-        visit(seed, &mut pending);
-        while let Some(unknown) = pending.pop() {
-            reached.extend(unknown.checked_sub(self.free));
-            for &neighbour in self.columns(unknown) {
-                visit(neighbour as usize, &mut pending);
-            }
-        }
-        reached
     }
 }

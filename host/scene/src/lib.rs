@@ -13,3 +13,10 @@ pub mod goal;
 pub mod mesh;
 pub mod scene;
 pub mod setting;
+
+pub use error::{Error, InputError, Result};
+pub use expression::Expression;
+pub use goal::Goal;
+pub use mesh::Mesh;
+pub use scene::Scene;
+pub use setting::Setting;

@@ -15,9 +15,10 @@
 //! sweeps = 12           # exactly so many; condensed: instead of the exact method    [none]
 //! share = 0.1           # sweep until this share of the bound is left to sweeps      [0.01]
 //! certificate = true    # the error bound                                            [true]
+//! memory = 24           # states of a condensed model that steps in time              [as its bound needs]
 //! ```
 //! `refine` and `error` exclude each other, so do `sweeps` and `share`, and a factor excludes both. Without `model`, a key that means something to
-//! the full one alone asks for that, and so does `solver = "sweeps"`; `solver = "exact"` asks for the condensed one. The
+//! the full one alone asks for that, and so does `solver = "sweeps"`; `solver = "exact"` and `memory` ask for the condensed one. The
 //! bound is left out where `certificate = false` says so, and nowhere else. The file reads them in [`crate::scene`].
 
 use crate::goal::Goal;
@@ -62,6 +63,9 @@ pub struct Setting {
     pub share: Option<f64>,
     /// Whether the error bound is computed.
     pub certificate: bool,
+    /// States of a condensed model that steps in time, at most.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub memory: Option<u32>,
 }
 
 impl Default for Setting {
@@ -80,6 +84,7 @@ impl Default for Setting {
             sweeps: None,
             share: None,
             certificate: true,
+            memory: None,
         }
     }
 }
@@ -91,14 +96,19 @@ impl Setting {
             Method::Exact => ModelKind::Condensed,
             Method::Sweeps | Method::Factor => ModelKind::Full,
         });
-        self.model.or(of_solver).or(self.of_full_alone().map(|_| ModelKind::Full))
+        let of_memory = self.memory.map(|_| ModelKind::Condensed);
+        self.model.or(of_solver).or(of_memory).or(self.of_full_alone().map(|_| ModelKind::Full))
     }
 
     /// A key that is set, and means nothing to this model.
     pub fn foreign_to(&self, model: ModelKind) -> Option<&'static str> {
         match model {
             ModelKind::Condensed => self.of_full_alone(),
-            ModelKind::Full => (self.solver == Some(Method::Exact)).then_some("solver"),
+            ModelKind::Full => {
+                [("solver", self.solver == Some(Method::Exact)), ("memory", self.memory.is_some())]
+                    .into_iter()
+                    .find_map(|(key, is_set)| is_set.then_some(key))
+            }
         }
     }
 
@@ -113,6 +123,7 @@ impl Setting {
             ("sweeps", self.sweeps.is_some()),
             ("share", self.share.is_some()),
             ("certificate", !self.certificate),
+            ("memory", self.memory.is_some()),
         ];
         keys.into_iter().filter(|(_, is_set)| *is_set).map(|(key, _)| key).collect()
     }

@@ -3,6 +3,7 @@
 use signorini_bake::choice::Origin;
 use signorini_bake::condensed::{Baked, Controller};
 use signorini_bake::intervals::NarrowMidpoint;
+use signorini_bake::module_api::hash;
 use signorini_bake::narrow::narrow;
 use signorini_certify::{ErrorBound, NoBound};
 use signorini_condense::CondensedModel;
@@ -22,6 +23,8 @@ pub(crate) struct Condensed<'b, R: Scalar> {
     controller: Controller<'b, R>,
     midpoints: Vec<Option<NarrowMidpoint<R>>>,
     inputs: Vec<R>,
+    /// What the last tick has begun from, of steps in time.
+    past: Vec<R>,
     /// Outputs and report of the last tick.
     last: Option<(Vec<R>, Report<R>)>,
 }
@@ -29,8 +32,8 @@ pub(crate) struct Condensed<'b, R: Scalar> {
 impl<'b, R: Scalar> Condensed<'b, R> {
     /// A session of `baked`, the model of `problem` that was made of `origin`.
     pub fn new(problem: &'b Problem, baked: &'b Baked<R>, origin: &'b Origin) -> Self {
-        let (controller, midpoints) = (Controller::new(baked), Vec::new());
-        Self { problem, origin, baked, controller, midpoints, inputs: Vec::new(), last: None }
+        let (controller, midpoints, past) = (Controller::new(baked), Vec::new(), Vec::new());
+        Self { problem, origin, baked, controller, midpoints, inputs: Vec::new(), past, last: None }
     }
 
     /// This session with the midpoints of its outputs.
@@ -50,12 +53,28 @@ impl<'b, R: Scalar> Condensed<'b, R> {
 impl<R: Scalar> Session for Condensed<'_, R> {
     fn tick(&mut self, inputs: &[f64]) -> Result<u32> {
         self.inputs = narrow(inputs);
+        let past = self.controller.past().to_vec();
         let last = self.controller.tick(&self.inputs).map_err(unfit::<R>(&self.problem.scene))?;
+        self.past = past;
         Ok(self.last.insert(last).1.sweeps)
     }
 
     fn restart(&mut self) {
         (self.controller, self.last) = (Controller::new(self.baked), None);
+    }
+
+    fn window(&self) -> Option<[f64; 2]> {
+        let window = self.controller.window()?;
+        Some([window.energy, window.seconds].map(R::wide))
+    }
+
+    fn state(&self) -> Option<Vec<u8>> {
+        self.controller.state(hash(self.problem))
+    }
+
+    fn set_state(&mut self, bytes: &[u8]) -> Result<()> {
+        let restored = self.controller.restore(hash(self.problem), bytes);
+        Ok(restored.map_err(crate::refused_state)?)
     }
 
     fn between(&self) -> Vec<Option<[f64; 2]>> {
@@ -71,8 +90,9 @@ impl<R: Scalar> Session for Condensed<'_, R> {
     fn answer(&self, at: &Problem) -> Result<Solution> {
         let Some((outputs, report)) = &self.last else { return Ok(Solution::default()) };
         let x: Vec<f64> = self.controller.x().iter().map(|x| x.wide()).collect();
-        let p: Vec<f64> =
-            std::iter::once(1.0).chain(self.inputs.iter().map(|p| p.wide())).collect();
+        let p: Vec<f64> = std::iter::once(1.0)
+            .chain(self.inputs.iter().chain(&self.past).map(|p| p.wide()))
+            .collect();
         let Origin { whole, recovery, .. } = self.origin;
         let x = self.origin.expand(&p, x);
         let p = self.origin.inputs(p, &x);

@@ -60,6 +60,14 @@ impl<R: Scalar, const WIDTH: usize> Session for Full<'_, R, WIDTH> {
         Some([window.energy, window.seconds].map(R::wide))
     }
 
+    fn state(&self) -> Option<Vec<u8>> {
+        self.controller.state()
+    }
+
+    fn set_state(&mut self, bytes: &[u8]) -> Result<()> {
+        Ok(self.controller.restore(bytes).map_err(crate::refused_state)?)
+    }
+
     fn answer(&self, at: &Problem) -> Result<Solution> {
         let Some((outputs, report)) = &self.last else { return Ok(Solution::default()) };
         let arrays = Arrays {

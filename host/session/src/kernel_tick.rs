@@ -1,6 +1,6 @@
 //! The kernel's tick on a scene whose parts D or R holds: the code of a device, on data that are integrated for each moment.
 
-use signorini_certify::{Certifier, NoBound};
+use signorini_certify::{Certifier, Enclosed, NoBound};
 use signorini_device::tick::{
     CertifiedSweeps, Data, Deadline, IfStoring, Limits, Memory, Progress, Report, Tick,
 };
@@ -25,6 +25,7 @@ struct KernelTick<'p, R: Scalar, const WIDTH: usize> {
     /// The matrix with the data of the present tick.
     moving: Assembled<'p, R>,
     data: signorini_certify::Data<R>,
+    enclosed: Enclosed,
     limits: Limits<R>,
     start: Vec<R>,
     memory: Owned<R, WIDTH>,
@@ -90,8 +91,9 @@ impl<'p, R: Scalar, const WIDTH: usize> KernelTick<'p, R, WIDTH> {
         let certifier = Certifier::new(least, &parts, &fixed).map_err(&unfit)?;
         let mut u = fixed.start();
         start(&mut u)?;
-        let data =
-            signorini_certify::Data::new(problem).map_err(|error| error.at_time(problem.time))?;
+        let mut enclosed = Enclosed::default();
+        let data = signorini_certify::Data::again(problem, &mut enclosed)
+            .map_err(|error| error.at_time(problem.time))?;
         let (moving, memory) = (fixed.clone(), Owned::new(problem, u.clone()));
         let (progress, report) = (Progress::NONE, None);
         Ok(Self {
@@ -100,6 +102,7 @@ impl<'p, R: Scalar, const WIDTH: usize> KernelTick<'p, R, WIDTH> {
             certifier,
             moving,
             data,
+            enclosed,
             limits,
             start: u,
             memory,
@@ -132,7 +135,7 @@ impl<'p, R: Scalar, const WIDTH: usize> KernelTick<'p, R, WIDTH> {
 impl<R: Scalar, const WIDTH: usize> Session for KernelTick<'_, R, WIDTH> {
     fn pose(&mut self, at: &Problem) -> Result<()> {
         self.moving.set_loads(&at.loads).map_err(unfit::<R>(&at.scene))?;
-        self.data = signorini_certify::Data::new(at)?;
+        self.data = signorini_certify::Data::again(at, &mut self.enclosed)?;
         Ok(())
     }
 

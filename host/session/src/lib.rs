@@ -28,7 +28,7 @@ pub use setting::{completed, solve, with_session};
 
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
-use signorini_scene::error::Result;
+use signorini_scene::error::{InputError, Result};
 use signorini_solve::{ScalarKind, Solution};
 
 /// A scene that is answered tick after tick. The state that it carries is where the next tick starts.
@@ -52,7 +52,7 @@ pub trait Session {
     /// Goes back to the state before the first tick.
     fn restart(&mut self);
 
-    /// What it carries to the next tick; nothing before the first answer, or of a session that is not saved.
+    /// The state that it carries to the next tick; nothing before the first answer, or of a session that is not saved.
     fn saved(&self) -> Option<SavedSession> {
         None
     }
@@ -81,6 +81,19 @@ pub trait Session {
         None
     }
 
+    /// The bytes of a controller's state, as firmware has them; nothing where ticks are no steps in time.
+    fn state(&self) -> Option<Vec<u8>> {
+        None
+    }
+
+    /// Goes on from such bytes; an error changes nothing.
+    ///
+    /// # Errors
+    /// Those of another scene or scalar, damaged ones, and any where ticks are no steps in time.
+    fn set_state(&mut self, _: &[u8]) -> Result<()> {
+        Err(InputError::new("state: this controller does not step in time, and has none").into())
+    }
+
     /// Poses `at` and answers for its inputs.
     ///
     /// # Errors
@@ -90,6 +103,11 @@ pub trait Session {
         let inputs: Vec<f64> = at.scene.inputs.iter().map(|input| input.default).collect();
         self.tick(&inputs)
     }
+}
+
+/// The error of a state that a controller does not take.
+fn refused_state(error: signorini_kernel::Error) -> InputError {
+    InputError::new(format!("state: {error}")).because(error)
 }
 
 /// The scalar type of a session in `R`.

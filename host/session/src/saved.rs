@@ -1,4 +1,4 @@
-//! What a session carries from tick to tick, as numbers in f64: those of a narrow scalar are exact in it.
+//! The state that a session carries from tick to tick, as numbers in f64: those of a narrow scalar are exact in it.
 
 use serde::{Deserialize, Serialize};
 use signorini_problem::scalar::Scalar;

@@ -7,7 +7,9 @@
 mod sweeps;
 
 use signorini_bound::certificate::Certificate;
-use signorini_certify::{Certified, CertifiedFields, Certifier, Data, ErrorBound, NoBound};
+use signorini_certify::{
+    Certified, CertifiedFields, Certifier, Data, Enclosed, ErrorBound, NoBound,
+};
 use signorini_kernel::relaxation::{Relaxation, Search};
 use signorini_kernel::solver::{Outcome, Settings, Status};
 use signorini_problem::scalar::Scalar;
@@ -29,6 +31,7 @@ pub(crate) struct Solves<R: Scalar, S> {
     swept: S,
     /// `None` where no certificate is asked for.
     certifier: Option<(Certifier<R>, Data<R>)>,
+    enclosed: Enclosed,
     settings: Settings<R>,
     /// The share of the bound that may be left to sweeps, where that ends a solve.
     share: Option<f64>,
@@ -110,7 +113,8 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Solves<R, S> {
     ) -> Result<Self> {
         let parts = Parts::examine(problem)?;
         swept.assembled_mut().set_parts(&parts);
-        let certifier = || certifier(problem, &parts, swept.assembled());
+        let mut enclosed = Enclosed::default();
+        let certifier = || certifier(problem, &parts, swept.assembled(), &mut enclosed);
         let certifier = is_certified.then(certifier).transpose()?;
         Ok(Self {
             parts,
@@ -119,6 +123,7 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Solves<R, S> {
             is_known: false,
             swept,
             certifier,
+            enclosed,
             settings,
             share: None,
             is_warm: false,
@@ -215,9 +220,10 @@ fn certifier<R: Scalar>(
     problem: &Problem,
     parts: &Parts,
     assembled: &Assembled<R>,
+    enclosed: &mut Enclosed,
 ) -> Result<(Certifier<R>, Data<R>)> {
     let certifier = Certifier::new(problem, parts, assembled);
-    Ok((certifier.map_err(unfit::<R>(&problem.scene))?, Data::new(problem)?))
+    Ok((certifier.map_err(unfit::<R>(&problem.scene))?, Data::again(problem, enclosed)?))
 }
 
 impl<'p, R: Scalar, S: Sweeps<'p, R>> Session for Solves<R, S> {
@@ -227,7 +233,7 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Session for Solves<R, S> {
         assembled.set_parts(&self.parts);
         assembled.set_loads(&at.loads).map_err(unfit::<R>(&at.scene))?;
         if let Some(posed) = &mut self.certifier {
-            *posed = certifier(at, &self.parts, assembled)?;
+            *posed = certifier(at, &self.parts, assembled, &mut self.enclosed)?;
         }
         Ok(())
     }

@@ -15,7 +15,7 @@ use signorini_kernel::system::{Residual, System};
 
 use super::ldlt::{Exchanges, exchanges};
 
-/// What a solve did.
+/// The outcome of a solve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SolveSummary<R> {
     /// How it ended: `Converged`, `RoundingLimit` where corrections are down to rounding, or `Stalled` where they

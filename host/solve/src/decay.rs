@@ -34,6 +34,12 @@ const KAPPA: f64 = 0.1893;
 /// Rounds of inverse iteration: the guess is proved afterwards.
 const ROUNDS: u32 = 16;
 
+/// The part of the largest eigenvalue up to which the least one may be 0: what the matrices and the factor round.
+const ROUNDED: f64 = 1e-12;
+
+/// Rounds of power iteration, whose result is proved nowhere.
+const POWERS: u32 = 100;
+
 /// By which part the guess is lowered for its proof, at first: more than rounding of matrices and factor.
 const LOWERED: f64 = 1e-6;
 
@@ -42,23 +48,29 @@ const LOWERED: f64 = 1e-6;
 /// # Errors
 /// A mesh that cannot be cut into triangles; data that are not finite.
 pub fn decay_rate(problem: &Problem) -> Result<f64> {
-    let pencil = match problem.mesh.quads.is_empty() {
-        true => Pencil::of(problem)?,
-        false => {
-            let mesh = adapted((*problem.mesh).clone(), Some(CellKind::Triangles), 0)?;
-            Pencil::of(&Problem::new(&problem.scene, Arc::new(mesh))?)?
-        }
-    };
-    let Some(guess) = pencil.guess() else { return Ok(0.0) };
-    let mut lowered = LOWERED;
-    let of_mesh = loop {
-        let least = guess * (1.0 - lowered);
-        if least <= 0.0 || pencil.exceeds(least) {
-            break least.max(0.0);
-        }
-        lowered *= 4.0;
-    };
-    Ok(of_mesh / (1.0 + pencil.coarseness * of_mesh) * (1.0 - LOWERED))
+    Ok(Pencil::on_triangles(problem)?.rate())
+}
+
+/// How fast what is stored follows its data, in the scene's unit of time. Contact counts as free.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimeConstants {
+    /// 1/λ: nothing takes longer to fall by a factor of e, guaranteed; infinite where contact alone holds a part.
+    pub slowest: f64,
+    /// That of the fastest mode on the mesh, estimated.
+    pub fastest: f64,
+}
+
+/// The time constants of `problem`; nothing where no material stores u.
+///
+/// # Errors
+/// Those of [`decay_rate`].
+pub fn time_constants(problem: &Problem) -> Result<Option<TimeConstants>> {
+    if problem.capacities.is_empty() {
+        return Ok(None);
+    }
+    let pencil = Pencil::on_triangles(problem)?;
+    let [slowest, fastest] = [pencil.rate(), pencil.largest()].map(f64::recip);
+    Ok(Some(TimeConstants { slowest, fastest }))
 }
 
 /// K, M and max κ²h²c/α.
@@ -72,6 +84,56 @@ struct Pencil {
 }
 
 impl Pencil {
+    /// Of `problem`, whose quads are cut in two.
+    fn on_triangles(problem: &Problem) -> Result<Self> {
+        if problem.mesh.quads.is_empty() {
+            return Self::of(problem);
+        }
+        let mesh = adapted((*problem.mesh).clone(), Some(CellKind::Triangles), 0)?;
+        Self::of(&Problem::new(&problem.scene, Arc::new(mesh))?)
+    }
+
+    /// λ
+    fn rate(&self) -> f64 {
+        let is_above = |guess: &f64| *guess > ROUNDED * self.largest();
+        let Some(guess) = self.guess().filter(is_above) else { return 0.0 };
+        let mut lowered = LOWERED;
+        let of_mesh = loop {
+            let least = guess * (1.0 - lowered);
+            if least <= 0.0 || self.exceeds(least) {
+                break least.max(0.0);
+            }
+            lowered *= 4.0;
+        };
+        of_mesh / (1.0 + self.coarseness * of_mesh) * (1.0 - LOWERED)
+    }
+
+    /// The largest eigenvalue nearly, by power iteration; edges that store nothing stay at 0.
+    fn largest(&self) -> f64 {
+        let of_stored = |at: usize, x: f64| if self.mass[at] > 0.0 { x } else { 0.0 };
+        let count = self.mass.len();
+        let mut v: Vec<f64> =
+            (0..count).map(|at| of_stored(at, ((at * at) as f64).sin())).collect();
+        let mut largest = 0.0;
+        for _ in 0..POWERS {
+            let rows = self.row_ptr.windows(2).map(|row| row[0] as usize..row[1] as usize);
+            let product = |row: std::ops::Range<usize>| -> f64 {
+                row.map(|at| self.values[at] * v[self.col_idx[at] as usize]).sum()
+            };
+            let next: Vec<f64> = rows
+                .enumerate()
+                .map(|(at, row)| of_stored(at, product(row) / self.mass[at]))
+                .collect();
+            let weighed = |a: &[f64], b: &[f64]| -> f64 {
+                self.mass.iter().zip(a).zip(b).map(|((mass, a), b)| mass * a * b).sum()
+            };
+            largest = weighed(&v, &next) / weighed(&v, &v);
+            let size = weighed(&next, &next).sqrt();
+            v = next.into_iter().map(|x| x / size).collect();
+        }
+        largest
+    }
+
     fn of(problem: &Problem) -> Result<Self> {
         let refused = |error: signorini_kernel::Error| {
             Error::from(problem.scene.error(&problem.scene.mesh, error))
@@ -110,7 +172,7 @@ impl Pencil {
         Ok(Self { row_ptr, col_idx, values, mass, coarseness }.without_columns_from(unknowns))
     }
 
-    /// The same with unknowns alone for columns.
+    /// That matrix with unknowns alone for columns.
     fn without_columns_from(self, unknowns: usize) -> Self {
         let Self { row_ptr, col_idx, values, mass, coarseness } = self;
         let mut kept =
@@ -202,6 +264,21 @@ mod tests {
                 found[0] > 0.95 * exact && found[2] > 0.996 * exact,
                 "{cells:?}: {found:?} {exact}"
             );
+        }
+    }
+
+    /// An eigenvalue of the whole is at most the largest of one cell, and the largest no less than a diagonal entry of M⁻¹K: 36 and 24
+    /// times α/ch² on halves of squares with sides of h.
+    #[test]
+    fn the_fastest_mode_is_between_what_cells_and_edges_have() {
+        let text = "mesh = \"grid\"\n[material.default]\nconductivity = 2\ncapacity = 4\n[boundary.default]\nkind = \"contact\"\n";
+        let scene = Scene::parse(text, Path::new("decay.toml")).unwrap();
+        for n in [4, 16] {
+            let problem = Problem::new(&scene, grid(n, Cells::Triangles)).unwrap();
+            let found = time_constants(&problem).unwrap().unwrap();
+            let part = found.fastest.recip() / (0.5 * f64::from(n * n));
+            assert!(0.9 * 36.0 < part && part <= 36.0 * (1.0 + 1e-9), "{part}");
+            assert_eq!(found.slowest, f64::INFINITY);
         }
     }
 

@@ -8,6 +8,7 @@ use signorini_kernel::solver::{Outcome, Status};
 
 use super::{Attempt, Factored, Options, Ran, Solution, Solved, unfit};
 use signorini_problem::progress::stage;
+use signorini_problem::scalar::Scalar;
 use signorini_problem::{Assembled, Parts, Problem};
 use signorini_reference::{Factor, ReferenceError};
 use signorini_scene::error::{InputError, Result};
@@ -41,6 +42,11 @@ pub(super) fn directly(problem: &Problem, parts: &Parts, options: &Options) -> R
     attempt.conclude(Solved { outcome, ran: Ran::Direct, factored, u, low: Vec::new() })
 }
 
+/// Numbers of a scalar in f64.
+pub(super) fn widened<R: Scalar>(numbers: &[R]) -> Vec<f64> {
+    numbers.iter().map(|x| x.wide()).collect()
+}
+
 /// K and b with the Dirichlet columns moved to the right: what the reference takes.
 pub struct Reduced {
     /// Where the rows of K start, and the last one ends.
@@ -58,11 +64,11 @@ pub struct Reduced {
 impl Reduced {
     /// A part held by nothing gets a spring to 0 at one of its edges: in balance, that spring
     /// carries no force, and it only picks one of the solutions.
-    pub fn new(
+    pub fn new<R: Scalar>(
         problem: &Problem,
         parts: &Parts,
-        assembled: &Assembled<f64>,
-        u: &[f64],
+        assembled: &Assembled<R>,
+        u: &[R],
     ) -> std::result::Result<Self, KernelError> {
         let (system, edges) = (assembled.system()?, assembled.edges());
         let counts = problem.topology.counts;
@@ -71,7 +77,7 @@ impl Reduced {
             row_ptr: vec![0],
             col_idx: Vec::new(),
             values: Vec::new(),
-            load: system.load().to_vec(),
+            load: widened(system.load()),
             floating: Vec::new(),
         };
         for (i, row) in system.matrix().iter().enumerate() {
@@ -79,8 +85,9 @@ impl Reduced {
             let support = parts.support(part);
             let spring = support == Support::None && sprung.insert(part);
             for (column, value) in row.entries() {
+                let value = value.wide();
                 if column >= counts.unknowns() {
-                    reduced.load[i] -= value * u[column];
+                    reduced.load[i] -= value * u[column].wide();
                     continue;
                 }
                 reduced.col_idx.push(column as u32);
@@ -94,7 +101,8 @@ impl Reduced {
         Ok(reduced)
     }
 
-    fn problem<'a>(
+    /// With the law of contact, as the reference takes it.
+    pub(super) fn problem<'a>(
         &'a self,
         lower: &'a [f64],
         spans: &'a [f64],

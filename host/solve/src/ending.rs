@@ -10,7 +10,7 @@ use signorini_kernel::solver::Status;
 
 use signorini_scene::error::Error;
 
-use super::{Factored, ScalarKind, Solution};
+use super::{Factored, Multigrid, ScalarKind, Solution};
 
 /// How an answer came to its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,6 +74,8 @@ impl Ending {
             Self::Refused(Refusal::NotUnique) => "not-unique",
             Self::Refused(Refusal::EmptyRange) => "empty-range",
             Self::Refused(Refusal::Excluded) => "excluded",
+            Self::Refused(Refusal::ForeignState) => "foreign-state",
+            Self::Refused(Refusal::DamagedState) => "damaged-state",
             // What a scene's data or its scalar do not allow for.
             Self::Refused(_) => "not-finite",
             Self::Start => "start",
@@ -107,6 +109,8 @@ pub enum Ran {
     Factor,
     /// The host's active set on a factor of its own.
     Direct,
+    /// The host's active set by conjugate gradients and multigrid.
+    Multigrid,
     /// Exchanges on a condensed model.
     CondensedExact,
     /// Sweeps on a condensed model.
@@ -120,7 +124,7 @@ impl Ran {
     pub fn scalar_of_u(self, scalar: ScalarKind) -> ScalarKind {
         match self {
             Self::CondensedExact | Self::CondensedSweeps | Self::CondensedLinear => ScalarKind::F64,
-            Self::Sweeps | Self::Factor | Self::Direct => scalar,
+            Self::Sweeps | Self::Factor | Self::Direct | Self::Multigrid => scalar,
         }
     }
 
@@ -130,6 +134,7 @@ impl Ran {
             Self::Sweeps => "kernel sweeps",
             Self::Factor => "kernel factor",
             Self::Direct => "direct",
+            Self::Multigrid => "multigrid",
             Self::CondensedExact => "condensed exact",
             Self::CondensedSweeps => "condensed sweeps",
             Self::CondensedLinear => "condensed linear",
@@ -149,6 +154,7 @@ impl Solution {
                 "by elimination, {entries} entries in the factor, {exchanges} changes of the contact set"
             ),
             Ran::Direct => format!("by the direct solver, {exchanges} active-set steps"),
+            Ran::Multigrid => self.multigrid_work(),
             Ran::CondensedExact => "by exchanges on the condensed model".to_owned(),
             Ran::CondensedSweeps => format!("after {} sweeps on the condensed model", self.sweeps),
             Ran::CondensedLinear => "on the condensed model, which has no contact".to_owned(),
@@ -158,6 +164,11 @@ impl Solution {
             _ => String::new(),
         };
         format!("{status} {how}, scaled residual {residual:.1e}{dropped}")
+    }
+
+    fn multigrid_work(&self) -> String {
+        let Multigrid { iterations, sets, .. } = self.multigrid.unwrap_or_default();
+        format!("by multigrid, {iterations} iterations on {sets} active sets")
     }
 }
 

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //!   problem ─► units ─► auto ─┬─► factored, direct    a factor of the free unknowns
+//!                             ├─► multigrid           conjugate gradients
 //!                             └─► mixed, the kernel   sweeps
 //!                                     └─► conclude ─► Solution, certified ─► outputs, norms
 //!   adaptive: solve, bound, mark, refine
@@ -11,6 +12,7 @@ pub mod adaptive;
 mod auto;
 pub mod by_factor;
 mod conclude;
+pub mod cost;
 pub mod decay;
 mod direct;
 mod ending;
@@ -20,10 +22,12 @@ pub mod fixtures;
 mod ldlt;
 mod level;
 mod mixed;
+mod multigrid;
 pub mod norms;
 mod options;
 pub mod outputs;
 pub mod prolongation;
+mod shared;
 mod solution;
 mod start;
 #[cfg(test)]
@@ -31,14 +35,17 @@ mod tests;
 mod tuned;
 mod units;
 
-pub use auto::{SharedFactor, prefers_factor};
+pub use cost::prefers_factor;
 pub use ending::{Ending, Ran, status_name, went_well};
 pub use factored::Factored;
 pub use level::{FreeLevel, free_levels};
 pub use mixed::{Corrected, Mixed, mixed};
+pub use multigrid::Multigrid;
+use options::MOST_SWEEPS;
 pub use options::{Options, ScalarKind, SolverKind};
+pub use shared::SharedSolver;
 pub use solution::{Seconds, Solution};
-pub use start::{Start, step_of, warnings};
+pub use start::{Start, own_defaults, step_of, warnings};
 pub use tuned::{Trials, tuned_omega};
 pub use units::{Scaled, choose as choose_units, choose_for_inputs, in_scene, times};
 
@@ -89,9 +96,8 @@ fn solve_in_its_units(problem: &Problem, options: &Options, start: &[f64]) -> Re
     match (options.solver, options.scalar) {
         (SolverKind::Direct, ScalarKind::F64) => direct::directly(problem, &parts, options),
         (SolverKind::Direct, ScalarKind::F32) => {
-            Err(InputError::new("--solver direct works in f64, --scalar f32 was asked for")
-                .hint("leave out --scalar, or use --solver auto")
-                .into())
+            let message = "--solver direct works in f64, --scalar f32 was asked for";
+            Err(InputError::new(message).hint("leave out --scalar, or use --solver auto").into())
         }
         (_, ScalarKind::F64) => in_scalar::<f64>(problem, &parts, options, start),
         (_, ScalarKind::F32) => in_scalar::<f32>(problem, &parts, options, start),
@@ -106,6 +112,7 @@ fn in_scalar<R: Scalar>(
 ) -> Result<Solution> {
     match options.solver {
         SolverKind::Kernel => by_kernel::<R>(problem, parts, options, start),
+        SolverKind::Multigrid => multigrid::by_multigrid::<R>(problem, parts, options, start),
         _ => auto::chosen::<R>(problem, parts, options, start),
     }
 }
@@ -173,8 +180,8 @@ fn by_kernel<R: Scalar>(
     attempt.conclude(Solved { outcome, ran, factored, u, low })
 }
 
-/// Sweeps with rows of `WIDTH` entries and refines, and where that does not end takes the factor, if it may; `low`
-/// becomes the low part of `u`.
+/// Sweeps with rows of `WIDTH` entries and refines, and where that does not end, or is not expected to, takes the factor, if it may;
+/// `low` becomes the low part of `u`.
 fn iterate<R: Scalar, const WIDTH: usize>(
     system: &System<R, u32>,
     diagonal: DiagonalTerms<R, u32>,
@@ -200,6 +207,13 @@ fn iterate<R: Scalar, const WIDTH: usize>(
             &mut scratch,
         )
     };
+    if may_factor
+        && options.max_sweeps == MOST_SWEEPS
+        && cost::sweeps(counts.unknowns()) > f64::from(refinement::PLAIN)
+        && let Some((found, factored)) = factored::solve(system, diagonal, &settings, u, low, None)?
+    {
+        return Ok((found, Some(factored)));
+    }
     let patience = Settings { max_sweeps: options.max_sweeps.min(refinement::PLAIN), ..settings };
     stage(&format!("at most {} sweeps", patience.max_sweeps));
     let swept = sweep(patience, u, low)?;

@@ -45,7 +45,7 @@ impl ScalarKind {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SolverKind {
-    /// Choice by the size of the problem: sweeps on a small mesh, a factor on a large one.
+    /// Choice by the size of the problem: sweeps on a small mesh, a factor or multigrid on a large one.
     #[default]
     Auto,
     /// The kernel's projected SOR, and its factor where that does not end.
@@ -56,7 +56,13 @@ pub enum SolverKind {
     Factor,
     /// The host's active set on one sparse Cholesky factorisation (f64).
     Direct,
+    /// The host's active set by conjugate gradients and multigrid, in cost that grows with the unknowns alone; a solver with a factor
+    /// where that does not converge.
+    Multigrid,
 }
+
+/// Most sweeps where nobody says how many.
+pub const MOST_SWEEPS: u32 = 1_000_000;
 
 /// Options of a solve.
 #[derive(Debug, Clone, Copy)]
@@ -82,7 +88,7 @@ impl Default for Options {
             solver: SolverKind::Kernel,
             tolerance: None,
             to_the_floor: false,
-            max_sweeps: 1_000_000,
+            max_sweeps: MOST_SWEEPS,
             averages: false,
         }
     }

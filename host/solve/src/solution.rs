@@ -8,7 +8,7 @@ use signorini_kernel::Real;
 use signorini_kernel::mesh::components::{PartCounts, Support};
 use signorini_kernel::mesh::geometry::{quad_area, triangle_area};
 
-use super::{Ending, Factored, Ran, ScalarKind};
+use super::{Ending, Factored, Multigrid, Ran, ScalarKind};
 use signorini_certify::{CertifiedFields, ErrorBound, NoBound};
 use signorini_problem::field::CellField;
 use signorini_problem::{Parts, Problem, State};
@@ -25,10 +25,14 @@ pub struct Solution {
     pub sweeps: u32,
     /// Iterations of conjugate gradients among them.
     pub conjugate: u32,
-    /// What solved it in the end.
+    /// The solver that ended it.
     pub ran: Ran,
     /// The factor, where one solved it.
     pub factored: Option<Factored>,
+    /// The work of multigrid, where that solved it.
+    pub multigrid: Option<Multigrid>,
+    /// Why the solver that was asked for gave up, where another one took over: a sentence.
+    pub given_up: Option<String>,
     /// The units in which it was solved; all numbers here are in the scene's.
     pub units: Units,
     /// Problem and solution in these units, where they are not the scene's.
@@ -90,7 +94,7 @@ impl Solution {
         Some((problem, solution))
     }
 
-    /// What a step in time hands on to the next one.
+    /// The state that a step in time hands on to the next one.
     pub fn state(&self) -> State {
         let CertifiedFields { vertices, bubbles, openings, lifts, .. } = &self.certified;
         State {

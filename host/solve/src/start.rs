@@ -2,13 +2,11 @@
 
 use super::decay::decay_rate;
 use super::{Ending, Options, ScalarKind, Solution, read_off, solve, unfit};
-use signorini_certify::cell::Cell;
-use signorini_certify::deviation::Deviations;
 use signorini_certify::evolution::Evolution;
+use signorini_certify::stated::distance;
 use signorini_certify::{Certified, Data, NoBound};
 use signorini_kernel::solver::{Outcome, Status};
 use signorini_kernel::system::Residual;
-use signorini_problem::quadrature::gauss;
 use signorini_problem::{Assembled, EdgeKind, Parts, Problem, State, Sum};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::scene::{Datum, Scene};
@@ -28,7 +26,7 @@ pub struct Start {
     pub solution: Solution,
     /// dt
     pub step: f64,
-    /// What the bound of the evolution begins with; nothing where it has none.
+    /// The start of the bound of the evolution; nothing where it has none.
     pub evolution: Option<Evolution>,
 }
 
@@ -69,8 +67,7 @@ impl Start {
         let rate = decay_rate(&at_start)?;
         let evolution = match stated {
             Some(initial) => {
-                let error = stated_error(&at_start, &solution, initial)?;
-                Evolution::begin(rate, None, error)
+                Evolution::begin(rate, None, stated_error(&at_start, &solution, initial)?)
             }
             None => {
                 // In steps s follows curved data everywhere.
@@ -153,6 +150,7 @@ pub fn warnings(problem: &Problem, first: f64, scalar: ScalarKind) -> Result<Vec
     if let Some(initial) = stated(problem) {
         all.extend(moved_warning(&at_start, initial)?);
     }
+    all.extend(no_window(&at_start, step)?.map(|why| format!("no bound over time: {why}")));
     if scalar == ScalarKind::F32 {
         let part = step * decay_rate(&at_start)?;
         all.extend((0.0 < part && part < LEAST_PART).then(|| {
@@ -166,6 +164,25 @@ pub fn warnings(problem: &Problem, first: f64, scalar: ScalarKind) -> Result<Vec
     Ok(all)
 }
 
+/// Why the evolution has no bound, as far as its start tells.
+fn no_window(at_start: &Problem, step: f64) -> Result<Option<String>> {
+    let is_held = |parts: Parts| parts.counts.contact == 0 && parts.counts.floating == 0;
+    if !Parts::whatever_inputs(at_start).is_ok_and(is_held) {
+        let why = "neither a given u nor a transfer law holds some part of the domain, so that what is stored there need not decay";
+        return Ok(Some(why.to_owned()));
+    }
+    let Some(initial) = stated(at_start) else { return Ok(None) };
+    let start = stated_start(at_start, step, initial)?;
+    let is_near = stated_error(at_start, &start, initial)?.is_finite();
+    Ok((!is_near).then(|| format!("{} may be unbounded somewhere", initial.key)))
+}
+
+/// ‖c^½(u − s)‖ for the stated u, at most.
+fn stated_error(problem: &Problem, start: &Solution, initial: &Datum) -> Result<f64> {
+    let stated = Sum::alone(&problem.scene, initial, 0.0);
+    distance(problem, &start.certified.admissible(), &stated)
+}
+
 fn stated(problem: &Problem) -> Option<&Datum> {
     problem.scene.time.as_ref().and_then(|time| time.initial.as_ref())
 }
@@ -173,11 +190,19 @@ fn stated(problem: &Problem) -> Option<&Datum> {
 /// `problem` at `time`, with the inputs at the scene's own defaults: what the command line and a log say of them acts from the first
 /// step on.
 fn at_start(problem: &Problem, time: f64) -> Result<Problem> {
-    let own = Scene::parse(&problem.scene.text, &problem.scene.path)?;
-    let inputs: Vec<_> = own.inputs.iter().map(|input| input.default).enumerate().collect();
+    let inputs: Vec<_> = own_defaults(&problem.scene)?.into_iter().enumerate().collect();
     let mut at_start = problem.clone();
     at_start.set(&inputs, time)?;
     Ok(at_start)
+}
+
+/// The inputs' defaults in the text of the scene, whatever has set them since.
+///
+/// # Errors
+/// A text that is no scene.
+pub fn own_defaults(scene: &Scene) -> Result<Vec<f64>> {
+    let own = Scene::parse(&scene.text, &scene.path)?;
+    Ok(own.inputs.iter().map(|input| input.default).collect())
 }
 
 /// The stated u, moved to where u_D and gaps have it.
@@ -199,28 +224,4 @@ fn stated_start(problem: &Problem, dt: f64, initial: &Datum) -> Result<Solution>
     let no_bound = Some(NoBound::new("a stated start has no error bound"));
     let stated = Certified { bound: None, no_bound, ..s };
     read_off(problem, &parts, &assembled, &outcome, [&u, &[]], stated).map_err(unfit)
-}
-
-/// ‖c^½(u − s)‖ for the stated u, c its mean on each cell, and by how much rules of 8 and 4 points per direction differ in it.
-fn stated_error(problem: &Problem, start: &Solution, initial: &Datum) -> Result<f64> {
-    let stated = Sum::alone(&problem.scene, initial, 0.0);
-    let s = start.certified.admissible();
-    let deviations = Deviations::at_time(problem, problem.time)?;
-    let mut squares = [0.0; 2];
-    for at in 0..problem.cells() {
-        let (cell, on_cell) = (Cell::of(problem, at), s.on_cell(problem, at, &deviations));
-        for (square, points) in squares.iter_mut().zip([8, 4]) {
-            let (mut area, mut sum) = (0.0, 0.0);
-            for point in cell.points(&gauss(points)) {
-                let [x, y] = point.x;
-                let own = on_cell.at(&cell.local(point.reference))?.value;
-                let apart = stated.finite(stated.at(x, y), point.x)? - own;
-                area += point.weight;
-                sum += point.weight * apart * apart;
-            }
-            *square += problem.capacities[at] * cell.corners().len() as f64 * sum / area;
-        }
-    }
-    let [fine, coarse] = squares.map(f64::sqrt);
-    Ok(fine + (fine - coarse).abs())
 }

@@ -7,6 +7,7 @@ use super::levels;
 use signorini_files::answer::Answer;
 use signorini_files::digits::{percent_above, rounded, supported};
 use signorini_files::stated::Stated;
+use signorini_intervals::Coverage;
 use signorini_problem::Problem;
 use signorini_problem::functional::wanted;
 use signorini_problem::progress::{say, waiting, warn};
@@ -29,12 +30,13 @@ impl Told {
         solution: Solution,
         energy_norm: Option<f64>,
         asked: SolverKind,
+        intervals: Coverage,
         stop: Option<Stop>,
     ) -> Result<Self> {
         let (known, why) = (problem.warnings.len(), stop.as_ref());
         let why = why.and_then(|stop| levels::why(stop, &solution));
-        let answer = || Answer::new(problem, solution, energy_norm, asked, why);
-        let answer = waiting("intervals of outputs", answer)?;
+        let answer = || Answer::new(problem, solution, energy_norm, asked, intervals, why);
+        let answer = waiting("outputs", answer)?;
         warn(&answer.problem.warnings[known..]);
         Ok(Self { answer, stop })
     }
@@ -44,9 +46,12 @@ impl Told {
         self.answer.solution.converged()
     }
 
-    /// Writes the files of a solve, and says what is in them.
-    pub fn write(&self, out: &Path) -> Result<()> {
-        self.answer.write(out)?;
+    /// Writes the files of a solve, or the summary alone, and says what is in them.
+    pub fn write(&self, out: &Path, has_files: bool) -> Result<()> {
+        match has_files {
+            true => self.answer.write(out),
+            false => self.answer.write_summary(out),
+        }?;
         report(&self.answer);
         output_lines(&self.answer).iter().for_each(|line| say(format_args!("{line}")));
         Ok(())

@@ -6,7 +6,8 @@ use clap::{ArgGroup, Args};
 
 use super::bake_c;
 use super::scene_arguments::{promised_problem_of, scene_at};
-use super::tick_setting::{length_of_step, step_by};
+use super::step_advice::step_advice;
+use super::tick_setting::length_of_step;
 use super::write_beside;
 use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::emit::{Emitted, emit};
@@ -20,6 +21,7 @@ use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::goal::Goal;
 use signorini_scene::setting::ModelKind;
+use signorini_session::tick::half::trial;
 use signorini_solve::ScalarKind;
 use signorini_solve::adaptive::Promise;
 
@@ -120,7 +122,7 @@ fn known_machines() -> [&'static str; MACHINES.len()] {
 impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let mut scene = scene_at(&self.scene, &self.input)?;
-        step_by(&mut scene, self.step);
+        self.step.iter().for_each(|&step| scene.set_step(step));
         let (problem, promise) = promised_problem_of(&scene)?;
         let promise = promise.as_ref();
         warn(&problem.warnings);
@@ -129,6 +131,7 @@ impl Arguments {
             ScalarKind::F64 => self.module::<f64>(&problem, promise)?,
         };
         let Emitted { source, chosen } = &emitted;
+        step_advice(&problem, &trial(&problem))?.iter().for_each(note);
         if let Some(promise) = promise {
             let proved = chosen.ranges.and_then(|ranges| ranges.largest_error_bound);
             note(&match scene.stores() {

@@ -15,15 +15,25 @@ use signorini_scene::scene::Scene;
 use signorini_solve::Solution;
 use signorini_solve::adaptive::{Level, Stop, Wanted, refined_until};
 
-/// Solves level after level, says a line for each, and writes their files into `out`: `levels.csv`, `levels.pvd`, a VTU each, and
-/// the last mesh as `refined.msh`.
+/// Solves level after level, says a line for each, and writes their files into `out`, where they are wanted: `levels.csv`,
+/// `levels.pvd`, a VTU each, and the last mesh as `refined.msh`.
 pub(super) fn refined(
     scene: &Scene,
     mesh: Mesh,
     wanted: &Wanted,
-    out: &Path,
+    out: Option<&Path>,
 ) -> Result<(Level, Stop)> {
     let interrupted = interruption()?;
+    let goes_on = || Ok(!interrupted.load(Ordering::Relaxed));
+    let refining = |look: &mut dyn FnMut(&Level) -> Result<bool>| {
+        waiting("refining", || refined_until(scene, mesh, wanted, look))
+    };
+    let Some(out) = out else {
+        return refining(&mut |level| {
+            say(format_args!("{}", line(level)));
+            goes_on()
+        });
+    };
     let mut table = csv::Writer::from_writer(Vec::new());
     let mut series = Series::new(out, "levels", 2);
     let failed = |error: csv::Error| Error::Check(format!("levels.csv: {error}"));
@@ -38,14 +48,14 @@ pub(super) fn refined(
             "seconds",
         ])
         .map_err(failed)?;
-    let look = |level: &Level| {
+    let mut look = |level: &Level| {
         say(format_args!("{}", line(level)));
         table.write_record(record(level)).map_err(failed)?;
         let drawn = Drawn::of(&level.problem, &level.solution)?;
         series.add(level.number as f64, &picture(&level.problem, &drawn))?;
-        Ok(!interrupted.load(Ordering::Relaxed))
+        goes_on()
     };
-    let found = waiting("refining", || refined_until(scene, mesh, wanted, look))?;
+    let found = refining(&mut look)?;
     let text = table.into_inner().map_err(|error| Error::Check(error.to_string()))?;
     write_atomically(&out.join("levels.csv"), &text)?;
     write_atomically(&out.join("refined.msh"), write::text(&found.0.problem.mesh).as_bytes())?;

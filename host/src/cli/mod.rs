@@ -11,6 +11,7 @@ mod picture;
 mod scene_arguments;
 mod series;
 mod solve;
+mod step_advice;
 mod tick;
 mod tick_setting;
 mod trade;

@@ -20,23 +20,35 @@ pub fn picture(scene: &Scene, ticks: &[TickRecord], budget: Option<u32>) -> Char
         let unit = output.unit.as_ref().map_or_else(String::new, |unit| format!(" [{unit}]"));
         let label = format!("{}{unit}", output.name.value);
         let values = curve(&label, &|tick| tick.outputs.get(at).copied().flatten());
-        let interval = |tick: &TickRecord| match scene.stores() {
-            // The curve is that of the evolution.
-            true => tick.over_time.get(at).copied().flatten(),
-            false => Some(*tick.intervals.get(at)?.as_ref().ok()?),
+        let anew = |tick: &TickRecord| Some(*tick.intervals.get(at)?.as_ref().ok()?);
+        let evolved = |tick: &TickRecord| tick.over_time.get(at).copied().flatten();
+        let is_over_time = ticks.iter().any(|tick| evolved(tick).is_some());
+        let ends: Vec<_> = match is_over_time {
+            true => ticks.iter().map(evolved).collect(),
+            false => ticks.iter().map(anew).collect(),
         };
-        let ends: Vec<_> = ticks.iter().map(interval).collect();
         // The interval of a probe is around another number than the curve: the mean over its cell.
         let is_drawn =
             !matches!(output.quantity, Quantity::Probe { .. }) && ends.iter().any(Option::is_some);
-        let of = if scene.stores() { " of this step" } else { "" };
+        let of = match (scene.stores(), is_over_time) {
+            (false, _) => "",
+            (true, false) => " of this step",
+            (true, true) => " over time",
+        };
         let label = format!("the exact value{of} lies within");
         let band = is_drawn.then_some(Band { label, ends });
         Strip { band, ..strip(values) }
     }));
-    let bound = curve("error bound", &|tick| tick.bound.map(|bound| bound.total));
-    let error = curve("true error", &|tick| tick.combined);
-    strips.push(Strip { curves: vec![bound, error], logarithmic: true, ..Strip::default() });
+    let total = |tick: &TickRecord| tick.bound.map(|bound| bound.total);
+    let curves = match scene.stores() {
+        false => vec![curve("error bound", &total), curve("true error", &|tick| tick.combined)],
+        true => vec![
+            curve("bound of a step", &total),
+            curve("bound over time", &|tick| tick.window.map(|[energy, _]| energy)),
+            curve("error over time", &|tick| tick.window_error),
+        ],
+    };
+    strips.push(Strip { curves, logarithmic: true, ..Strip::default() });
     let sweeps = curve("sweeps a tick", &|tick| Some(f64::from(tick.sweeps)));
     let limit = budget.map(|sweeps| (format!("budget: {sweeps} sweeps"), f64::from(sweeps)));
     strips.push(Strip { curves: vec![sweeps], limit, ..Strip::default() });

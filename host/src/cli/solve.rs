@@ -7,6 +7,7 @@ use clap::Args;
 use super::answer::Told;
 use super::levels;
 use super::scene_arguments::{SceneArguments, problem_of};
+use signorini_intervals::Coverage;
 use signorini_problem::progress::{say, waiting, warn};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::goal::Goal;
@@ -24,14 +25,15 @@ Examples:
   signorini solve meshes/scenes/levee.toml
   signorini solve levee.toml --mesh finer.msh --solver direct --out /tmp/levee
   signorini solve levee.toml --scalar f32 --input rain=2e-8
+  signorini solve levee.toml --no-intervals --no-files      the solution and its bound, without what takes longest
   signorini solve levee.toml --max-error 5%      refine where the error bound says, until it is below 5 %
 
 The [setting] of a scene is followed unless --solver, --tolerance or --max-sweeps is given: then of it cells, refine, \
 element and scalar hold, and a warning names the keys that give way. A fixed number of warm sweeps is solved as the tick \
 of a controller that has run.
 
-`auto` sweeps on small meshes and takes a factor on large ones, by an estimate of the work; --max-sweeps asks for \
-sweeps. What solved the scene is printed, and stands in summary.json as `solver_used`.";
+`auto` takes what is quickest at the size of the mesh, by a record: sweeps, a factor, the direct solver or multigrid; \
+--max-sweeps asks for sweeps. What solved the scene is printed, and stands in summary.json as `solver_used`.";
 
 /// Arguments of `solve`.
 #[derive(Debug, Args)]
@@ -42,8 +44,9 @@ pub struct Arguments {
     /// Scalar type of the kernel [default: that of the scene's setting, else f64]
     #[arg(long, value_enum)]
     scalar: Option<ScalarKind>,
-    /// What suits the size; the kernel's projected SOR, with its factor where that does not end; or the host's
-    /// active set on a sparse factorisation of its own (f64) [default: auto]
+    /// What suits the size; the kernel's projected SOR, with its factor where that does not end or more than 10 000 sweeps
+    /// are expected; or the host's active set, on a sparse factorisation of its own (f64) or by multigrid, whose cost
+    /// grows with the unknowns alone [default: auto]
     #[arg(long, value_enum)]
     solver: Option<SolverKind>,
     /// Bound on the scaled complementarity residual [default: 1e-13 in f64, the rounding limit in f32]
@@ -56,6 +59,15 @@ pub struct Arguments {
     /// part of `energy_norm` in summary.json. (`trade --max-error` is about the true error.) Writes refined.msh, levels.csv and levels.pvd too
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     max_error: Option<Goal>,
+    /// Intervals of outputs on every mesh [default: on those of up to 200 000 unknowns]. Each takes some solutions of a linear problem
+    #[arg(long)]
+    intervals: bool,
+    /// No intervals of outputs
+    #[arg(long, conflicts_with = "intervals")]
+    no_intervals: bool,
+    /// Of all files summary.json alone
+    #[arg(long)]
+    no_files: bool,
     /// With --max-error: most unknowns of a refined mesh [default: 1 000 000]
     #[arg(long, value_name = "N", requires = "max_error")]
     max_unknowns: Option<usize>,
@@ -72,13 +84,12 @@ impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let scene = self.place.scene()?;
         let out = self.place.out()?;
-        scene.check_at_rest()?;
         self.check(&scene)?;
         let told = match self.max_error {
             None => self.on_its_mesh(&scene)?,
             Some(goal) => self.refined(&scene, goal, &out)?,
         };
-        told.write(&out)?;
+        told.write(&out, !self.no_files)?;
         say(format_args!("  written to {}", out.display()));
         // Sweeps that a setting asks for are what was to be done.
         let prescribed =
@@ -99,7 +110,8 @@ impl Arguments {
             waiting(&format!("solving {unknowns} unknowns"), || self.asked().solve(&problem))?;
         let energy_norm = energy_norm::of_solution(&problem, &solution)?;
         say(format_args!("{}", scene.title));
-        Told::new(problem, solution, energy_norm, self.solver.unwrap_or_default(), None)
+        let asked = self.solver.unwrap_or_default();
+        Told::new(problem, solution, energy_norm, asked, self.intervals(), None)
     }
 
     fn refined(&self, scene: &Scene, goal: Goal, out: &Path) -> Result<Told> {
@@ -107,6 +119,7 @@ impl Arguments {
         let options = self.asked().options(scene.setting.and_then(|setting| setting.scalar));
         let wanted =
             Wanted { goal, most_unknowns: self.max_unknowns.unwrap_or(MOST_UNKNOWNS), options };
+        let out = (!self.no_files).then_some(out);
         let (level, stop) = levels::refined(scene, adapted::of_scene(scene)?, &wanted, out)?;
         let mut problem = level.problem;
         problem.warnings.extend(at_rest_warning(scene));
@@ -116,8 +129,18 @@ impl Arguments {
             level.solution,
             level.energy_norm,
             self.solver.unwrap_or_default(),
+            self.intervals(),
             Some(stop),
         )
+    }
+
+    /// Whether outputs get intervals.
+    fn intervals(&self) -> Coverage {
+        match (self.intervals, self.no_intervals) {
+            (true, _) => Coverage::All,
+            (_, true) => Coverage::None,
+            _ => Coverage::Small,
+        }
     }
 
     /// How the scene is to be solved.
@@ -128,9 +151,13 @@ impl Arguments {
 
     /// Refuses what cannot be followed at the same time; warns of what the command line takes the place of.
     fn check(&self, scene: &Scene) -> Result<()> {
-        let direct = self.solver == Some(SolverKind::Direct);
-        if direct && self.max_sweeps.is_some() {
-            let message = "--max-sweeps: the direct solver takes no sweeps";
+        let other = match self.solver {
+            Some(SolverKind::Direct) => Some("the direct solver"),
+            Some(SolverKind::Multigrid) => Some("multigrid"),
+            _ => None,
+        };
+        if let (Some(other), Some(_)) = (other, self.max_sweeps) {
+            let message = format!("--max-sweeps: {other} takes no sweeps");
             let hint = "leave it out, or use --solver kernel";
             return Err(InputError::new(message).hint(hint).into());
         }
@@ -139,7 +166,9 @@ impl Arguments {
         };
         let foreign = match (self.scalar, setting.scalar) {
             (None, Some(Precision::Mixed)) => Some("f32+f64 is for the scene's own solver"),
-            (None, Some(Precision::F32)) if direct => Some("the direct solver works in f64"),
+            (None, Some(Precision::F32)) if self.solver == Some(SolverKind::Direct) => {
+                Some("this solver works in f64")
+            }
             _ => None,
         };
         if let Some(why) = foreign {

@@ -9,7 +9,8 @@ use super::interruption::interruption;
 use super::picture::picture;
 use super::scene_arguments::{SceneArguments, problem_of};
 use super::series::Series;
-use super::tick_setting::{check_ticks, step_by};
+use super::step_advice::step_advice;
+use super::tick_setting::check_ticks;
 use signorini_draw::chart_file;
 use signorini_files::atomic::{writable_file, write_atomically};
 use signorini_files::fields::{Drawn, picture as vtu};
@@ -19,7 +20,8 @@ use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh;
 use signorini_scene::scene::{Output, Quantity, Scene};
 use signorini_session::tick::columns::{bounds_csv, ticks_csv};
-use signorini_session::tick::window_error::of_other_data;
+use signorini_session::tick::refusals::refusals;
+use signorini_session::tick::window_error::without_window_error;
 use signorini_session::tick::{
     Begin, Budget, Onward, Played, Saved, TickRecord, log, play_on, replay, schedule,
 };
@@ -112,7 +114,7 @@ const MOST_INTERVALS: usize = 300_000;
 impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let mut scene = self.place.scene()?;
-        step_by(&mut scene, self.step);
+        self.step.iter().for_each(|&step| scene.set_step(step));
         if !self.baked {
             check_ticks(&scene, self.scalar.is_some())?;
         }
@@ -189,18 +191,16 @@ impl Arguments {
         series.map_or(Ok(()), Series::close)?;
         let is_saved = self.save_state(&scene, saved.as_ref())?;
         report(&problem, &model, &ticks, &out);
-        warn(unsolvable(&ticks).as_slice());
-        warn(excluded(&ticks).as_slice());
+        if last.is_none() {
+            step_advice(&problem, &moments)?.iter().for_each(|line| say(format_args!("  {line}")));
+        }
+        warn(&refusals(&ticks));
         if !self.no_intervals && !self.baked && work > MOST_INTERVALS {
             say(format_args!(
                 "  no intervals of outputs: {work} unknowns times ticks are more than {MOST_INTERVALS}"
             ));
         }
-        if let Some(key) = of_other_data(&scene).filter(|_| scene.stores()) {
-            say(format_args!(
-                "  no window_error: a step holds or interpolates {key}, so that [exact] is of other data"
-            ));
-        }
+        warn(without_window_error(&scene).as_slice());
         without_interval(&scene, &ticks).iter().for_each(|line| say(format_args!("  {line}")));
         if interrupted.load(Ordering::Relaxed) {
             let played = ticks.iter().filter(|tick| tick.status != Ending::Start).count();
@@ -243,31 +243,6 @@ fn report(problem: &Problem, model: &str, ticks: &[TickRecord], out: &Path) {
     ));
     say(format_args!("  {}", endings(ticks)));
     say(format_args!("  written to {}", out.display()));
-}
-
-/// How many ticks have no solution or no single one, and when the first.
-fn unsolvable(ticks: &[TickRecord]) -> Option<String> {
-    let why = "have no solution or more than one, the first {}: contact alone holds a part of the domain, and the loads do not push it on";
-    refused(ticks, TickRecord::is_unsolvable, why)
-}
-
-/// How many ticks have data that exclude each other, and when the first.
-fn excluded(ticks: &[TickRecord]) -> Option<String> {
-    let why = "have data that exclude each other where boundaries meet, the first {}: no u is both above the one and below the other";
-    refused(ticks, TickRecord::is_excluded, why)
-}
-
-/// A sentence on the ticks that have no answer, with the place of the first in `why`.
-fn refused(ticks: &[TickRecord], is: fn(&TickRecord) -> bool, why: &str) -> Option<String> {
-    let refused = || ticks.iter().filter(|tick| is(tick));
-    let first = refused().next()?;
-    let place = format!("at t = {} ({})", first.time, first.status.name());
-    Some(format!(
-        "{} of {} ticks {}. Their rows are empty; each next one goes on from the last answer",
-        refused().count(),
-        ticks.len(),
-        why.replace("{}", &place),
-    ))
 }
 
 /// Why outputs have no interval, the first reason of each; lengths never have one.

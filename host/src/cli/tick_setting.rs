@@ -1,17 +1,8 @@
 //! What ticks can follow: the length of a step, and the settings of a scene.
 
 use signorini_scene::error::{InputError, Result};
-use signorini_scene::scene::{Scene, Time};
+use signorini_scene::scene::Scene;
 use signorini_scene::setting::{Method, ModelKind, Precision, Setting};
-
-/// Gives `scene` another length of a step, where there is one.
-pub(super) fn step_by(scene: &mut Scene, step: Option<f64>) {
-    if let Some(step) = step {
-        let time = scene.time.take();
-        let (end, initial) = time.map_or((None, None), |time| (time.end, time.initial));
-        scene.time = Some(Time { step, end, initial });
-    }
-}
 
 /// The length of a step, as the command line has it.
 pub(super) fn length_of_step(text: &str) -> std::result::Result<f64, String> {

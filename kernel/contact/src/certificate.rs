@@ -24,58 +24,18 @@
 //! are off by a few ε of their terms; so are the sums over edges and inputs that are left, the oscillation
 //! among them. All of it is in [`Certificate::rounding`].
 
+mod places;
 mod price;
+
+pub use places::{Corner, Vertex};
 
 use super::candidate::Candidate;
 use super::factor::{Factor, Norm};
-use super::outputs::dot;
 use super::sides::Sides;
 use signorini_kernel::Real;
 use signorini_kernel::error::{Array, Error, same_length};
 use signorini_kernel::index::read;
 use signorini_kernel::verdict::{Certificate, Verdict};
-
-/// A contact vertex that no Dirichlet edge ends at, where e = s − ψ is a sum of two openings.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Vertex<R, I = u16> {
-    /// The contact edges whose openings tell e there.
-    pub edges: [I; 2],
-    /// How much each counts.
-    pub weights: [R; 2],
-    /// Its own contact edges; an end of the contact has one, named twice.
-    pub beside: [I; 2],
-}
-
-impl<R: Real> Vertex<R> {
-    /// The two terms of e.
-    pub(super) fn terms(&self, x: &[R]) -> [R; 2] {
-        let [a, b] = self.edges.map(|edge| read(x, usize::from(edge)));
-        [self.weights[0] * a, self.weights[1] * b]
-    }
-}
-
-/// A contact edge that ends at a Dirichlet value above ψ.
-#[derive(Debug, Clone, Copy)]
-pub struct Corner<'a, R> {
-    /// The edge.
-    pub edge: u16,
-    /// (u_D − ψ) at its end as a linear form of the inputs, in the unit of 1/r.
-    pub excess: &'a [R],
-    /// Twice what moving u_D there by a unit of that costs, in the unit of energy: s is moved so that rounding of the excess
-    /// leaves it on its side, and what holds for s then is off by as much on both sides.
-    pub energy: R,
-}
-
-impl<R: Real> Corner<'_, R> {
-    /// The excess, and what rounding may hide of it.
-    fn at(&self, inputs: &[R]) -> Result<[R; 2], Error> {
-        same_length(Array::Load, self.excess.len(), inputs.len())?;
-        let terms = self.excess.iter().zip(inputs);
-        let size = terms.fold(R::ZERO, |sum, (&e, &p)| sum + (e * p).magnitude());
-        let slack = R::from_count(inputs.len() as u32 + 8) * R::EPSILON * size;
-        Ok([dot(self.excess, inputs), slack])
-    }
-}
 
 /// The baked forms (borrowed). Columns of F stand for the inputs, the openings, then d.
 #[derive(Debug, Clone, Copy)]
@@ -145,11 +105,9 @@ impl<R: Real> Form<'_, R> {
             false => self.mend(x, residual, uncertainty),
         };
         let Some(mended) = mended else { return Ok(Verdict::Unpressed) };
-        let price = match ranges.are_limited() {
-            true => self.price(answer, z, uncertainty)?,
-            false => self.corners(answer, uncertainty)?,
+        let Some([corner, misplaced]) = self.contact(answer, z, uncertainty)? else {
+            return Ok(Verdict::BelowGap);
         };
-        let Some([corner, misplaced]) = price else { return Ok(Verdict::BelowGap) };
         // Everything in the unit of energy, until the end: squares stay within the scalar's range.
         let algebraic = self.stability * mended.known;
         let first = norm.value + algebraic;
@@ -240,7 +198,7 @@ impl<R: Real> Form<'_, R> {
     }
 
     /// By how much an entry of r can be off.
-    fn uncertainty(&self, answer: &Candidate<R>) -> R {
+    pub(super) fn uncertainty(&self, answer: &Candidate<R>) -> R {
         let Candidate { inputs, x, ranges, .. } = *answer;
         let size = |x: R| if ranges.are_limited() { x.magnitude() } else { x };
         let largest = x.iter().fold(R::ZERO, |most, &x| most.or_larger(size(x)));
@@ -270,6 +228,19 @@ impl<R: Real> Form<'_, R> {
         let (total, hidden) = (total.magnitude() / pressed.1, R::TWO * hidden / pressed.1);
         let bears = pressed.0 / pressed.1 > total + hidden;
         bears.then(|| Mended { known: (square + total * total).rounded_sqrt(), hidden })
+    }
+
+    /// What contact adds to the square, and what rounding of u_D − ψ costs; nothing where a Dirichlet value is on a side that there is not.
+    pub(super) fn contact(
+        &self,
+        answer: &Candidate<R>,
+        z: &[R],
+        uncertainty: R,
+    ) -> Result<Option<[R; 2]>, Error> {
+        match answer.ranges.are_limited() {
+            true => self.price(answer, z, uncertainty),
+            false => self.corners(answer, uncertainty),
+        }
     }
 
     /// 2∫_C (τ·n − q)(s − ψ), and what rounding of u_D − ψ costs.

@@ -21,7 +21,8 @@
 //!   inputs ─► load B p ─► Method: pivoting (exact) or sweeps ─► r ─► certificate ─► outputs
 //! ```
 //! [`crate::dense`] holds S and solves; [`factor`] and [`certificate`] bound the error; [`outputs`] are read off;
-//! [`balance`] tells loads that contact cannot hold; [`storage`] owns the memory; `modes` are for a transfer coefficient that changes. `signorini bake` writes all of it.
+//! [`balance`] tells loads that contact cannot hold; [`storage`] owns the memory; `modes` are for a transfer coefficient that changes,
+//! [`steps`] for steps in time. `signorini bake` writes all of it.
 
 pub mod balance;
 pub mod candidate;
@@ -34,6 +35,7 @@ pub mod modes;
 pub mod outputs;
 pub mod sides;
 pub mod spans;
+pub mod steps;
 pub mod storage;
 
 use crate::dense::blocks::{self, Block, Blocks};
@@ -117,12 +119,33 @@ impl<R: Real> Condensed<'_, R> {
         deadline: &mut Deadline<F>,
         memory: &mut Memory<R>,
     ) -> Result<Report<R>, Error> {
+        self.prepare(inputs, memory)?;
+        self.solve(inputs, method, deadline, memory)
+    }
+
+    /// Works out loads and spans for these inputs.
+    ///
+    /// # Errors
+    /// As for [`Condensed::tick`].
+    #[inline(always)]
+    fn prepare(&self, inputs: &[R], memory: &mut Memory<R>) -> Result<(), Error> {
         all_finite(Array::Load, inputs)?;
-        let matrix = self.matrix()?;
         self.combine(inputs, memory.load)?;
         self.check_magnitude(inputs, memory.load)?;
         self.spans.combine(inputs, memory.load, &mut memory.spans)?;
-        self.parts.iter().try_for_each(|part| part.check(inputs))?;
+        self.parts.iter().try_for_each(|part| part.check(inputs))
+    }
+
+    /// Solves for what [`Condensed::prepare`] has left.
+    #[inline(always)]
+    fn solve<M: Method<R>, F: FnMut() -> u32>(
+        &self,
+        inputs: &[R],
+        method: &mut M,
+        deadline: &mut Deadline<F>,
+        memory: &mut Memory<R>,
+    ) -> Result<Report<R>, Error> {
+        let matrix = self.matrix()?;
         let spans = self.spans.of(memory.load.len(), &memory.spans);
         let given = Given::between(memory.load, spans, &[]);
         let progress = method.solve(&matrix, given, memory.iterate.reborrow(), deadline)?;
@@ -153,11 +176,7 @@ impl<R: Real> Condensed<'_, R> {
     ) -> Result<R, Error> {
         let stray = Error::OutOfRange { of: Array::Scratch, at: number };
         let measure = self.outputs.get(number).ok_or(stray)?;
-        let Iterate { x, residual, .. } = &memory.iterate;
-        let (x, residual) = (self.unpadded(x), self.unpadded(residual));
-        let spans = self.spans.of(memory.load.len(), &memory.spans);
-        let ranges = Given::between(&[], spans, &[]).ranges;
-        let answer = Candidate { inputs, x, residual, ranges };
+        let answer = self.candidate(inputs, memory);
         let value = measure.value(&answer, report.certificate())?;
         match measure {
             Measure::Linear { .. } | Measure::Flux { .. } if !value.finite() => {
@@ -165,6 +184,15 @@ impl<R: Real> Condensed<'_, R> {
             }
             _ => Ok(value),
         }
+    }
+
+    /// The last tick's answer to these inputs.
+    #[inline(always)]
+    fn candidate<'m>(&'m self, inputs: &'m [R], memory: &'m Memory<R>) -> Candidate<'m, R> {
+        let Iterate { x, residual, .. } = &memory.iterate;
+        let (x, residual) = (self.unpadded(x), self.unpadded(residual));
+        let spans = self.spans.of(memory.load.len(), &memory.spans);
+        Candidate { inputs, x, residual, ranges: Given::between(&[], spans, &[]).ranges }
     }
 
     /// x within [`Condensed::limits`]: solutions are, a tick that was cut off need not be.
@@ -184,6 +212,11 @@ impl<R: Real> Condensed<'_, R> {
             }
         }
         if is_beyond { settle(matrix, given, x, residual, open) } else { Ok(()) }
+    }
+
+    /// U; 1 without a certificate.
+    fn unit(&self) -> R {
+        self.certificate.as_ref().map_or(R::ONE, |form| form.unit)
     }
 
     fn unpadded<'x>(&self, vector: &'x [R]) -> &'x [R] {

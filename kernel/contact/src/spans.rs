@@ -44,7 +44,7 @@ impl<'a, R: Real> SpanColumns<'a, R> {
         Self { columns, rooms: &[] }
     }
 
-    /// The same, with what inputs leave of ranges that they change.
+    /// Spans with what inputs leave of ranges that they change.
     pub const fn within(self, rooms: &'a [Room<'a, R>]) -> Self {
         Self { rooms, ..self }
     }

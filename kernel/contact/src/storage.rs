@@ -198,6 +198,30 @@ impl<Blocks, Flags, Column> TableauStorage<Blocks, Flags, Column> {
         Ok(tableau)
     }
 
+    /// Hands `put` all that the next tick takes of the last one.
+    pub fn save<R: Real>(&self, mut put: impl FnMut(R))
+    where
+        Blocks: AsRef<[Block<R>]>,
+        Flags: AsRef<[u8]>,
+    {
+        let flag = |is_set: bool| if is_set { R::ONE } else { R::ZERO };
+        put(flag(self.is_built != 0));
+        self.blocks.as_ref().as_flattened().as_flattened().iter().for_each(|&entry| put(entry));
+        self.exchanged.as_ref().iter().for_each(|&of| put(flag(of != 0)));
+    }
+
+    /// Takes that over, in the same order.
+    pub fn restore<R: Real>(&mut self, mut take: impl FnMut() -> R)
+    where
+        Blocks: AsMut<[Block<R>]>,
+        Flags: AsMut<[u8]>,
+    {
+        self.is_built = u8::from(take() != R::ZERO);
+        let entries = self.blocks.as_mut().as_flattened_mut().as_flattened_mut();
+        entries.iter_mut().for_each(|entry| *entry = take());
+        self.exchanged.as_mut().iter_mut().for_each(|of| *of = u8::from(take() != R::ZERO));
+    }
+
     /// Forgets all ticks: the next one takes the model's tableau over again.
     pub fn reset(&mut self) {
         self.is_built = 0;

@@ -2,9 +2,12 @@
 //!
 //! ```text
 //!   plain:   inputs ────────────────────────────► Solver ─► method on S    ─► Condensed::tick ─► outputs
+//!   steps:   inputs ─► terms ───────────────────► Solver ─► method on S    ─► Stepped::tick   ─► outputs ─► advance
 //!   modes:   inputs ─► set: S(t), new tableau? ─► Solver ─► method on S(t) ─► Modal::tick     ─► outputs
 //! ```
 //! The type of the [`Solver`] chooses the method when the program is compiled: an image has the code of that one alone.
+
+mod steps;
 
 use crate::controller::{self, Answer, Outputs, Reading};
 use signorini_contact::dense::blocks::Block;
@@ -52,6 +55,12 @@ pub trait Solver<R: Real> {
 
     /// Forgets all ticks.
     fn reset(&mut self) {}
+
+    /// Hands `put` all that the next tick takes of the last one.
+    fn save(&self, _put: impl FnMut(R)) {}
+
+    /// Takes that over, in the same order.
+    fn restore(&mut self, _take: impl FnMut() -> R) {}
 }
 
 impl<R: Real> Solver<R> for Linear {
@@ -81,8 +90,8 @@ pub struct Exchanges<T>(pub T);
 impl<R, Blocks, Flags, Column> Solver<R> for Exchanges<TableauStorage<Blocks, Flags, Column>>
 where
     R: Real,
-    Blocks: AsMut<[Block<R>]>,
-    Flags: AsMut<[u8]>,
+    Blocks: AsRef<[Block<R>]> + AsMut<[Block<R>]>,
+    Flags: AsRef<[u8]> + AsMut<[u8]>,
     Column: AsMut<[R]>,
 {
     type Method<'a>
@@ -102,6 +111,14 @@ where
     fn reset(&mut self) {
         self.0.reset();
     }
+
+    fn save(&self, put: impl FnMut(R)) {
+        self.0.save(put);
+    }
+
+    fn restore(&mut self, take: impl FnMut() -> R) {
+        self.0.restore(take);
+    }
 }
 
 /// Exchanges on a tableau in phases, which come to their end.
@@ -111,8 +128,8 @@ pub struct Phased<T>(pub T);
 impl<R, Blocks, Flags, Column> Solver<R> for Phased<TableauStorage<Blocks, Flags, Column>>
 where
     R: Real,
-    Blocks: AsMut<[Block<R>]>,
-    Flags: AsMut<[u8]>,
+    Blocks: AsRef<[Block<R>]> + AsMut<[Block<R>]>,
+    Flags: AsRef<[u8]> + AsMut<[u8]>,
     Column: AsMut<[R]>,
 {
     type Method<'a>
@@ -131,6 +148,14 @@ where
 
     fn reset(&mut self) {
         self.0.reset();
+    }
+
+    fn save(&self, put: impl FnMut(R)) {
+        self.0.save(put);
+    }
+
+    fn restore(&mut self, take: impl FnMut() -> R) {
+        self.0.restore(take);
     }
 }
 

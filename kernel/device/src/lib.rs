@@ -58,12 +58,14 @@ pub mod model;
 pub mod ranges;
 #[cfg(feature = "mesh")]
 pub mod sparse;
+mod state;
 #[cfg(feature = "mesh")]
 pub mod tick;
 #[cfg(feature = "workspace")]
 pub mod workspace;
 
 pub use signorini_kernel::{Error, Report};
+pub use state::{State, checksum};
 #[cfg(feature = "workspace")]
 pub use workspace::Workspace;
 

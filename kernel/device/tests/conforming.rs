@@ -49,7 +49,7 @@ fn averages(plate: &Plate, alpha: &[f64], means: &[f64]) -> Result<Vec<f64>, Err
     let packed = Packed::new((&mesh, &edges), stiffness, a, |_| 1.0, root)?;
     let (mut values, mut tau) = (vec![f64::NAN; plate.vertices.len()], vec![0.0; means.len()]);
     let loads = CellLoads { triangles: &[], quads: &[] };
-    averages::fill(&packed.cells(&edges)?, loads, &[], means, &mut values, &mut tau)?;
+    averages::fill(&packed.cells(&edges)?, (loads, None), &[], means, &mut values, &mut tau)?;
     Ok(values)
 }
 

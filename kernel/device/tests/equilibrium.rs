@@ -79,7 +79,7 @@ fn run(sides: [Side; 4], load: f64, sweeps: usize) -> Result<Run, Error> {
     let (mut tau, mut s) = (vec![f64::NAN; counts.edges()], vec![f64::NAN; mesh.vertices().len()]);
     let cells = packed.cells(&edges)?;
     assert!(!cells.is_empty());
-    averages::fill(&cells, loads, &[], &u, &mut s, &mut tau)?;
+    averages::fill(&cells, (loads, None), &[], &u, &mut s, &mut tau)?;
     impose(&edges, &boundary, Iterate { u: &u, law: Law::above(&gap) }, &mut tau);
     walk(&cells, loads, &mut tau);
 

@@ -20,7 +20,7 @@ const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::
 
 /// Goes on by the factor, with a bound or without.
 fn advance(
-    running: &mut Running<'_, '_, f64, u16, QUADS>,
+    running: &mut Running<'_, '_, '_, f64, u16, QUADS>,
     exact: &mut Exact<f64, u16>,
     has_bound: bool,
     limits: Limits<f64>,

@@ -26,6 +26,7 @@ const POWERS: Numbers<usize> = Numbers {
     openings: 1 << 17,
     carried: 1 << 18,
     diagonal: 1 << 19,
+    handed: 1 << 20,
 };
 
 const LENGTHS: Lengths =
@@ -33,7 +34,7 @@ const LENGTHS: Lengths =
 
 #[test]
 fn all_arrays_count_once() {
-    assert_eq!(POWERS.sum(), (1 << 20) - 1);
+    assert_eq!(POWERS.sum(), (1 << 21) - 1);
 }
 
 /// The type has three lengths of 64 bits here where the target has 32, and is aligned.
@@ -44,7 +45,7 @@ fn bytes_are_those_of_the_type() {
         u16,
         4,
         { LENGTHS.rows },
-        { (1 << 20) - 1 },
+        { (1 << 21) - 1 },
         { LENGTHS.active },
         { LENGTHS.neumann },
         { LENGTHS.robin },

@@ -460,8 +460,8 @@ fn data_that_are_not_finite_change_nothing() -> Result<(), Error> {
     let mut tick = cold(&mut store, &foundation)?;
     let good = certified(&mut tick, foundation.data()?, Limits::default())?;
     let u = tick.u().to_vec();
-    let good_data = foundation.data()?;
     for poison in [f64::NAN, f64::INFINITY] {
+        let good_data = foundation.data()?;
         let lower = vec![poison; foundation.lower.len()];
         let dirichlet = vec![poison; foundation.dirichlet.len()];
         let cells = vec![poison; foundation.loads.0.len()];

@@ -279,6 +279,10 @@ static void words(void) {
     CHECK(strcmp(NAMED(bounded_name)(INT32_MIN), "UNKNOWN") == 0);
 }
 
+#ifdef IN_TIME
+void NAMED(in_time)(void);
+#endif
+
 static void run(void) {
     play_once();
     seals();
@@ -290,6 +294,9 @@ static void run(void) {
     clamped();
     deadlines();
     words();
+#ifdef IN_TIME
+    NAMED(in_time)();
+#endif
 }
 
 static int32_t init_any(void *of) {

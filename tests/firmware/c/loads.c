@@ -5,7 +5,20 @@
 
 static uint32_t tick;
 
-#if CODE(INPUTS) > 0
+#ifdef LOG
+/* The inputs of each tick, in the order of the scene. */
+static const input_values logged[] = {
+#include LOG
+};
+
+void next_inputs(NAMED(inputs) *inputs) {
+    memcpy(inputs, logged[tick++], sizeof *inputs);
+}
+
+void first_inputs(void) {
+    tick = 0;
+}
+#elif CODE(INPUTS) > 0
 /* Marsaglia's xorshift of 32 bits. */
 static uint32_t state;
 

@@ -1,4 +1,4 @@
-/* The inputs of every tick: those of `scene/src/loads.rs`, in the same arithmetic. */
+/* The inputs of every tick: those of a log, or those of `scene/src/loads.rs` in the same arithmetic. */
 #ifndef LOADS_H
 #define LOADS_H
 

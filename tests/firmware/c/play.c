@@ -87,6 +87,14 @@ static void tell_answer(const NAMED(outputs) *outputs, const NAMED(report) *repo
     tell_count("sweeps", report->sweeps);
     tell_count("active", report->active);
     tell_bound(report);
+#ifdef IN_TIME
+    {
+        scalar energy;
+        if (NAMED(window)(&state, &energy, NULL) == CODE(OK) && energy - energy == 0) {
+            tell_scalar("window", energy);
+        }
+    }
+#endif
 }
 #endif
 

@@ -5,10 +5,10 @@
 #include "checks.h"
 
 extern const struct controller levee_controller, levee_double_controller, levee_full_controller, levee_swept_controller,
-    slab_controller, words_controller;
+    slab_controller, words_controller, antiicing_warm_controller;
 static const struct controller *const all[] = {
     &levee_controller, &levee_double_controller, &levee_full_controller, &levee_swept_controller,
-    &slab_controller, &words_controller,
+    &slab_controller, &words_controller, &antiicing_warm_controller,
 };
 enum { ALL = sizeof all / sizeof *all, LARGEST = 1 << 18 };
 

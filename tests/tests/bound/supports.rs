@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 use signorini_files::answer::Answer;
+use signorini_intervals::Coverage;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::structured::Cells;
 use signorini_solve::{Options, ScalarKind, SolverKind, solve};
@@ -89,7 +90,7 @@ fn summary(text: &str, mesh: Mesh) -> Value {
     let (_, problem) = posed(text, mesh);
     let solution = solve(&problem, &Options::default()).expect("loads in balance");
     assert!(solution.converged() && solution.bound.is_none());
-    let answer = Answer::new(problem, solution, None, SolverKind::Kernel, None);
+    let answer = Answer::new(problem, solution, None, SolverKind::Kernel, Coverage::Small, None);
     serde_json::from_str(&answer.expect("an answer").summary().json()).expect("valid JSON")
 }
 

@@ -19,7 +19,7 @@ table! {
         "they were measured on other machines, perhaps";
     PRINTED: "force in the summary against the catalogue", 1e-6,
         "six digits are given";
-    REFINED: "the bound of the last level against that on its mesh as it was written, relative", 1e-10,
+    REFINED: "the bound of the last level against that on its mesh as it was written, relative", 1e-14,
         "two starts of one solve, each to a residual of 1e-13, and sweeps for s from both";
     DIRECT: "force by sweeps against the direct solver, relative", 2e-11,
         "the kernel stops when it takes the error for 1e-10";

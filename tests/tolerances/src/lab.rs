@@ -13,8 +13,6 @@ table! {
         "rounding alone";
     MADE: "bound against the identity for scenes made for a solution, relative", 2e-3,
         "quadrature of the norms";
-    FEW_POINTS: "norms by few points against many, relative", 1e-14,
-        "exact rules for polynomials";
     ASPECT: "the first of graded rows, relative", 1e-14,
         "a root found by bisection";
     DERIVATIVE: "gradients of exact solutions against central differences", 3e-9,

@@ -7,12 +7,24 @@ table! {
         "Newton's method ends within rounding";
     CONDENSED: "condensed outputs, openings and forces against a full solve, over the largest", 2e-12,
         "two exact solves of one problem, each as good as its condition";
+    STEPPED: "u and fluxes of condensed steps against full ones, over the largest", 1e-11,
+        "exact solves of one problem whose modes span many decades";
+    STEP_FORM: "the form of a condensed step against integrals on its mesh, relative", 1e-11,
+        "columns that cancel at short steps";
+    STEPPED_START: "a steady state in condensed steps, over the largest", 2e-14,
+        "two exact solves of one problem, and the steps' own";
+    LAGS: "sums over all lags against many of them, and rows of memories, over sizes near 1", 1e-10,
+        "modes whose loads cancel, and tails that are counted twice at most";
+    LASTING_KNOWN: "boxes for all times, known on paper", 1e-6,
+        "ranges are widened by what f32 rounds";
     KNOWN: "solutions and forces of springs, known on paper", 1e-14,
         "a factorisation of at most 100 springs";
     PRESSED: "forces of springs whose stiffness spans many decades", 1e-14,
         "differences of neighbours times the stiffest of springs";
     ENUMERATED: "solution against all contact sets enumerated, over its size", 5e-13,
         "random matrices of at most 12 unknowns, some of condition 10⁶";
+    SHARED_SOLVER: "intervals by multigrid against those by the factor, over their half-widths", 1e-6,
+        "weights whose equations are solved to 1e-13";
     SCHUR: "entries of S against elimination by hand", 2e-14,
         "a matrix of condition 10⁴";
     OPTIMAL: "equations and complementarity, over the largest displacement", 1e-14,
@@ -61,6 +73,16 @@ table! {
         "exact rules for polynomials";
     LOCAL_FLUX: "fluxes inside a cell against their definition", 1e-12,
         "sums of 64 polynomials of degree 8, whose values are below 100";
+    MULTIGRID_NARROW: "u and fluxes of multigrid in f32 against those of the kernel's factor, over their range", 9e-5,
+        "two roundings of one solution";
+    MULTIGRID: "u by multigrid against the direct solver, over the largest", 1e-9,
+        "promised; a residual of 1e-13, times what the condition makes of it";
+    MULTIGRID_RELAXED: "u by multigrid against projected relaxation, u of size 1", 2e-13,
+        "sweeps end at changes of 1e-15, with rates near 1";
+    MULTIGRID_MATRIX: "entries of coarse matrices and prolongations against dense arithmetic, of size 10", 1e-14,
+        "sums of at most 100 products";
+    IN_SINGLE: "products and corrections in f32 of numbers of size 1", 2e-5,
+        "roundings of 6e-8 in some sweeps";
     AGREEMENT: "u of mixed precision and of the factor against other solvers, over the largest", 1e-10,
         "as good as the solves, of condition up to 10⁵";
     FACTOR_NARROW: "u of the factor in f32 against f64, over the largest", 2e-6,

@@ -133,7 +133,8 @@ const QUADS: Kind = Kind {
         has(name, &parts)
     },
 };
-const ROBIN: Kind = Kind { what: "Robin code", is: |name| name.contains("E5robin") };
+/// A method, mangled by either scheme.
+const ROBIN: Kind = Kind { what: "Robin code", is: |name| has(name, &["E5robin", "$GT$5robin"]) };
 
 /// Kinds of code that an image is free of, beside those of [`Audit::ALWAYS`], and kinds that are found in it by the same names.
 #[derive(Debug, Clone, Copy)]
@@ -143,7 +144,7 @@ pub struct Audit {
 }
 
 impl Audit {
-    /// What no image has.
+    /// Symbols that no image has.
     const ALWAYS: [Kind; 4] = [FORMATTING, ALLOCATOR, PANIC, DOUBLE];
 
     /// Stages on triangles alone.

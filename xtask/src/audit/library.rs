@@ -9,7 +9,7 @@ use crate::caught::caught;
 use crate::modules::{ROWS, Row, row};
 use crate::setup;
 use crate::steps::Steps;
-use signorini_image::library::{EXPORTS, EXPORTS_WITHIN, Library, mark};
+use signorini_image::library::{Library, exports, mark, steps_in_time};
 use signorini_image::objects::{ARM, symbols};
 
 const ALWAYS: [Kind; 3] = [FORMATTING, ALLOCATOR, PANIC];
@@ -43,9 +43,9 @@ pub fn run(steps: &mut Steps) {
 fn names(row: &Row, word: &str) -> Result<Vec<String>, String> {
     let package = row.package(word)?;
     let symbols = symbols(ARM, &package.library())?;
-    let exports = EXPORTS.iter().chain(&EXPORTS_WITHIN);
-    let text = std::fs::read_to_string(row.module()?.file()).map_err(|error| error.to_string())?;
+    let text = row.module()?.text()?;
     let mark = mark(&text);
+    let exports = exports(steps_in_time(&text)).into_iter();
     let mut exports: Vec<_> = exports.map(|own| format!("{}_{own}{mark}", package.name)).collect();
     let shown = symbols.iter().filter(|symbol| symbol.is_shown());
     let mut shown: Vec<_> = shown.map(|symbol| symbol.name.clone()).collect();
@@ -64,7 +64,6 @@ fn names(row: &Row, word: &str) -> Result<Vec<String>, String> {
 /// A library that can panic.
 fn broken() -> Result<Library, String> {
     let module = row("levee", "--condensed")?.module()?;
-    let text = std::fs::read_to_string(module.file()).map_err(|error| error.to_string())?;
     let features = &module.chosen.kernel_features;
-    Library::build_with(&["broken-panic"], &[], &text, features, "levee", machine("m4")?)
+    Library::build_with(&["broken-panic"], &[], &module.text()?, features, "levee", machine("m4")?)
 }

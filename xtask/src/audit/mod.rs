@@ -24,10 +24,10 @@ use signorini_image::board::{Build, M4F, M4F_192K};
 use signorini_image::objects::{ARM, run as run_binutils, symbols};
 use signorini_image::toolchain::output;
 
-/// What the linker misses where a panic is possible.
+/// The symbol that the linker misses where a panic is possible.
 const REACHABLE: &str = "a_panic_path_is_reachable";
 
-/// What the compiler says with `core` alone, and with a target that rustup has installed.
+/// The error of the compiler with `core` alone, and with a target that rustup has installed.
 const NO_ALLOC: [&str; 2] = ["can't find crate for `alloc`", "no global memory allocator"];
 
 /// Images of stages.

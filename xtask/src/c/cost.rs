@@ -1,4 +1,4 @@
-//! What a call from C takes beside one from Rust, instruction by instruction, and what a library takes of a device.
+//! The cost of a call from C beside one from Rust, instruction by instruction, and of a library on a device.
 //!
 //! Both calls are in one image, on the same machine code of the controller, which a compiler may otherwise arrange in other ways
 //! and take a thousandth more or less. Three programs play the same ticks on the board that counts to the instruction:
@@ -9,16 +9,16 @@
 //! ```
 
 use std::fmt::Write as _;
-use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use super::package::{Package, write};
+use super::package::Package;
 use super::program::played;
 use crate::modules::{ROWS, Row};
 use crate::record;
 use crate::steps::Steps;
 use signorini_image::board::M4F_192K;
+use signorini_image::files;
 use signorini_image::library::Library;
 use signorini_image::toolchain::output;
 
@@ -82,7 +82,7 @@ impl Counts {
     fn measure(row: &Row, ticks: usize) -> Result<Self, String> {
         let package = row.package("m4")?;
         let module = row.module()?;
-        let text = fs::read_to_string(module.file()).map_err(|error| error.to_string())?;
+        let text = module.text()?;
         let features = &module.chosen.kernel_features;
         let counted = Library::build_with(
             &["counted"],
@@ -93,7 +93,7 @@ impl Counts {
             &package.machine,
         )?;
         let library = package.folder.join("counted.a");
-        write(&library, &counted.archive)?;
+        files::write(&library, &counted.archive)?;
         let [from_c, from_rust, alone] = CALLS.map(|call| counts(&package, &library, call, ticks));
         let flashed = counts(&package, &package.library(), CALLS[0], ticks)?;
         let from_c = from_c?;

@@ -7,7 +7,7 @@ use super::program::configure;
 use crate::modules::row;
 use crate::steps::Steps;
 
-/// What it says last: 40 steps, one of which hangs on a board, until the watchdog resets it.
+/// The last words of the example: 40 steps, one of which hangs on a board, until the watchdog resets it.
 const LAST: [(&str, &str); 4] = [
     ("m4", "done: 40 steps, 1 resets"),
     ("m7", "done: 40 steps, 1 resets"),

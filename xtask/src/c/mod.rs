@@ -5,6 +5,7 @@
 //!   cost       what a call from C takes beside one from Rust, on the same code of the controller
 //!   headers    C and C++ of every age, without a warning; what a library is not built for is refused
 //!   states     several libraries in one program: states that are saved, damaged, exchanged, refused
+//!   flight     1200 inputs that an RTIC program flew, with the bits of the desk
 //!   example    the program that a bake writes, built by CMake, to its end
 //! ```
 
@@ -12,14 +13,15 @@ mod cost;
 mod example;
 mod headers;
 pub mod package;
-mod program;
+pub mod program;
 mod states;
 
+use crate::flight;
 use crate::modules;
 use crate::setup;
 use crate::steps::Steps;
 
-/// The steps of the five.
+/// The steps of the six.
 pub fn run(steps: &mut Steps) {
     setup::for_c(steps);
     modules::bake_for_c(steps);
@@ -28,4 +30,5 @@ pub fn run(steps: &mut Steps) {
     example::run(steps);
     cost::run(steps);
     program::run(steps);
+    steps.check("the flight, from C, bit for bit", flight::from_c);
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::baked::{Failure, Recipe};
@@ -55,13 +55,17 @@ impl Package {
     /// Definitions for the programs that know no scene.
     pub fn defines(&self) -> Vec<String> {
         let name = &self.name;
-        vec![
+        let header = fs::read_to_string(self.folder.join(format!("{name}.h"))).unwrap_or_default();
+        let in_time = header.contains("_STEP ").then(|| "-DIN_TIME".to_owned());
+        let mut defines = vec![
             format!("-DSCENE={name}"),
             format!("-DCONSTANTS={}", name.to_uppercase()),
             format!("-I{}", self.folder.display()),
             "-include".to_owned(),
             format!("{name}.h"),
-        ]
+        ];
+        defines.extend(in_time);
+        defines
     }
 }
 
@@ -70,7 +74,7 @@ fn name_of(recipe: &Recipe) -> String {
 }
 
 fn folder_of(recipe: &Recipe) -> PathBuf {
-    let [scalar, model] = [&recipe.scalar, &recipe.model].map(|of| of.as_deref().unwrap_or("-"));
+    let [scalar, model] = [recipe.scalar.as_deref(), recipe.model()].map(|of| of.unwrap_or("-"));
     folder().join(format!("{}-{scalar}{model}", name_of(recipe)))
 }
 
@@ -82,11 +86,4 @@ pub fn folder() -> PathBuf {
 /// The machine of `--board`.
 pub fn machine(word: &str) -> Result<&'static Machine, String> {
     MACHINES.iter().find(|machine| machine.word == word).ok_or(format!("no board `{word}`"))
-}
-
-/// Writes a file, and its folder where there is none.
-pub fn write(file: &Path, bytes: &[u8]) -> Result<(), String> {
-    let made = fs::create_dir_all(file.parent().unwrap_or(Path::new(".")));
-    made.and_then(|()| fs::write(file, bytes))
-        .map_err(|error| format!("{}: {error}", file.display()))
 }

@@ -10,15 +10,15 @@ use signorini_image::cargo::root;
 use signorini_image::toolchain::output;
 
 /// Controllers of one program, all there are in CMakeLists.txt: two scenes, one of them in another scalar and in another model,
-/// too, of the same contents under other names.
-const CONTROLLERS: [&str; 6] =
-    ["levee", "levee-double", "levee-full", "levee-swept", "slab", "words"];
+/// too, of the same contents under other names; the last one steps in time.
+const CONTROLLERS: [&str; 7] =
+    ["levee", "levee-double", "levee-full", "levee-swept", "slab", "words", "antiicing-warm"];
 
 /// A step for the desk, and one for a board.
 pub fn run(steps: &mut Steps) {
     let words: &[&str] = if steps.is_whole() { &["m4", "host"] } else { &["m4"] };
     for word in words {
-        steps.check(&format!("states of six controllers in one program, {word}"), || check(word));
+        steps.check(&format!("states of seven controllers in one program, {word}"), || check(word));
     }
 }
 

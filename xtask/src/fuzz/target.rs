@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use signorini_image::cargo::{root, target_dir};
+use signorini_image::files::{self, emptied, folder, within};
 use signorini_image::toolchain::host;
 
 /// An entry function of `signorini_tests::hostile` under libFuzzer.
@@ -17,7 +18,7 @@ pub struct Target {
     longest: u32,
 }
 
-/// What a run has done.
+/// The counts of a run.
 #[derive(Debug)]
 pub struct Run {
     /// Executions.
@@ -30,7 +31,7 @@ pub struct Run {
 const PATIENCE: u32 = 20;
 
 impl Target {
-    /// All of them.
+    /// All targets.
     pub const ALL: [Self; 5] = [
         Self { name: "mesh", longest: 4096 },
         Self { name: "scene", longest: 2048 },
@@ -38,6 +39,12 @@ impl Target {
         Self { name: "constructors", longest: 1024 },
         Self { name: "tick", longest: 1024 },
     ];
+
+    /// The target of this name.
+    pub fn named(name: &str) -> Result<Self, String> {
+        let found = Self::ALL.into_iter().find(|target| target.name == name);
+        found.ok_or_else(|| "no such target".to_owned())
+    }
 
     /// Replays all cases, and goes on from there until so many executions; the same every time.
     pub fn bounded(&self, runs: u64) -> Result<Run, String> {
@@ -48,7 +55,7 @@ impl Target {
     /// Goes on from all cases for so many executions, then leaves the smallest corpus that covers as much.
     pub fn long(&self, runs: u64) -> Result<Run, String> {
         let (grown, corpus) = (self.scratch("grown"), self.folder("corpus"));
-        create(&grown)?;
+        folder(&grown)?;
         let run = self.run(runs, &[], &[&grown, &corpus, &self.folder("found")])?;
         let smallest = emptied(&self.scratch("smallest"))?;
         // By edges alone: how often each is passed would keep thousands of inputs.
@@ -58,7 +65,7 @@ impl Target {
             return Err(format!("{}: its corpus could not be merged", self.name));
         }
         emptied(&corpus)?;
-        for file in files(&smallest)? {
+        for file in within(&smallest)? {
             let name = file.file_name().unwrap_or_default();
             fs::copy(&file, corpus.join(name)).map_err(|error| error.to_string())?;
         }
@@ -67,7 +74,7 @@ impl Target {
 
     /// Cases of the corpus, and cases found.
     pub fn cases(&self) -> Result<[u64; 2], String> {
-        let count = |folder| Ok::<_, String>(files(&self.folder(folder))?.len() as u64);
+        let count = |kind| Ok::<_, String>(within(&folder(&self.folder(kind))?)?.len() as u64);
         Ok([count("corpus")?, count("found")?])
     }
 
@@ -76,7 +83,7 @@ impl Target {
         println!("{}: {runs} executions", self.name);
         let found = self.folder("found");
         for folder in folders.iter().copied().chain([found.as_path()]) {
-            create(folder)?;
+            files::folder(folder)?;
         }
         let mut command = self.command(more)?;
         command.arg(format!("-runs={runs}")).args(["-print_final_stats=1", "-reduce_inputs=0"]);
@@ -124,7 +131,7 @@ impl Target {
     }
 }
 
-/// What libFuzzer says of a run.
+/// The counts that libFuzzer tells of a run.
 #[derive(Debug, Default)]
 struct Tally {
     executions: Option<u64>,
@@ -151,26 +158,6 @@ impl Tally {
     fn run(&self) -> Option<Run> {
         Some(Run { executions: self.executions?, edges: self.edges? })
     }
-}
-
-fn create(folder: &Path) -> Result<(), String> {
-    fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))
-}
-
-/// The folder without what was in it.
-fn emptied(folder: &Path) -> Result<PathBuf, String> {
-    if folder.is_dir() {
-        fs::remove_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    }
-    create(folder).map(|()| folder.to_owned())
-}
-
-fn files(folder: &Path) -> Result<Vec<PathBuf>, String> {
-    create(folder)?;
-    let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    entries
-        .map(|entry| entry.map(|entry| entry.path()).map_err(|error| error.to_string()))
-        .collect()
 }
 
 #[cfg(test)]

@@ -1,12 +1,12 @@
 //! The page of modules: a table per crate of what each module says of itself in its first line.
 
 use std::fmt::Write as _;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::snapshot::snapshot;
 use crate::steps::Steps;
 use signorini_image::cargo::root;
+use signorini_image::files;
 
 const PAGE: &str = "docs/modules.md";
 const HEAD: &str = "\
@@ -46,7 +46,7 @@ pub fn run(steps: &mut Steps) {
 fn page() -> Result<String, String> {
     let mut text = HEAD.to_owned();
     for of in CRATES {
-        let mut rows = modules(&root().join(of).join("src"), "")?;
+        let mut rows = modules(&root().join(of).join("src"))?;
         rows.sort();
         let _ = write!(text, "\n## `{of}`\n\n| module | what it holds |\n|---|---|\n");
         for (name, path) in rows {
@@ -56,30 +56,19 @@ fn page() -> Result<String, String> {
     Ok(text)
 }
 
-/// The modules in a folder and in those within it: names as paths, which begin with `above`, and files.
-fn modules(of: &Path, above: &str) -> Result<Vec<(String, PathBuf)>, String> {
-    let mut found = Vec::new();
-    let entries = fs::read_dir(of).map_err(|error| format!("{}: {error}", of.display()))?;
-    for path in entries.flatten().map(|entry| entry.path()) {
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        if ["lib", "main", "mod", "tests", "bin"].contains(&&*name) {
-            continue;
-        }
-        let name = format!("{above}{name}");
-        if path.is_dir() {
-            let own = path.join("mod.rs");
-            found.extend(modules(&path, &format!("{name}::"))?);
-            found.extend(own.is_file().then_some((name, own)));
-        } else if path.extension().is_some_and(|kind| kind == "rs") {
-            found.push((name, path));
-        }
-    }
-    Ok(found)
+/// The modules below a folder: names as paths, and files.
+fn modules(of: &Path) -> Result<Vec<(String, PathBuf)>, String> {
+    let files = files::below(of, &["lib.rs", "main.rs", "tests", "tests.rs", "bin"])?;
+    let name = |path: &Path| {
+        let file = path.strip_prefix(of).ok()?.to_str()?.strip_suffix(".rs")?;
+        Some(file.trim_end_matches("/mod").replace('/', "::"))
+    };
+    Ok(files.into_iter().filter_map(|path| Some((name(&path)?, path))).collect())
 }
 
 /// The first sentence of a file's `//!` lines.
 fn first_sentence(path: &Path) -> Result<String, String> {
-    let text = fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let text = files::text(path)?;
     let lines = text.lines().map_while(|line| line.strip_prefix("//!"));
     let said = lines.map_while(|line| (!line.trim().is_empty()).then(|| line.trim()));
     let said = said.collect::<Vec<_>>().join(" ");

@@ -4,9 +4,9 @@ use super::sources::{Function, Source};
 
 /// A rule.
 pub struct Rule {
-    /// What holds.
+    /// The rule in words.
     pub name: &'static str,
-    /// Those that break it.
+    /// The places that break it.
     pub broken_by: fn(&[Source]) -> Vec<String>,
 }
 
@@ -20,7 +20,7 @@ pub const RULES: [Rule; 6] = [
     Rule { name: "one function decides what an empty range of fluxes is", broken_by: empty_ranges },
 ];
 
-/// What is found in all files, by the file's path.
+/// The findings of all files, by the file's path.
 fn found<'a>(
     sources: impl IntoIterator<Item = &'a Source>,
     of: impl Fn(&'a Source) -> Vec<String>,
@@ -29,12 +29,12 @@ fn found<'a>(
     sources.into_iter().flat_map(named).collect()
 }
 
-/// Those found, where there are more than one.
+/// The findings, where there are more than one.
 fn beyond_one(found: Vec<String>) -> Vec<String> {
     if found.len() > 1 { found } else { Vec::new() }
 }
 
-/// What an answer has, by the names that a field of it may have.
+/// The parts of an answer, by the names that a field of it may have.
 const OF_AN_ANSWER: [&[&str]; 4] = [
     &["u"],
     &["flux", "fluxes", "tau"],

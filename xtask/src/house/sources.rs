@@ -1,16 +1,15 @@
-//! What rules ask of source files: structs, traits, functions, texts and names, without those of tests.
+//! Source files as rules see them: structs, traits, functions, texts and names, without those of tests.
 
 use std::collections::BTreeSet;
-use std::fs;
-use std::path::Path;
 
 use signorini_image::cargo::root;
+use signorini_image::files;
 use syn::visit_mut::{self, VisitMut};
 
 /// Folders that hold the project's programs, and no tests of other programs.
 const FOLDERS: [&str; 2] = ["kernel", "host"];
-/// Folders of them that no rule is about.
-const APART: [&str; 4] = ["tests", "benches", "examples", "target"];
+/// Folders and files of them that no rule is about.
+const APART: [&str; 5] = ["tests", "tests.rs", "benches", "examples", "target"];
 
 /// A source file.
 #[derive(Debug, Default)]
@@ -36,11 +35,11 @@ pub struct Function {
     pub name: String,
     /// Whether its answer is yes or no.
     pub is_predicate: bool,
-    /// What it does.
+    /// Its body.
     pub body: Body,
 }
 
-/// What a function's body has.
+/// The names in a function's body.
 #[derive(Debug, Default)]
 pub struct Body {
     /// Structs and variants with fields that it makes.
@@ -53,7 +52,14 @@ impl Source {
     /// All source files of kernel and host.
     pub fn all() -> Result<Vec<Self>, String> {
         let mut sources = Vec::new();
-        FOLDERS.iter().try_for_each(|folder| read(&root().join(folder), &mut sources))?;
+        for folder in FOLDERS {
+            for path in files::below(&root().join(folder), &APART)? {
+                if path.extension().is_some_and(|extension| extension == "rs") {
+                    let from_root = path.strip_prefix(root()).unwrap_or(&path).display();
+                    sources.push(Self::parse(&from_root.to_string(), &files::text(&path)?)?);
+                }
+            }
+        }
         Ok(sources)
     }
 
@@ -73,26 +79,6 @@ impl Source {
         let is_predicate = matches!(&signature.output, syn::ReturnType::Type(_, of) if is_bool(of));
         self.functions.push(Function { name: signature.ident.to_string(), is_predicate, body });
     }
-}
-
-/// Reads what lies below a folder.
-fn read(folder: &Path, sources: &mut Vec<Source>) -> Result<(), String> {
-    let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
-    for entry in fs::read_dir(folder).map_err(failed)? {
-        let path = entry.map_err(failed)?.path();
-        let name = path.file_stem().unwrap_or_default();
-        if APART.iter().any(|apart| name == *apart) {
-            continue;
-        }
-        if path.is_dir() {
-            read(&path, sources)?;
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            let text = fs::read_to_string(&path).map_err(failed)?;
-            let from_root = path.strip_prefix(root()).unwrap_or(&path).display().to_string();
-            sources.push(Source::parse(&from_root, &text)?);
-        }
-    }
-    Ok(())
 }
 
 impl VisitMut for Source {

@@ -6,29 +6,30 @@
 mod record;
 mod survivors;
 
-use std::fs;
 use std::path::Path;
-use std::process::ExitCode;
 
+use clap::Args;
 use serde::Deserialize;
 
-use crate::command::command;
+use crate::baked::Failure;
 use crate::counted::counted;
 use crate::steps::Steps;
 use record::{Record, Row, SOURCES, content, sources};
 use signorini_image::cargo::{cargo, root, run as run_cargo, run_with_lines, target_dir};
+use signorini_image::files;
 use signorini_image::toolchain::output;
 use survivors::{Key, Survivors};
 
-const HELP: &str = "\
-Usage: cargo xtask mutants [--force] [FILE...]
-
-Mutates sources of the kernel that have changed since tests/mutants/record.txt, with --force all, or those that are
-named, and judges each mutant by the tests of the kernel. Mutants that live are listed in
-tests/mutants/survivors.txt, where a person writes a reason beside each.
-
-Exit status: 0 where 95 % are killed and each survivor has its reason; 1 otherwise; 2 for wrong words.
-";
+/// The sources that are mutated.
+#[derive(Debug, Args)]
+pub struct Options {
+    /// Mutates all sources, those too that have not changed
+    #[arg(long)]
+    force: bool,
+    /// Mutates these sources of the kernel alone
+    #[arg(value_name = "FILE", value_parser = source)]
+    files: Vec<String>,
+}
 
 /// The program that judges.
 pub const MANIFEST: &str = "tests/mutants/Cargo.toml";
@@ -36,24 +37,17 @@ pub const MANIFEST: &str = "tests/mutants/Cargo.toml";
 const KILLED: usize = 95;
 
 /// The verb.
-pub fn run(words: &[&str]) -> ExitCode {
-    command(words, HELP, parse, |(force, named)| {
-        judge(&named, force)?;
-        Ok(check()?)
-    })
+pub fn run(options: &Options) -> Result<(), Failure> {
+    judge(options)?;
+    Ok(check()?)
 }
 
-/// Whether all files are judged anew, and the files that are named.
-fn parse<'a>(words: &'a [&'a str]) -> Result<(bool, Vec<&'a str>), String> {
-    let is_source = |word: &str| {
-        let is_below = |folder: &&str| Path::new(word).starts_with(folder);
-        SOURCES.iter().any(is_below) && root().join(word).is_file()
-    };
-    let (flags, named): (Vec<_>, Vec<&str>) = words.iter().partition(|word| word.starts_with('-'));
-    let mut wrong = flags.iter().filter(|flag| **flag != "--force");
-    match wrong.next().or_else(|| named.iter().find(|word| !is_source(word))) {
-        Some(wrong) => Err(format!("`{wrong}` is no source file of the kernel")),
-        None => Ok((!flags.is_empty(), named)),
+/// The path of a source file of the kernel, as it is.
+fn source(path: &str) -> Result<String, String> {
+    let is_below = |folder: &&str| Path::new(path).starts_with(folder);
+    match SOURCES.iter().any(is_below) && root().join(path).is_file() {
+        true => Ok(path.to_owned()),
+        false => Err("no source file of the kernel".to_owned()),
     }
 }
 
@@ -71,7 +65,7 @@ pub fn verify(steps: &mut Steps) {
     steps.check("mutants as recorded", check);
     steps.step("switches of mutants", || {
         let target = target_dir("mutants").join("judge").display().to_string();
-        counted(&["test", "--locked", "--manifest-path", MANIFEST, "--target-dir", &target])
+        Ok(counted(&["test", "--locked", "--manifest-path", MANIFEST, "--target-dir", &target]))
     });
 }
 
@@ -92,8 +86,8 @@ fn check() -> Result<(), String> {
             wrong.push(format!("{file}: {} missed, {listed} are listed", row.missed));
         }
     }
-    let unread = survivors.0.iter().filter(|(_, entry)| entry.reason.is_empty());
-    let unread = unread.map(|(_, entry)| entry.count).sum::<usize>();
+    let unread = survivors.0.iter().filter(|known| known.reason.is_empty());
+    let unread = unread.map(|known| known.count).sum::<usize>();
     if unread > 0 {
         wrong.push(format!("{unread} mutants live without a reason"));
     }
@@ -105,7 +99,7 @@ fn check() -> Result<(), String> {
     if wrong.is_empty() { Ok(()) } else { Err(wrong.join("; ") + "; run `cargo xtask mutants`") }
 }
 
-fn judge(named: &[&str], force: bool) -> Result<(), String> {
+fn judge(Options { force, files: named }: &Options) -> Result<(), String> {
     let (mut record, mut survivors) = (Record::read()?, Survivors::read()?);
     let files = sources()?;
     for gone in record.0.keys().filter(|file| !files.contains(file)) {
@@ -116,7 +110,7 @@ fn judge(named: &[&str], force: bool) -> Result<(), String> {
     for file in files {
         let same =
             record.0.get(&file).is_some_and(|row| Ok(&row.content) == content(&file).as_ref());
-        if named.contains(&file.as_str()) || (named.is_empty() && (force || !same)) {
+        if named.contains(&file) || (named.is_empty() && (*force || !same)) {
             stale.push(file);
         }
     }
@@ -149,7 +143,6 @@ struct Found {
 
 fn run_all(files: &[String]) -> Result<Vec<Found>, String> {
     let work = target_dir("mutants");
-    fs::create_dir_all(&work).map_err(|error| format!("{}: {error}", work.display()))?;
     let path = work.join("list.json");
     list(&path)?;
     let words = ["run", "--quiet", "--locked", "--manifest-path", MANIFEST];
@@ -175,7 +168,7 @@ fn list(path: &Path) -> Result<(), String> {
         run_cargo(cargo(&["install", "--locked", "cargo-mutants"]))?;
     }
     let json = output(&mut listing)?;
-    fs::write(path, json).map_err(|error| format!("{}: {error}", path.display()))
+    files::write(path, json)
 }
 
 impl Found {

@@ -1,25 +1,20 @@
-//! What was found of each file, in git: `tests/mutants/record.txt`.
-//!
-//! ```text
-//!   kernel/src/psor.rs 5f0c… 46 41 3 1 1      content, mutants, caught, timeout, missed, unviable
-//! ```
+//! The findings on each file, in git: `tests/mutants/record.json`.
 
 use std::collections::BTreeMap;
-use std::fs;
+use std::path::PathBuf;
 use std::process::Command;
 
-use crate::snapshot::write;
+use serde::{Deserialize, Serialize};
+
+use crate::snapshot;
 use signorini_image::cargo::root;
+use signorini_image::files::below;
 use signorini_image::toolchain::output;
 
-const PATH: &str = "tests/mutants/record.txt";
-const HEAD: &str = "\
-# Mutants of the kernel, a line a file; written by `cargo xtask mutants`.
-# content (git hash-object) | mutants | caught by a test | timeout: a test does not end | missed | unviable
-";
+const PATH: &str = "tests/mutants/record.json";
 
-/// What became of the mutants of a file.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+/// The fates of the mutants of a file.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Row {
     /// Git's name for the content that was mutated.
     pub content: String,
@@ -29,51 +24,23 @@ pub struct Row {
     pub timeout: usize,
     /// All tests passed.
     pub missed: usize,
-    /// It does not compile.
+    /// The mutant does not compile.
     pub unviable: usize,
 }
 
 /// Files by path.
-#[derive(Debug, Default, PartialEq, Eq)]
+#[derive(Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Record(pub BTreeMap<String, Row>);
-
-impl Row {
-    fn line(&self, path: &str) -> String {
-        let Self { content, caught, timeout, missed, unviable } = self;
-        let mutants = caught + timeout + missed + unviable;
-        format!("{path} {content} {mutants} {caught} {timeout} {missed} {unviable}\n")
-    }
-
-    fn parse(line: &str) -> Option<(String, Self)> {
-        let words: Vec<&str> = line.split_whitespace().collect();
-        let [path, content, counts @ ..] = &words[..] else { return None };
-        let counts: Vec<usize> = counts.iter().filter_map(|word| word.parse().ok()).collect();
-        let [mutants, caught, timeout, missed, unviable] = counts[..] else { return None };
-        let row = Self { content: (*content).to_owned(), caught, timeout, missed, unviable };
-        (mutants == caught + timeout + missed + unviable).then(|| ((*path).to_owned(), row))
-    }
-}
 
 impl Record {
     /// The record in git; empty where there is none.
     pub fn read() -> Result<Self, String> {
-        Self::parse(&fs::read_to_string(root().join(PATH)).unwrap_or_default())
-    }
-
-    fn parse(text: &str) -> Result<Self, String> {
-        let lines = text.lines().filter(|line| !line.starts_with('#') && !line.is_empty());
-        let row = |line| Row::parse(line).ok_or_else(|| format!("{PATH}: `{line}` is no row"));
-        lines.map(row).collect::<Result<_, _>>().map(Self)
-    }
-
-    fn text(&self) -> String {
-        let lines: String = self.0.iter().map(|(path, row)| row.line(path)).collect();
-        format!("{HEAD}{lines}")
+        snapshot::record(PATH)
     }
 
     /// Writes the record.
     pub fn write(&self) -> Result<(), String> {
-        write(PATH, &self.text())
+        snapshot::write_record(PATH, self)
     }
 
     /// Killed and viable mutants of all files.
@@ -99,19 +66,11 @@ pub const SOURCES: [&str; 4] =
 
 /// The kernel's source files, by path from the root.
 pub fn sources() -> Result<Vec<String>, String> {
-    let (mut folders, mut files) = (SOURCES.map(str::to_owned).to_vec(), Vec::new());
-    while let Some(folder) = folders.pop() {
-        let entries = fs::read_dir(root().join(&folder)).map_err(|e| format!("{folder}: {e}"))?;
-        for entry in entries {
-            let entry = entry.map_err(|error| error.to_string())?;
-            let path = format!("{folder}/{}", entry.file_name().display());
-            if entry.path().is_dir() {
-                folders.push(path);
-            } else if path.ends_with(".rs") {
-                files.push(path);
-            }
-        }
-    }
+    let below = SOURCES.map(|folder| below(&root().join(folder), &[]));
+    let files = below.into_iter().collect::<Result<Vec<_>, _>>()?.concat();
+    let from_root = |file: PathBuf| file.strip_prefix(root()).ok()?.to_str().map(str::to_owned);
+    let mut files: Vec<String> = files.into_iter().filter_map(from_root).collect();
+    files.retain(|file| file.ends_with(".rs"));
     files.sort_unstable();
     Ok(files)
 }
@@ -120,28 +79,11 @@ pub fn sources() -> Result<Vec<String>, String> {
 mod tests {
     use super::*;
 
-    fn row() -> Row {
-        Row { content: "5f0c".to_owned(), caught: 41, timeout: 3, missed: 1, unviable: 1 }
-    }
-
-    #[test]
-    fn a_record_is_read_as_it_was_written() {
-        let record = Record([("kernel/src/psor.rs".to_owned(), row())].into());
-        assert!(record.text().ends_with("\nkernel/src/psor.rs 5f0c 46 41 3 1 1\n"));
-        assert_eq!(Record::parse(&record.text()), Ok(record));
-    }
-
-    #[test]
-    fn counts_must_add_up() {
-        for row in ["kernel/src/psor.rs 5f0c 47 41 3 1 1", "kernel/src/psor.rs 5f0c 46 41 3"] {
-            let refused = Record::parse(&format!("{row}\n"));
-            assert_eq!(refused, Err(format!("{PATH}: `{row}` is no row")));
-        }
-    }
-
     #[test]
     fn what_does_not_compile_is_not_killed() {
-        let record = Record([("a".to_owned(), row()), ("b".to_owned(), row())].into());
+        let row =
+            Row { content: "5f0c".to_owned(), caught: 41, timeout: 3, missed: 1, unviable: 1 };
+        let record = Record([("a".to_owned(), row.clone()), ("b".to_owned(), row)].into());
         assert_eq!(record.killed(), (88, 90));
     }
 }

@@ -33,7 +33,7 @@ pub struct PeerTick {
     pub x: Vec<f32>,
 }
 
-/// What an image tells, and what it takes.
+/// The ticks that an image tells, and the memory that it takes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
     /// Bytes of the solver's code.

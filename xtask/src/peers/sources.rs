@@ -7,14 +7,15 @@ use std::process::Command;
 
 use crate::python::environment;
 use signorini_image::cargo::{root, run, target_dir};
+use signorini_image::files;
 use signorini_image::toolchain::output;
 
-/// As `requirements.txt` pins them, with checksums.
+/// Versions as `requirements.txt` pins them, with checksums.
 pub const VERSIONS: &str = "DAQP 0.7.2, OSQP 1.1.3";
 
 const DAQP: &str = "daqp-0.7.2";
 
-/// What OSQP's generator imports and the metadata of DAQP's source asks for; none of it reaches a board.
+/// Packages that OSQP's generator imports and the metadata of DAQP's source asks for; none of it reaches a board.
 const TOOLS: [&str; 8] = [
     "setuptools==80.9.0",
     "wheel==0.45.1",
@@ -26,7 +27,7 @@ const TOOLS: [&str; 8] = [
     "joblib==1.6.0",
 ];
 
-/// What to compile for a solver, beside its adapter.
+/// The files to compile for a solver, beside its adapter.
 #[derive(Debug, Clone)]
 pub struct Code {
     /// C files.
@@ -47,15 +48,14 @@ pub struct Sources {
 impl Sources {
     /// Fetches what is not there yet.
     pub fn fetch() -> Result<Self, String> {
-        let folder = target_dir("firmware").join("peers");
-        fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
+        let folder = files::folder(&target_dir("firmware").join("peers"))?;
         let python = environment("peers", &[&["--no-deps"][..], &TOOLS].concat(), &[])?;
         let sources = Self { folder, python };
         let complete = sources.folder.join("complete");
         if fs::read_to_string(&complete).ok().as_deref() != Some(VERSIONS) {
             println!("fetching {VERSIONS}");
             sources.pinned()?;
-            fs::write(complete, VERSIONS).map_err(|error| error.to_string())?;
+            files::write(&complete, VERSIONS)?;
         }
         Ok(sources)
     }
@@ -75,7 +75,7 @@ impl Sources {
         run(unpack)
     }
 
-    /// What `problem.py` prints of a header and another file: two numbers.
+    /// The two numbers that `problem.py` prints of a header and another file.
     pub fn problem(&self, verb: &str, header: &Path, file: &Path) -> Result<[f64; 2], String> {
         let said =
             output(Command::new(&self.python).arg(script()).arg(verb).arg(header).arg(file))?;
@@ -127,12 +127,8 @@ fn script() -> PathBuf {
 
 /// The C files of a folder, in order: the image is to be the same every time.
 fn c_files(folder: &Path) -> Result<Vec<PathBuf>, String> {
-    let named = |error: std::io::Error| format!("{}: {error}", folder.display());
-    let entries = fs::read_dir(folder).map_err(named)?;
-    let mut files: Vec<_> = entries
-        .filter_map(|entry| Some(entry.ok()?.path()))
-        .filter(|file| file.extension() == Some(OsStr::new("c")))
-        .collect();
+    let mut files = files::within(folder)?;
+    files.retain(|file| file.extension() == Some(OsStr::new("c")));
     files.sort();
     Ok(files)
 }

@@ -62,7 +62,8 @@ pub(super) fn files(name: &str, api: &ModuleApi, on: &Machine) -> Vec<(String, S
         let placed = places.iter().fold(text.to_owned(), |text, (of, is)| text.replace(of, is));
         let text = placed
             .replace("@sensors@", &sensors(name, api))
-            .replace("@actuators@", &actuators(api));
+            .replace("@actuators@", &actuators(name, api))
+            .replace("@pace@", &pace(api));
         let text = text
             .replace("@machine@", machine)
             .replace("@cpu@", cpu)
@@ -86,8 +87,16 @@ fn sensors(name: &str, api: &ModuleApi) -> String {
     if text.is_empty() { "    (void)inputs;\n    (void)swing;\n".to_owned() } else { text }
 }
 
-/// A line for each output.
-fn actuators(api: &ModuleApi) -> String {
+/// A remark on the timer, where a tick is a step in time.
+fn pace(api: &ModuleApi) -> String {
+    let Some(step) = api.step else { return String::new() };
+    format!(
+        "/* A tick is a step of {step}: a board's timer comes as often. This one, in microseconds, does not wait so long. */\n"
+    )
+}
+
+/// A line for each output, and one for the evolution in time.
+fn actuators(name: &str, api: &ModuleApi) -> String {
     let mut text = String::new();
     for item in &api.outputs {
         let field = field(&item.identifier);
@@ -96,5 +105,15 @@ fn actuators(api: &ModuleApi) -> String {
             "    printf(\"  {field} %g +- %g\\n\", (double)outputs->{field}, (double)report->plus_minus.{field});"
         );
     }
-    if text.is_empty() { "    (void)outputs;\n".to_owned() } else { text }
+    if text.is_empty() {
+        text = "    (void)outputs;\n".to_owned();
+    }
+    if api.step.is_some() {
+        let _ = write!(
+            text,
+            "    {{\n        {name}_scalar energy, seconds;\n        (void){name}_window(&state, &energy, &seconds);\n        \
+             printf(\"  since the start: at most %g, as a mean over %g\\n\", (double)energy, (double)seconds);\n    }}\n"
+        );
+    }
+    text
 }

@@ -10,12 +10,13 @@ use signorini_kernel::report::Ended;
 use super::comment::{MARK, as_is, comment, wrapped};
 use super::names::field;
 use super::words::{
-    ASSERT, CLOSING, FUNCTIONS, INPUT_VALUES, MARKS, PLUS_MINUS, REPORT, STATE, SYMBOLS, USE,
+    ASSERT, CLOSING, FUNCTIONS, IN_TIME, INPUT_VALUES, MARKS, PLUS_MINUS, REPORT, SAVED, STATE,
+    SYMBOLS, USE,
 };
 use crate::item::Item;
-use crate::module_api::{ModuleApi, UNITS};
+use crate::module_api::{ModuleApi, STEPS, UNITS};
 use signorini_image::chosen::Chosen;
-use signorini_image::library::{EXPORTS, EXPORTS_WITHIN, Library, Machine};
+use signorini_image::library::{Library, Machine, exports};
 
 /// The subject of the header.
 pub(super) struct Header<'a> {
@@ -57,10 +58,13 @@ impl Header<'_> {
             env!("CARGO_PKG_VERSION"),
         );
         let title = as_is(&self.api.title);
-        let paragraphs = [title.as_str(), &about, UNITS, SYMBOLS, USE];
+        let steps = STEPS.replace("STEP", "NAME_STEP").replace("`window`", "name_window");
+        let steps = self.api.step.map(|_| steps);
+        let paragraphs = [title.as_str(), &about, UNITS].into_iter().chain(steps.as_deref());
+        let paragraphs: Vec<_> = paragraphs.chain([SYMBOLS, USE]).collect();
         format!(
             "/*\n{}\n */\n#ifndef NAME_H\n#define NAME_H\n\n#include <stddef.h>\n#include <stdint.h>\n\n",
-            paragraphs.map(|text| wrapped(text, " * ")).join("\n *\n")
+            paragraphs.iter().map(|text| wrapped(text, " * ")).collect::<Vec<_>>().join("\n *\n")
         )
     }
 
@@ -94,11 +98,18 @@ impl Header<'_> {
             self.api.inputs.len(),
             self.api.outputs.len()
         );
-        let worst = &self.chosen.worst_case;
-        if let (true, Some(exchanges)) = (worst.proven, worst.exchanges) {
+        if let Some(step) = self.api.step {
             let _ = writeln!(
                 text,
-                "\n/* What no tick exceeds, for all inputs within their ranges and every state: proved. */\n\
+                "/* The length of a step: each tick is one. */\n#define NAME_STEP {step:?}"
+            );
+        }
+        let worst = &self.chosen.worst_case;
+        if let (true, Some(exchanges)) = (worst.proven, worst.exchanges) {
+            let all = if self.chosen.memory > 0 { "inputs" } else { "inputs within their ranges" };
+            let _ = writeln!(
+                text,
+                "\n/* What no tick exceeds, for all {all} and every state: proved. */\n\
                  #define NAME_WORST_EXCHANGES {exchanges}u"
             );
             if let Some(instructions) = worst.instructions {
@@ -145,14 +156,8 @@ impl Header<'_> {
     }
 
     fn state(&self) -> String {
-        let bytes = self.library.state;
-        format!(
-            "{STATE}typedef struct name_state {{\n    uint64_t words[{}];\n}} name_state;\n\n#define NAME_STATE_BYTES {bytes}u\n\
-             NAME_ASSERT(sizeof(name_state) == NAME_STATE_BYTES, state_has_the_size_of_the_library);\n\
-             struct name_aligned {{\n    char byte;\n    name_state state;\n}};\n\
-             NAME_ASSERT(offsetof(struct name_aligned, state) == 8, state_has_the_alignment_of_the_library);\n",
-            bytes / 8
-        )
+        let saved = self.library.saved.map(|bytes| memory("saved", SAVED, bytes));
+        memory("state", STATE, self.library.state) + &saved.unwrap_or_default()
     }
 
     /// Definitions by which a header and the library of another bake do not link.
@@ -160,14 +165,15 @@ impl Header<'_> {
         let mark = &self.library.mark;
         let define =
             |own: &str| format!("#define name_{own} name_{}\n", as_is(&format!("{own}{mark}")));
-        let names: String = EXPORTS.into_iter().chain(EXPORTS_WITHIN).map(define).collect();
+        let names: String = exports(self.library.saved.is_some()).into_iter().map(define).collect();
         format!("{MARKS}{names}")
     }
 
     fn functions(&self) -> String {
         let empty = self.api.inputs.is_empty();
         let inputs = if empty { "" } else { INPUT_VALUES };
-        format!("{}{FUNCTIONS}{inputs}", self.marks())
+        let in_time = if self.library.saved.is_some() { IN_TIME } else { "" };
+        format!("{}{FUNCTIONS}{in_time}{inputs}", self.marks())
     }
 }
 
@@ -183,6 +189,17 @@ fn structure(name: &str, doc: &str, items: &[Item], more: impl Iterator<Item = S
         let _ = writeln!(text, "    name_scalar {};", as_is(&field(&item.identifier)));
     }
     text + &format!("}} {name};\n")
+}
+
+/// An array of words with the size and the alignment of a struct of the library.
+fn memory(name: &str, doc: &str, bytes: usize) -> String {
+    let (words, constant) = (bytes / 8, format!("NAME_{}_BYTES", name.to_uppercase()));
+    format!(
+        "{doc}typedef struct name_{name} {{\n    uint64_t words[{words}];\n}} name_{name};\n\n#define {constant} {bytes}u\n\
+         NAME_ASSERT(sizeof(name_{name}) == {constant}, {name}_has_the_size_of_the_library);\n\
+         struct name_aligned_{name} {{\n    char byte;\n    name_{name} words;\n}};\n\
+         NAME_ASSERT(offsetof(struct name_aligned_{name}, words) == 8, {name}_has_the_alignment_of_the_library);\n"
+    )
 }
 
 /// An enumeration in 32 bits, whatever -fshort-enums says.

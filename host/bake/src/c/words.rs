@@ -65,6 +65,11 @@ pub(super) const STATE: &str = "
  * and writes nowhere else. */
 ";
 
+pub(super) const SAVED: &str = "
+/* What one tick hands on to the next, sealed: less than a state, and good for another controller of the same scene, too, in Rust or
+ * in C. It depends on no address, and goes with its bytes. */
+";
+
 pub(super) const MARKS: &str = "
 /* The names in the library: a program with the header of one bake and the library of another does not link. */
 ";
@@ -111,7 +116,7 @@ name_error name_tick_within(name_state *state, const name_inputs *inputs, const 
 name_error name_between(const name_state *state, const name_outputs *outputs, const name_report *report,
                         name_outputs *least, name_outputs *most);
 
-/* Forgets all ticks: the next one is the first again. The state is sealed. */
+/* Forgets all ticks: the next one is the first again, and a step in time begins from the start. The state is sealed. */
 name_error name_reset(name_state *state);
 
 /* Puts the checksum into a state, so that name_check_state can tell it from any other bytes. A tick breaks the seal. */
@@ -132,6 +137,21 @@ void name_clamp(name_inputs *inputs);
 const char *name_error_name(name_error error);
 const char *name_status_name(name_status status);
 const char *name_bounded_name(name_bounded bounded);
+";
+
+pub(super) const IN_TIME: &str = "
+/* Puts what the next tick takes from the last one into `saved`. Before the first tick that is the start. */
+name_error name_save(const name_state *state, name_saved *saved);
+
+/* Goes on from there, with the bits that the controller would have had that was saved, in the bound of the evolution too. The state,
+ * which name_init has made, is sealed then. NAME_FOREIGN_STATE says that `saved` is one of another scene, or any other bytes, and
+ * NAME_DAMAGED_STATE that its bytes have changed: then the state has not, and goes on as if nobody had asked. */
+name_error name_restore(name_state *state, const name_saved *saved);
+
+/* The bound of the evolution from the start until the end of the last tick, in the unit of the report's: the mean over time of
+ * the square of the energy error of u is at most energy * energy. Its weights fade into the past, and reach back `seconds`. Both
+ * are infinite where there is no such bound. Either may be null. */
+name_error name_window(const name_state *state, name_scalar *energy, name_scalar *seconds);
 ";
 
 pub(super) const INPUT_VALUES: &str = "

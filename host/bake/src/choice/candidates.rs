@@ -102,15 +102,18 @@ fn condensed_as<R: Scalar>(
     let condensate = origin.model();
     let unfit = unfit::<R>(scene);
     let all = allowed(setting, condensate, exact);
-    let baked = match &origin.modes {
-        Some(modes) => condensed::Baked::<R>::modal(modes, all, certified),
-        None => condensed::Baked::<R>::new(condensate, all, certified),
+    let baked = match (&origin.modes, &origin.steps) {
+        (Some(modes), _) => condensed::Baked::<R>::modal(modes, all, certified),
+        (None, Some(steps)) => condensed::Baked::<R>::stepped(steps, all, certified),
+        (None, None) => condensed::Baked::<R>::new(condensate, all, certified),
     };
     let baked = baked.map_err(unfit)?;
     let mut baked = baked.with_setting(setting);
     baked.exclusions = exclusions(&origin.exclusions);
     let costs = Costs::measured();
-    let price = baked.price(entries(condensate, baked.modes.as_ref()), exact);
+    let of_states =
+        baked.steps.as_ref().map_or(0, |of| of.count() * (condensate.contact + baked.inputs));
+    let price = baked.price(entries(condensate, baked.modes.as_ref()) + of_states, exact);
     let spaces = condensate.defaults.iter().zip(&condensate.ranges).take(baked.inputs).skip(1);
     let spaces: Vec<_> = spaces.map(|(&default, &range)| InputSpace { default, range }).collect();
     let of_tick = |done: &Done| price.of::<R>(&costs, done);
@@ -144,7 +147,11 @@ fn condensed_as<R: Scalar>(
         (_, true) => "exact method",
         (_, false) => "sweeps alone",
     };
-    let modes = if baked.modes.is_some() { " by modes" } else { "" };
+    let modes = match (&baked.modes, &baked.steps) {
+        (Some(_), _) => " by modes".to_owned(),
+        (None, Some(steps)) => format!(" with {} states", steps.count()),
+        (None, None) => String::new(),
+    };
     let bound = if baked.without_bound().is_none() { "" } else { ", no error bound" };
     Ok(Candidate {
         name: format!("condensed{modes}, {solver}{bound}"),

@@ -20,7 +20,7 @@ use super::range::{refuse_answers, refuse_inputs, refuse_lengths, refuse_loads, 
 use super::trial::Trial;
 use super::{condensed, full};
 use advice::too_large;
-use candidates::of_condensed;
+use candidates::{of_condensed, time};
 use meshes::of_full;
 pub use origin::Origin;
 use signorini_condense::CondensedModel;
@@ -29,7 +29,7 @@ use signorini_problem::{Approach, Lack, Problem, Property};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
-use signorini_scene::setting::ModelKind;
+use signorini_scene::setting::{ModelKind, Setting};
 use signorini_solve::choose_for_inputs;
 
 /// Contact edges beyond which nothing is condensed: the work on this machine grows like n³.
@@ -141,16 +141,15 @@ impl<R: Scalar> Choice<R> {
         let budget = Budget::of(&problem.scene);
         let setting = problem.scene.setting.unwrap_or_default();
         let (asked, compared) = (wanted.model.or(setting.model_kind()), wanted.is_compared);
-        let forced = if problem.scene.stores() { Some(stepping(problem, asked)?) } else { asked };
+        let forced = asked;
+        let stores = problem.scene.stores();
+        refuse_memory(&problem.scene, &setting)?;
         if let Some((model, key)) =
             forced.and_then(|model| Some((model, setting.foreign_to(model)?)))
         {
             return Err(foreign(&problem.scene, model, key).into());
         }
         let (mut candidates, mut excluded, mut origin) = (Vec::new(), Vec::new(), None);
-        if asked.is_none() && forced.is_some() {
-            excluded.push(format!("condensed: {}", problem.no_steps().message()));
-        }
         let units = choose_for_inputs(problem)?;
         refuse_answers::<R>(&problem.scene, &units)?;
         refuse_lengths::<R>(problem)?;
@@ -163,9 +162,13 @@ impl<R: Scalar> Choice<R> {
             excluded.push(format!("condensed: {why}"));
         } else if forced != Some(ModelKind::Full) {
             refuse_squares::<f64>(&problem.scene, &units)?;
-            // What modes refuse, a pattern of two signs say, the full model can treat.
-            let is_modal = Approach::condensing(problem) == Approach::Modes;
-            match Origin::new(problem, wanted, negligible::<R>()) {
+            // What modes refuse, a pattern of two signs say, the full model can treat, and so it can many cells that store something.
+            let may_be_full = Approach::condensing(problem) != Approach::Condensation;
+            let origin_of = || match stores {
+                true => Origin::stepped(problem, &setting),
+                false => Origin::new(problem, wanted, negligible::<R>()),
+            };
+            match origin_of() {
                 Ok(own) => {
                     refuse_inputs::<R>(&problem.scene)?;
                     refuse_loads::<R>(&problem.scene, own.model())?;
@@ -175,13 +178,15 @@ impl<R: Scalar> Choice<R> {
                         Err(error) => excluded.push(format!("condensed: {error}")),
                     }
                 }
-                Err(error) if forced.is_some() || !is_modal => return Err(error),
+                Err(error) if forced.is_some() || !may_be_full => return Err(error),
                 Err(error) => excluded.push(format!("condensed: {error}")),
             }
         }
         let fits = candidates.iter().any(Candidate::has_all);
         let large = candidates.iter().any(|candidate| candidate.needs.flash > LARGE);
-        if forced == Some(ModelKind::Full) || (forced.is_none() && (compared || !fits || large)) {
+        if forced == Some(ModelKind::Full)
+            || (forced.is_none() && (compared || !fits || large || stores))
+        {
             match of_full(problem, units, &budget, &mut excluded) {
                 Ok(mut found) => {
                     // A deadline cuts its sweeps off, and its bound tells what is left: who asks for it is warned of
@@ -200,7 +205,12 @@ impl<R: Scalar> Choice<R> {
         let first = candidates.iter().position(Candidate::has_all);
         let is_full = |candidate: &Candidate<R>| matches!(candidate.model, Model::Full(_));
         let full = candidates.iter().position(|of| is_full(of) && of.has_all());
+        let quicker = |(first, full): (usize, usize)| {
+            time(&candidates[full].needs) < time(&candidates[first].needs)
+        };
         let complete = match first.zip(full) {
+            // At short steps the full model takes a few sweeps.
+            Some(both) if stores && quicker(both) => full,
             Some((first, full)) if flash(&first) > LARGE && flash(&full) < flash(&first) => {
                 Some(full)
             }
@@ -243,12 +253,13 @@ fn negligible<R: Scalar>() -> f64 {
     (8.0 * R::EPSILON.wide()).powi(2)
 }
 
-/// The model of a scene that steps in time: the full one.
-fn stepping(problem: &Problem, asked: Option<ModelKind>) -> Result<ModelKind> {
-    match asked {
-        Some(ModelKind::Condensed) => Err(problem.no_steps().into()),
-        _ => Ok(ModelKind::Full),
+/// Refuses states of a scene that steps in no time.
+fn refuse_memory(scene: &Scene, setting: &Setting) -> Result<()> {
+    if scene.stores() || setting.memory.is_none() {
+        return Ok(());
     }
+    let message = "setting.memory: no material has a capacity, so that ticks are no steps in time";
+    Err(InputError::new(message).file(&scene.path).hint("remove it").into())
 }
 
 /// Why no condensed model is worked out where nobody asks for one, if so.

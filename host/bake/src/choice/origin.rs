@@ -4,14 +4,21 @@ use std::collections::BTreeMap;
 
 use super::Wanted;
 use signorini_condense::ranges::follow::FollowedRanges;
+use signorini_condense::ranges::lasting::{Unproved, lasting};
 use signorini_condense::ranges::reduced::Reduced;
 use signorini_condense::ranges::released::released;
 use signorini_condense::ranges::sides::Sides;
-use signorini_condense::{CondensedModel, ModalModel, Recovery, modal, recoverable};
+use signorini_condense::{
+    CondensedModel, ModalModel, Recovery, SteppedModel, modal, recoverable, stepped,
+};
 use signorini_problem::{Approach, Exclusion, Problem};
 use signorini_reference::ReferenceError;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
+use signorini_scene::setting::Setting;
+
+/// Roundings by which a row may be off in exact steps.
+const ROUNDINGS: f64 = 16.0;
 
 /// What condensed candidates were made of, with the way back to the mesh.
 #[derive(Debug)]
@@ -20,8 +27,10 @@ pub struct Origin {
     pub whole: CondensedModel,
     /// From its answers to fields on the mesh.
     pub recovery: Recovery,
-    /// The sides that its edges are on for all inputs within their ranges.
+    /// The sides that its edges are on for all inputs within their ranges; where ticks are steps in time, in all exact ones on the mesh.
     pub sides: Sides,
+    /// Why nothing is proved of sides in all steps.
+    pub unproved: Option<Unproved>,
     /// Without the edges that never change, where there are any and they may be taken out.
     pub reduced: Option<Reduced>,
     /// Vertices at which s is above ψ in every tick, and by how much at least.
@@ -30,13 +39,44 @@ pub struct Origin {
     pub has_all_edges: bool,
     /// Where an input changes a transfer coefficient, the modes of that; `whole` is the model at its least value then.
     pub modes: Option<ModalModel>,
-    /// What is proved of those for all values of the coefficient.
+    /// Where ticks are steps in time, what one hands on to the next; `whole` is the model of one step then.
+    pub steps: Option<SteppedModel>,
+    /// What is proved of those modes for all values of the coefficient.
     pub followed: Option<FollowedRanges>,
     /// Conditions that inputs without a range have to meet.
     pub exclusions: Vec<Exclusion>,
 }
 
 impl Origin {
+    /// Of steps in time with the states that `setting` asks for. All edges stay: few states may move answers beyond what is proved of all.
+    pub(super) fn stepped(problem: &Problem, setting: &Setting) -> Result<Self> {
+        let (of, recovery) = stepped(problem, setting.memory.map(|states| states as usize))?;
+        if let Some(why) = of.model.certificate.as_ref().err().filter(|_| setting.certificate) {
+            let error = InputError::new(format!("there is no error bound: {why}"));
+            let hint = "certificate = false in [setting] leaves the bound out";
+            return Err(error.file(&problem.scene.path).hint(hint).into());
+        }
+        let failed = |error: ReferenceError| no_reference(&problem.scene, &error);
+        let (sides, unproved) =
+            match lasting(&of, &of.full, ROUNDINGS * f64::EPSILON).map_err(failed)? {
+                Ok(sides) => (sides, None),
+                Err(why) => (Sides::unproved(&of.model), Some(why)),
+            };
+        Ok(Self {
+            sides,
+            unproved,
+            whole: of.model.clone(),
+            recovery,
+            reduced: None,
+            clear: BTreeMap::new(),
+            has_all_edges: true,
+            modes: None,
+            steps: Some(of),
+            followed: None,
+            exclusions: problem.exclusions(),
+        })
+    }
+
     /// Shares of modes up to `negligible` are left out.
     pub(super) fn new(problem: &Problem, wanted: Wanted, negligible: f64) -> Result<Self> {
         let (whole, recovery, modes) = match Approach::condensing(problem) {
@@ -73,10 +113,12 @@ impl Origin {
             whole,
             recovery,
             sides,
+            unproved: None,
             reduced,
             clear,
             has_all_edges,
             modes,
+            steps: None,
             followed,
             exclusions,
         })
@@ -87,11 +129,18 @@ impl Origin {
         self.reduced.as_ref().map_or(&self.whole, |reduced| &reduced.model)
     }
 
-    /// The inputs of the whole model with these x: those of the scene, the constant first, and amplitudes where there are modes.
+    /// The inputs of the whole model with these x: those of the scene, the constant first, and amplitudes where there are
+    /// modes; of steps in time what the last tick has left is among them.
     pub fn inputs(&self, p: Vec<f64>, x: &[f64]) -> Vec<f64> {
-        match &self.modes {
-            Some(modes) => modes.amplitudes(p[modes.input], &p, x),
-            None => p,
+        match (&self.modes, &self.steps) {
+            (Some(modes), _) => modes.amplitudes(p[modes.input], &p, x),
+            // Without its bound a controller hands no corrections on.
+            (None, Some(_)) => {
+                let mut p = p;
+                p.resize(self.whole.inputs, 0.0);
+                p
+            }
+            (None, None) => p,
         }
     }
 

@@ -10,11 +10,12 @@ use signorini_kernel::{Error, error::Array};
 
 use super::balance::Balance;
 use super::bound::{Bound, Ends};
-use super::modes::{Modes, Scaled};
+use super::modes::Modes;
 use super::start::{InitialState, best_omega};
+use super::steps::Steps;
 use crate::narrow::{filled_up, is_monotone, matrix, narrow, pairs, spans};
 use crate::room::Room;
-use signorini_condense::{CondensedModel, ModalModel};
+use signorini_condense::CondensedModel;
 use signorini_image::chosen::WorstCase;
 use signorini_problem::inputs::ranges;
 use signorini_problem::scalar::Scalar;
@@ -51,6 +52,8 @@ pub struct Baked<R: Scalar> {
     pub inputs: usize,
     /// The modes of the transfer coefficient that an input changes.
     pub modes: Option<Modes<R>>,
+    /// What a step in time hands on to the next.
+    pub steps: Option<Steps<R>>,
     /// The limits of the solver.
     pub work: Work,
     /// The factor of the sweeps and when they end.
@@ -89,6 +92,19 @@ impl<R: Scalar> Baked<R> {
     /// Numbers that the scalar type cannot hold.
     pub fn new(condensate: &CondensedModel, work: Work, certified: bool) -> Result<Self, Error> {
         let n = condensate.contact;
+        // Where the default inputs have no solution, everything touches.
+        let x = condensate.solve(&condensate.defaults).unwrap_or_else(|_| vec![0.0; n]);
+        Self::beginning(condensate, &x, work, certified)
+    }
+
+    /// The same from `x`, in which the first tick begins.
+    pub(super) fn beginning(
+        condensate: &CondensedModel,
+        x: &[f64],
+        work: Work,
+        certified: bool,
+    ) -> Result<Self, Error> {
+        let n = condensate.contact;
         let bound = match &condensate.certificate {
             Err(reason) => Err(reason.clone()),
             Ok(_) if !certified => Err("certificate = false leaves it out".to_owned()),
@@ -101,6 +117,7 @@ impl<R: Scalar> Baked<R> {
             contact: n,
             inputs: condensate.inputs,
             modes: None,
+            steps: None,
             work,
             sweeps: Sweeps { omega, tolerance, most: work.sweeps },
             cold: false,
@@ -108,7 +125,7 @@ impl<R: Scalar> Baked<R> {
             is_monotone: is_monotone::<R>(condensate),
             worst_instructions: None,
             matrix: matrix(condensate),
-            start: InitialState::new(condensate, n > 0 && work.pivots.is_some())?,
+            start: InitialState::new(condensate, x, n > 0 && work.pivots.is_some())?,
             load: condensate.load.iter().flat_map(|column| filled_up(column)).collect(),
             limits: pairs(&condensate.limits),
             spans: spans(condensate)?,
@@ -118,32 +135,6 @@ impl<R: Scalar> Baked<R> {
             exclusions: Vec::new(),
             outputs: condensate.outputs.iter().map(|of| of.map(|c| narrow(c), R::narrow)).collect(),
             bound,
-        };
-        baked.check().map(|()| baked)
-    }
-
-    /// Narrows a model of modes in the same way.
-    ///
-    /// # Errors
-    /// As for [`Baked::new`].
-    pub fn modal(of: &ModalModel, work: Work, certified: bool) -> Result<Self, Error> {
-        let scaled = Scaled::new(of);
-        let baked = Self::new(&scaled.model, Work { pivots: None, ..work }, certified)?;
-        let modes = scaled.modes(baked.bound.is_ok());
-        let now = of.in_own_scale(of.model.defaults[of.input]);
-        let omega = R::narrow(best_omega(&now, modes.diagonal));
-        let mut bound = baked.bound;
-        bound.iter_mut().for_each(|bound| scaled.tell(bound));
-        let baked = Self {
-            inputs: of.inputs,
-            work,
-            sweeps: Sweeps { omega, ..baked.sweeps },
-            is_monotone: modes.is_monotone,
-            start: InitialState::at(&scaled.x),
-            ranges: ranges(of.model.ranges.get(1..of.inputs).unwrap_or_default()),
-            modes: Some(modes),
-            bound,
-            ..baked
         };
         baked.check().map(|()| baked)
     }
@@ -182,11 +173,13 @@ impl<R: Scalar> Baked<R> {
         }
     }
 
-    /// What no tick exceeds, and whether that is proved: it is not where an input has no range.
+    /// What no tick exceeds, and whether that is proved. It is not where an input has no range, whose loads the scalar may not hold. Of
+    /// steps in time it is, whatever the ranges: what a step begins from has none, and loads that the scalar cannot hold are refused
+    /// before any exchange.
     pub fn worst_case(&self) -> WorstCase {
         let is_finite = |[lo, hi]: &[R; 2]| lo.finite() && hi.finite();
         let has_ranges = self.inputs == 1 || !self.ranges.is_empty();
-        let is_bounded = has_ranges && self.ranges.iter().all(is_finite);
+        let is_bounded = has_ranges && self.ranges.iter().all(is_finite) || self.steps.is_some();
         match self.worst_exchanges() {
             Some(most) => WorstCase {
                 exchanges: Some(most),
@@ -278,12 +271,15 @@ impl<R: Scalar> Baked<R> {
         })
     }
 
-    fn check(&self) -> Result<(), Error> {
+    /// `Ok` where the scalar holds all numbers.
+    pub(super) fn check(&self) -> Result<(), Error> {
         let finite = |of, numbers: &[R]| match numbers.iter().position(|x| !x.finite()) {
             Some(at) => Err(Error::NotFinite { of, at }),
             None => Ok(()),
         };
         finite(Array::Load, &self.load)?;
+        let steps = self.steps.iter().flat_map(Steps::numbers);
+        steps.into_iter().try_for_each(|numbers| finite(Array::Coefficients, numbers))?;
         for output in &self.outputs {
             for numbers in output.columns() {
                 finite(Array::Fluxes, numbers)?;

@@ -1,21 +1,20 @@
 //! What the baked module does, on this machine and on the same numbers.
 
-use signorini_contact::Condensed;
-use signorini_contact::dense::Iterate;
-use signorini_contact::dense::blocks::{Block, Blocks, SIDE, count, padded};
-use signorini_contact::dense::ranges::Given;
-use signorini_contact::method::{Linear, Method, Pivots, SolveSummary, Sweeps, TwoPhases};
+use signorini_contact::dense::blocks::{Block, SIDE, count, padded};
 use signorini_contact::modes::ModalStorage;
+use signorini_contact::steps::StepStorage;
 use signorini_contact::storage::{Storage, TableauStorage};
-use signorini_device::condensed::{ControllerStorage, Effort, Solver};
-use signorini_device::controller::{self, Answer, Outputs, Scene};
+use signorini_device::condensed::{ControllerStorage, Effort};
+use signorini_device::controller::{self, Answer, Outputs, Scene, Window};
 use signorini_kernel::Error;
 use signorini_kernel::limits::{Deadline, Limits};
 use signorini_kernel::report::Report;
 
-use super::arrays::{self, Baked};
+use super::arrays::Baked;
+use super::solver::DeskSolver;
 use super::visited::Visited;
 use crate::desk::{Terms, Values};
+use crate::state;
 use signorini_problem::scalar::Scalar;
 
 /// The controller of a condensed scene.
@@ -46,7 +45,7 @@ impl<'b, R: Scalar> Controller<'b, R> {
         let shared = self.own.storage().shared();
         let visited = Visited::new::<R>(shared.open(), shared.combination());
         match self.own.storage() {
-            DeskStorage::Plain(_) => visited,
+            DeskStorage::Plain(_) | DeskStorage::Stepped(_) => visited,
             DeskStorage::Modal(of) => Visited { follows: of.solver.has_begun_anew, ..visited },
         }
     }
@@ -59,11 +58,54 @@ impl<'b, R: Scalar> Controller<'b, R> {
     /// The amplitudes of the last tick, where there are modes.
     pub fn amplitudes(&self) -> &[R] {
         match self.own.storage() {
-            DeskStorage::Plain(_) => &[],
+            DeskStorage::Plain(_) | DeskStorage::Stepped(_) => &[],
             DeskStorage::Modal(of) => {
                 of.iterate.inputs().get(self.baked.inputs..).unwrap_or_default()
             }
         }
+    }
+
+    /// What the last tick has left for the next one, in a model that steps in time.
+    pub fn past(&self) -> &[R] {
+        match (self.own.storage(), &self.baked.steps) {
+            (DeskStorage::Stepped(of), Some(steps)) => {
+                of.iterate.terms().map_or(&steps.begin, |terms| &terms[self.baked.inputs..])
+            }
+            _ => &[],
+        }
+    }
+
+    /// The bound of the evolution until the end of the last tick, of steps in time that have one.
+    pub fn window(&self) -> Option<Window<R>> {
+        self.own.window()
+    }
+
+    /// The bytes of the `State` that firmware has after the last tick of `scene`, by its number; nothing where ticks are no steps in time.
+    pub fn state(&self, scene: u64) -> Option<Vec<u8>> {
+        let DeskStorage::Stepped(of) = self.own.storage() else { return None };
+        let mut numbers = vec![R::ZERO; self.baked.handed_on()];
+        of.hand_on(&mut numbers);
+        Some(state::bytes(scene, &numbers))
+    }
+
+    /// Goes on from there.
+    ///
+    /// # Errors
+    /// The bytes of a state of another scene, or damaged ones: nothing has changed then.
+    pub fn restore(&mut self, scene: u64, bytes: &[u8]) -> Result<(), Error> {
+        let numbers: Vec<R> = state::numbers(scene, bytes)?;
+        match self.own.storage_mut() {
+            DeskStorage::Stepped(of) if numbers.len() == self.baked.handed_on() => {
+                of.take_over(&numbers);
+                Ok(())
+            }
+            _ => Err(Error::ForeignState),
+        }
+    }
+
+    /// Goes back to before the first tick.
+    pub fn reset(&mut self) {
+        self.own.reset();
     }
 
     /// The scaled openings of the last tick; before the first, those that it begins with.
@@ -106,12 +148,14 @@ impl<R: Scalar> Scene for Desk<'_, R> {
 
 /// Iterate and scratch.
 type Shared<R> = Storage<Vec<R>, Vec<u8>, Vec<R>, Vec<R>>;
+type Step<R> = StepStorage<Vec<R>, Vec<u8>, Vec<R>, Vec<R>, Vec<R>>;
 type Modal<R> = ModalStorage<Vec<R>, Vec<u8>, Vec<R>, Vec<R>, Vec<Block<R>>, Vec<R>, R>;
 
-/// The memory of either kind of model.
+/// The memory of each kind of model.
 #[derive(Debug)]
 enum DeskStorage<R: Scalar> {
     Plain(ControllerStorage<Shared<R>, DeskSolver<R>>),
+    Stepped(ControllerStorage<Step<R>, DeskSolver<R>>),
     Modal(ControllerStorage<Modal<R>, DeskSolver<R>>),
 }
 
@@ -126,10 +170,14 @@ impl<R: Scalar> DeskStorage<R> {
         baked.with_model(|model| _ = shared.memory(model));
         let tableau = TableauStorage::of(blocks.clone(), vec![0; n], [zeros(n), zeros(n)]);
         let solver = DeskSolver { solver: baked.solver(), tableau, has_begun_anew: false };
-        match &baked.modes {
-            None => Self::Plain(ControllerStorage { iterate: shared, solver }),
-            Some(modes) => {
-                let terms = zeros(baked.inputs + modes.count);
+        let terms = zeros(baked.terms());
+        match (&baked.modes, &baked.steps) {
+            (None, None) => Self::Plain(ControllerStorage { iterate: shared, solver }),
+            (None, Some(_)) => {
+                let iterate = StepStorage::of(shared, terms);
+                Self::Stepped(ControllerStorage { iterate, solver })
+            }
+            (Some(_), _) => {
                 let iterate = ModalStorage::of(shared, blocks, terms);
                 Self::Modal(ControllerStorage { iterate, solver })
             }
@@ -139,6 +187,7 @@ impl<R: Scalar> DeskStorage<R> {
     fn shared(&self) -> &Shared<R> {
         match self {
             Self::Plain(of) => &of.iterate,
+            Self::Stepped(of) => of.iterate.shared(),
             Self::Modal(of) => of.iterate.shared(),
         }
     }
@@ -151,8 +200,18 @@ impl<R: Scalar> controller::Storage<R> for DeskStorage<R> {
     fn reset(&mut self) {
         match self {
             Self::Plain(of) => of.reset(),
+            Self::Stepped(of) => of.reset(),
             Self::Modal(of) => of.reset(),
         }
+    }
+
+    fn window(&self, baked: &Baked<R>, (): &()) -> Option<Window<R>> {
+        let Self::Stepped(of) = self else { return None };
+        baked.with_model(|system| {
+            let steps = baked.steps.as_ref()?.view(system);
+            let [energy, seconds] = steps.window(of.iterate.terms())?;
+            Some(Window { energy, seconds })
+        })
     }
 
     fn tick<O: Outputs<R>, F: FnMut() -> u32>(
@@ -165,74 +224,17 @@ impl<R: Scalar> controller::Storage<R> for DeskStorage<R> {
     ) -> Result<Answer<O, R>, Error> {
         let pivots = baked.work.pivots.unwrap_or(0);
         let effort = &Effort { pivots, sweeps: baked.sweeps };
-        baked.with_model(|system| match (self, &baked.modes) {
-            (Self::Plain(of), _) => of.tick(system, effort, terms, limits, deadline),
-            (Self::Modal(of), Some(modes)) => {
+        baked.with_model(|system| match (self, &baked.modes, &baked.steps) {
+            (Self::Plain(of), ..) => of.tick(system, effort, terms, limits, deadline),
+            (Self::Stepped(of), _, Some(steps)) => {
+                of.tick(&steps.view(system), effort, terms, limits, deadline)
+            }
+            (Self::Modal(of), Some(modes), _) => {
                 of.solver.has_begun_anew = false;
                 let system = &modes.view(system);
                 of.tick(system, effort, terms, limits, deadline)
             }
-            (Self::Modal(_), None) => Err(Error::Relaxation),
+            (Self::Stepped(_) | Self::Modal(_), ..) => Err(Error::Relaxation),
         })
-    }
-}
-
-/// The method that the module has, chosen at run time.
-#[derive(Debug)]
-struct DeskSolver<R: Scalar> {
-    solver: arrays::Solver,
-    tableau: TableauStorage<Vec<Block<R>>, Vec<u8>, Vec<R>>,
-    /// Whether this tick has another matrix than the one before.
-    has_begun_anew: bool,
-}
-
-impl<R: Scalar> Solver<R> for DeskSolver<R> {
-    type Method<'a> = DeskMethod<'a, R>;
-
-    fn method<'a>(
-        &'a mut self,
-        model: &Condensed<'a, R>,
-        pivots: u32,
-        sweeps: Sweeps<R>,
-    ) -> Result<DeskMethod<'a, R>, Error> {
-        let tableau = &mut self.tableau;
-        Ok(match self.solver {
-            arrays::Solver::Linear => DeskMethod::Linear,
-            arrays::Solver::Sweeps => DeskMethod::Sweeps(sweeps),
-            arrays::Solver::TwoPhases => DeskMethod::TwoPhases(tableau.two_phases(model)?),
-            arrays::Solver::Exchanges(_) => {
-                DeskMethod::Pivots(tableau.method(model, pivots, sweeps)?)
-            }
-        })
-    }
-
-    fn reset(&mut self) {
-        self.tableau.reset();
-        self.has_begun_anew = true;
-    }
-}
-
-/// One of the methods.
-enum DeskMethod<'a, R> {
-    Linear,
-    Sweeps(Sweeps<R>),
-    Pivots(Pivots<'a, R>),
-    TwoPhases(TwoPhases<'a, R>),
-}
-
-impl<R: Scalar> Method<R> for DeskMethod<'_, R> {
-    fn solve<F: FnMut() -> u32>(
-        &mut self,
-        matrix: &Blocks<R>,
-        given: Given<R>,
-        iterate: Iterate<R>,
-        deadline: &mut Deadline<F>,
-    ) -> Result<SolveSummary, Error> {
-        match self {
-            Self::Linear => Linear.solve(matrix, given, iterate, deadline),
-            Self::Sweeps(method) => method.solve(matrix, given, iterate, deadline),
-            Self::Pivots(method) => method.solve(matrix, given, iterate, deadline),
-            Self::TwoPhases(method) => method.solve(matrix, given, iterate, deadline),
-        }
     }
 }

@@ -14,7 +14,7 @@
 mod tests;
 
 use signorini_condense::ranges::split::Split;
-use signorini_condense::{CondensedModel, LawsForm, Measure, ModalModel};
+use signorini_condense::{CondensedModel, LawsForm, ModalModel};
 use signorini_contact::Condensed;
 use signorini_contact::modes::Modal;
 use signorini_problem::scalar::Scalar;
@@ -104,10 +104,10 @@ impl<'m> Scaled<'m> {
         let alphas: Vec<Vec<f64>> = of.of_contact.iter().map(scaled).collect();
         let now = of.in_own_scale(of.model.defaults[of.input]);
         let mut model = of.model.clone();
+        model.scale_inputs(of.inputs..of.model.inputs, root * energy);
         model.load.truncate(of.inputs);
         model.spans.truncate(of.inputs);
         model.load.extend(alphas);
-        rescale(&mut model, of.inputs, root * energy);
         let compliance: Vec<f64> = of.compliance.iter().map(|nu| unit * nu).collect();
         let most = change / unit;
         Self {
@@ -217,20 +217,4 @@ impl<'m> Scaled<'m> {
         let none = vec![0.0; modes];
         bound.largest_load = narrow(&(0..m).map(largest).chain(none).collect::<Vec<_>>());
     }
-}
-
-/// Columns of amplitudes, which follow `inputs`, times `unit`.
-fn rescale(model: &mut CondensedModel, inputs: usize, unit: f64) {
-    let modes = inputs..model.inputs;
-    for measure in &mut model.outputs {
-        if let Measure::Linear { of_inputs, .. } | Measure::Flux { of_inputs, .. } = measure {
-            of_inputs.iter_mut().skip(inputs).for_each(|factor| *factor *= unit);
-        }
-    }
-    let Ok(form) = &mut model.certificate else { return };
-    let of_modes = modes.start * (modes.start + 1) / 2..modes.end * (modes.end + 1) / 2;
-    for factor in std::iter::once(&mut form.factor).chain(&mut form.jump) {
-        factor[of_modes.clone()].iter_mut().for_each(|entry| *entry *= unit);
-    }
-    form.lost[modes].iter_mut().for_each(|lost| *lost *= unit);
 }

@@ -4,6 +4,7 @@ use signorini_contact::dense::blocks::{count, padded};
 
 use super::arrays::{Baked, Solver};
 use super::statics::written;
+use super::steps::Steps;
 use crate::dense::Price;
 use crate::full::Sizes;
 use signorini_problem::scalar::Scalar;
@@ -24,8 +25,21 @@ impl<R: Scalar> Baked<R> {
             exact,
             is_limited: self.is_limited(),
             forms: bound.map_or(0, |bound| 1 + usize::from(bound.jump.is_some()) + laws),
+            changes: self.steps.as_ref().map_or(0, Steps::changes),
             modes: self.modes.as_ref().map_or(0, |modes| modes.count),
+            handed_on: self.steps.as_ref().map_or(0, |_| self.terms()),
         }
+    }
+
+    /// How many numbers one tick hands on to the next: a flag, the terms, and the tableau with two flags or none.
+    pub fn handed_on(&self) -> usize {
+        let tableau = match self.solver() {
+            Solver::Exchanges(_) | Solver::TwoPhases => {
+                1 + BLOCK * count(self.contact) + padded(self.contact)
+            }
+            Solver::Linear | Solver::Sweeps => 0,
+        };
+        1 + self.terms() + tableau
     }
 
     /// Bytes that modes take beside the bound.
@@ -48,7 +62,10 @@ impl<R: Scalar> Baked<R> {
         };
         let exact = self.work.pivots.is_some();
         let tableau = without(&|other| other.work.pivots = None);
-        let of_bound = without(&|other| other.bound = Err(String::new()));
+        let of_bound = without(&|other| {
+            other.bound = Err(String::new());
+            other.steps.iter_mut().for_each(Steps::forget_evolution);
+        });
         let corners = self.bound.as_ref().map_or(0, |bound| bound.corners.len());
         let floating = self.bound.as_ref().is_ok_and(|bound| !bound.floating.is_empty());
         let scalar = size_of::<R>();
@@ -65,9 +82,22 @@ impl<R: Scalar> Baked<R> {
                 let all = of.count + of.left_out;
                 format!("{} of {all} modes of the coefficient's boundary kept", of.count)
             });
+        let steps = self.steps.as_ref();
+        let states = steps.map_or("no material stores anything".to_owned(), |of| {
+            format!("{} states of the {} that the mesh has", of.count(), of.modes)
+        });
+        let of_steps = steps.map_or(0, |of| {
+            let of_load = self.load.len() - self.inputs * n;
+            (of_load + of.fading.len() + of.of_inputs.len() + of.begin.len() + self.terms())
+                * scalar
+        });
         let bound = self.bound.as_ref().map_or_else(String::clone, |bound| {
             let forms = if self.modes.is_some() { "factors" } else { "a factor" };
-            format!("{forms} of {} columns", bound.factor.norms.len())
+            let changes = match self.steps.as_ref().map_or(0, Steps::changes) {
+                0 => String::new(),
+                columns => format!(", and two of {columns} for what a step changes"),
+            };
+            format!("{forms} of {} columns{changes}", bound.factor.norms.len())
         });
         let spans = match self.varying_spans() {
             _ if !self.is_limited() => "no flux has a limit",
@@ -85,6 +115,7 @@ impl<R: Scalar> Baked<R> {
             ("exact method", exact, tableau, method.to_owned()),
             ("inputs", self.inputs > 1, self.inputs * n * scalar, inputs),
             ("modes", self.modes.is_some(), self.of_modes(), modes),
+            ("steps in time", steps.is_some(), of_steps, states),
             ("error bound", self.bound.is_ok(), of_bound, bound),
             ("limits of fluxes", self.is_limited(), self.spans.len() * scalar, spans.to_owned()),
             ("corners", corners > 0, corners * self.inputs * scalar, above),
@@ -107,9 +138,12 @@ pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
     let modes = baked.modes.as_ref();
     let followed =
         modes.map_or(0, |modes| BLOCK * count(baked.contact) + baked.inputs + modes.count + 2);
+    let steps = baked.steps.as_ref().map_or(0, |_| baked.terms() + 1);
     // A flag takes a number's room, as arrays end where a number may begin.
     Sizes {
-        ram: (4 * n + 2 * columns + baked.varying_spans() + followed + 1) * scalar + n + tableau,
+        ram: (4 * n + 2 * columns + baked.varying_spans() + followed + steps + 1) * scalar
+            + n
+            + tableau,
         flash: written(std::iter::repeat(""), baked).bytes,
     }
 }

@@ -7,7 +7,7 @@ use signorini_contact::dense::blocks::{count, padded};
 use super::arrays::{Baked, Solver};
 use super::sizes::sizes;
 use super::statics::{self, written};
-use crate::controller::{self, Parts};
+use crate::controller::{self, Parts, state};
 use crate::module_api::ModuleApi;
 use crate::text::imports;
 use signorini_problem::scalar::Scalar;
@@ -28,7 +28,10 @@ pub fn source<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         bytes.flash
     );
     let mut text = face.source::<R>("condensed", about, &baked.kernel_features());
-    let own = constants(baked) + &controller(face, baked);
+    let mut own = constants(baked) + &controller(face, baked);
+    if baked.steps.is_some() {
+        own += &state(baked.handed_on());
+    }
     text += &imports(NAMES, &own, "");
     let outputs = face.outputs.iter().map(|item| item.identifier.as_str());
     text + &own + &written(outputs, baked).module(statics::NAMES, "Scalar")
@@ -38,7 +41,7 @@ pub fn source<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
 const NAMES: &str = "\
     condensed::ControllerStorage condensed::Exchanges condensed::Phased condensed::Effort \
     condensed::Swept contact::method::Linear contact::method::Sweeps \
-    contact::modes::ArrayModalStorage contact::storage::ArrayStorage \
+    contact::modes::ArrayModalStorage contact::steps::ArrayStepStorage contact::storage::ArrayStorage \
     contact::storage::ArrayTableauStorage";
 
 fn constants<R: Scalar>(baked: &Baked<R>) -> String {
@@ -57,12 +60,13 @@ const COLUMNS: usize = {columns};
     );
     let mut blocks =
         format!("/// Blocks of the tableau.\nconst BLOCKS: usize = {};\n", count(contact));
-    if let Some(modes) = &baked.modes {
-        let terms = baked.inputs + modes.count;
+    let terms = format!("const TERMS: usize = {};\n", baked.terms());
+    if baked.modes.is_some() {
         text += &blocks.replace("the tableau", "the matrix");
-        let _ =
-            write!(text, "/// The constant, inputs and modes.\nconst TERMS: usize = {terms};\n");
+        text += &format!("/// The constant, inputs and modes.\n{terms}");
         blocks.clear();
+    } else if baked.steps.is_some() {
+        text += &format!("/// The constant, inputs, and what a tick leaves to the next.\n{terms}");
     }
     let purpose = match baked.solver() {
         Solver::Linear => return text,
@@ -108,7 +112,10 @@ fn controller<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         Solver::Exchanges(_) => "Effort { pivots: PIVOTS, sweeps: SWEEPS }",
     };
     let text = controller::controller(&Parts {
-        first: "begins with the answer to the scene's own inputs",
+        first: match &baked.steps {
+            None => "begins with the answer to the scene's own inputs",
+            Some(_) => "is a step from the start",
+        },
         from: match baked.cold {
             true => "from the answer to the scene's own inputs",
             false => "from where the last tick ended",
@@ -127,9 +134,10 @@ fn controller<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
 
 /// The type of the memory, and what it is before the first tick.
 fn memory<R: Scalar>(baked: &Baked<R>) -> (String, String) {
-    let (kind, sizes) = match baked.modes {
-        Some(_) => ("ArrayModalStorage", "PADDED, COLUMNS, BLOCKS, TERMS"),
-        None => ("ArrayStorage", "PADDED, COLUMNS"),
+    let (kind, sizes) = match (&baked.modes, &baked.steps) {
+        (Some(_), _) => ("ArrayModalStorage", "PADDED, COLUMNS, BLOCKS, TERMS"),
+        (None, Some(_)) => ("ArrayStepStorage", "PADDED, COLUMNS, TERMS"),
+        (None, None) => ("ArrayStorage", "PADDED, COLUMNS"),
     };
     let spans = if baked.varying_spans() > 0 { ", PADDED" } else { "" };
     let tableau = "ArrayTableauStorage<Scalar, PADDED, BLOCKS>";

@@ -24,12 +24,11 @@ pub(super) struct InitialState<R> {
 }
 
 impl<R: Scalar> InitialState<R> {
-    /// Where the default inputs have no solution, everything touches.
-    pub fn new(condensate: &CondensedModel, is_exact: bool) -> Result<Self, Error> {
+    /// Of `x`, with a tableau for the exact method.
+    pub fn new(condensate: &CondensedModel, x: &[f64], is_exact: bool) -> Result<Self, Error> {
         let n = condensate.contact;
-        let x = condensate.solve(&condensate.defaults).unwrap_or_else(|_| vec![0.0; n]);
         if !is_exact {
-            return Ok(Self { x: filled_up(&x), blocks: Vec::new(), exchanged: Vec::new() });
+            return Ok(Self::at(x));
         }
         let mut blocks = vec![[[0.0; SIDE]; SIDE]; count(n)];
         let mut exchanged = vec![false; padded(n)];
@@ -43,7 +42,7 @@ impl<R: Scalar> InitialState<R> {
         }
         let narrow = |block: &Block<f64>| block.map(|row| row.map(R::narrow));
         let blocks = tableau.blocks().iter().map(narrow).collect();
-        Ok(Self { x: filled_up(&x), blocks, exchanged })
+        Ok(Self { x: filled_up(x), blocks, exchanged })
     }
 
     /// x alone: exchanges begin with the matrix.

@@ -7,6 +7,8 @@ use signorini_contact::dense::blocks::Block;
 use signorini_contact::factor::Factor;
 use signorini_contact::modes::Modal;
 use signorini_contact::outputs::Measure;
+use signorini_contact::steps::Stepped;
+use signorini_contact::steps::evolution::Evolution;
 use signorini_contact::{Condensed, sides};
 
 use super::arrays::{Baked, Solver};
@@ -20,7 +22,8 @@ pub(super) const NAMES: &str = "\
     contact::Condensed contact::balance::Balance contact::certificate::Corner contact::certificate::Form \
     contact::certificate::Vertex contact::factor::Factor contact::modes::Modal \
     contact::outputs::Measure contact::sides::Baked contact::sides::Sides \
-    contact::spans::SpanColumns kernel::flux_range::Room contact::dense::tableau::InitialTableau";
+    contact::spans::SpanColumns contact::steps::Stepped contact::steps::evolution::Evolution \
+    kernel::evolution::Rates kernel::flux_range::Room contact::dense::tableau::InitialTableau";
 
 /// Everything in flash; `outputs` are their names.
 pub(super) fn written<'n, R: Scalar>(
@@ -30,9 +33,10 @@ pub(super) fn written<'n, R: Scalar>(
     let mut to = Statics::default();
     baked.with_model(|model| {
         let system = condensed(model, outputs, baked, &mut to);
-        let (of, system) = match &baked.modes {
-            None => ("Condensed", system),
-            Some(modes) => ("Modal", modal(&modes.view(model), system, &mut to)),
+        let (of, system) = match (&baked.modes, &baked.steps) {
+            (None, None) => ("Condensed", system),
+            (None, Some(steps)) => ("Stepped", stepped(&steps.view(model), system, &mut to)),
+            (Some(modes), _) => ("Modal", modal(&modes.view(model), system, &mut to)),
         };
         let _ = write!(
             to.text,
@@ -98,6 +102,33 @@ fn modal<R: Scalar>(of: &Modal<R>, model: String, to: &mut Statics) -> String {
         ("laws", optional(of.laws.as_ref(), "LAWS", "F of the laws that change, by columns.", to)),
         ("is_monotone", of.is_monotone.to_string()),
     ])
+}
+
+/// The model of one step with what it hands on.
+#[rustfmt::skip]
+fn stepped<R: Scalar>(of: &Stepped<R>, model: String, to: &mut Statics) -> String {
+    tall_record("Stepped", 4, [
+        ("model", model),
+        ("fading", to.numbers("FADING", "What a step leaves of each state.", of.fading)),
+        ("of_inputs", to.numbers("STATES_OF_INPUTS", "By states: what changes of the inputs take from them.", of.of_inputs)),
+        ("begin", to.numbers("BEGIN", "What the first step begins from: inputs, scaled openings, states, corrections, and what the bound of the evolution carries.", of.begin)),
+        ("reach", format!("{:?}", of.reach)),
+        ("evolution", of.evolution.as_ref().map_or("None".to_owned(), |of| evolution(of, to))),
+    ])
+}
+
+/// What the bound of the evolution takes beside.
+#[rustfmt::skip]
+fn evolution<R: Scalar>(of: &Evolution<R>, to: &mut Statics) -> String {
+    let evolution = tall_record("Evolution", 8, [
+        ("length", format!("{:?}", of.length)),
+        ("rates", format!("{:?}", of.rates)),
+        ("residual", factor(&of.residual, "RESIDUAL", "By what a step changes: what it leaves of its equation.", to)),
+        ("motion", factor(&of.motion, "MOTION", "By what a step changes: the energy of that.", to)),
+        ("ends", to.array::<[u16; 2]>("STEP_ENDS", "Vertices and corners at the ends of contact edges.", "[u16; 2]", of.ends)),
+        ("scale", to.numbers("STEP_SCALE", "From the unit of vertices to that of 1/r.", of.scale)),
+    ]);
+    format!("Some({evolution})")
 }
 
 /// The arrays that an output is read off.

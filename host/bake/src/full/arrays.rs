@@ -4,21 +4,18 @@ use std::collections::HashMap;
 
 use signorini_bound::cells::{Cells, Quad, Triangle};
 use signorini_bound::certificate::{Above, Discretization, Factor, Metric, POINTS, Stability};
-use signorini_device::full;
 use signorini_device::tick::Limits;
 use signorini_kernel::Tensor;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
-use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::stiffness::Stiffness;
 
 use super::data::{Data, refuse_faint};
 use super::factored::Factored;
-use super::limits;
+use super::options::{Scale, TickOptions};
 use super::output::{Output, output};
 use super::storing::Stored;
 use crate::module_api::ModuleApi;
-use crate::range::refuse_answers;
 use crate::setting::checked;
 use signorini_certify::term::full_terms;
 use signorini_certify::{Certifier, NoBound};
@@ -26,9 +23,8 @@ use signorini_problem::functional::functionals;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Approach, Assembled, Parts, Problem};
 use signorini_scene::error::Result;
-use signorini_scene::scene::units::Units;
-use signorini_scene::scene::{Field, Scene};
-use signorini_scene::setting::{MathKind, Method, Omega, Setting, Start};
+use signorini_scene::scene::Field;
+use signorini_scene::setting::Method;
 use signorini_solve::unfit;
 
 /// A scene as the full model takes it, in the scalar `R`.
@@ -69,56 +65,6 @@ pub struct Baked<R: Scalar> {
     pub(super) exclusions: Vec<R>,
     /// Where ticks are steps in time.
     pub(super) stored: Option<Stored<R>>,
-}
-
-/// How its ticks are solved.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct TickOptions<R> {
-    pub relaxation: Relaxation<R>,
-    pub limits: Limits<R>,
-    pub certified: bool,
-    /// Every tick starts anew.
-    pub cold: bool,
-    /// The search for ω takes the fast square root.
-    pub fast: bool,
-    /// Each tick is a step in time.
-    pub in_step: bool,
-}
-
-/// Units in which the numbers of a problem are near 1.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Scale<R> {
-    pub units: Units,
-    /// Units as the kernel takes them.
-    pub kernel: full::Units<R>,
-}
-
-impl<R: Scalar> Scale<R> {
-    /// The units of a scene that is solved in `units`.
-    ///
-    /// # Errors
-    /// Answers that the scalar type cannot hold in the scene's own units.
-    pub fn new(scene: &Scene, units: Units) -> Result<Self> {
-        refuse_answers::<R>(scene, &units)?;
-        let [u, flux, energy] = [units.u, units.flux(), units.energy()].map(R::narrow);
-        Ok(Self { units, kernel: full::Units { u, flux, energy } })
-    }
-}
-
-impl<R: Scalar> TickOptions<R> {
-    fn new(setting: &Setting, unknowns: usize) -> Self {
-        Self {
-            relaxation: match setting.omega {
-                Omega::Fixed(omega) => Relaxation::Fixed(R::narrow(omega)),
-                Omega::Auto => Relaxation::for_unknowns(unknowns),
-            },
-            limits: limits(setting),
-            certified: setting.certificate,
-            cold: setting.start == Start::Cold,
-            fast: setting.math == MathKind::Micromath,
-            in_step: false,
-        }
-    }
 }
 
 impl<R: Scalar> Baked<R> {
@@ -185,8 +131,7 @@ impl<R: Scalar> Baked<R> {
         let start = assembled.start().first().copied().unwrap_or(R::ZERO);
         let mut how = TickOptions::new(&setting, problem.topology.counts.unknowns());
         // What starts cold in a step are its sweeps alone.
-        how.in_step = stored.is_some();
-        how.cold &= !how.in_step;
+        how.cold &= stored.is_none();
         let corners = if how.certified { corners(problem) } else { Vec::new() };
         let baked =
             Self { start, outputs, corners, stored, ..Self::of(face, data, &discretization, how) };
@@ -205,8 +150,8 @@ impl<R: Scalar> Baked<R> {
         let Discretization { mesh, edges, stiffness, cells, metric, stability } = discretization;
         let [vertex_weights, edge_weights] = cells.weights();
         let varies = how.certified && !(metric.at_points.is_empty() && metric.factors.is_empty());
-        // Which kind of cell comes next: all of them are triangles with constant A, in a steady problem, where nobody asks.
-        let needs_order = how.certified && (varies || how.in_step || !cells.quads().is_empty());
+        // Which kind of cell comes next: where all of them are triangles with constant A nobody asks.
+        let needs_order = how.certified && (varies || !cells.quads().is_empty());
         Self {
             face,
             counts: edges.counts(),

@@ -2,9 +2,10 @@
 
 use signorini_kernel::rows::{QUADS, TRIANGLES};
 
-use super::arrays::{Baked, Scale};
+use super::arrays::Baked;
 use super::controller::Controller;
 use super::factored::Factored;
+use super::options::Scale;
 use super::storing::short;
 use crate::module_api::ModuleApi;
 use crate::narrow::exclusions;

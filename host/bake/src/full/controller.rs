@@ -14,6 +14,7 @@ use signorini_kernel::{Error, Libm};
 
 use super::arrays::Baked;
 use crate::desk::{Terms, Values};
+use crate::state;
 use signorini_problem::scalar::Scalar;
 use signorini_solve::{Exchanges, exchanges};
 
@@ -98,6 +99,24 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
     /// The bound of the evolution until the end of the last tick, of steps in time that have one.
     pub fn window(&self) -> Option<Window<R>> {
         self.own.window()
+    }
+
+    /// The bytes of the `State` that firmware has after the last tick; nothing where ticks are no steps in time.
+    pub fn state(&self) -> Option<Vec<u8>> {
+        self.baked.stored.as_ref()?;
+        let lengths = self.baked.lengths();
+        let mut numbers = vec![R::ZERO; lengths.handed_on()];
+        self.own.storage().own.hand_on(&lengths, &mut numbers);
+        Some(state::bytes(self.baked.face.hash, &numbers))
+    }
+
+    /// Goes on from there.
+    ///
+    /// # Errors
+    /// The bytes of a state of another scene, or damaged ones: nothing has changed then.
+    pub fn restore(&mut self, bytes: &[u8]) -> Result<(), Error> {
+        let numbers = state::numbers(self.baked.face.hash, bytes)?;
+        self.own.storage_mut().own.take_over(&self.baked.lengths(), &numbers)
     }
 
     /// Goes back to before the first tick.

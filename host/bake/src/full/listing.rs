@@ -30,7 +30,7 @@ pub(super) const NAMES: &str = "\
     bound::certificate::Discretization bound::certificate::Metric bound::certificate::Stability \
     bound::certificate::TransferForms full::Along \
     bound::conforming::VertexData kernel::mesh::edges::EdgeCounts kernel::mesh::edges::Edges \
-    kernel::storage::IfStoring bound::certificate::Carried bound::certificate::Rates \
+    kernel::storage::IfStoring kernel::evolution::Carried kernel::evolution::Rates \
     bound::certificate::StoredCell full::Begin full::Storing \
     full::AmbientShare full::Base full::EdgeTrace full::CurvedPart full::CurvedSum full::Full \
     full::Functional full::Pattern full::Points full::TransferPattern full::Product \

@@ -20,6 +20,7 @@ mod data;
 mod factored;
 mod linear;
 mod listing;
+mod options;
 mod output;
 mod pattern;
 mod sizes;

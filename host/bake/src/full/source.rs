@@ -4,10 +4,11 @@ use std::fmt::Write as _;
 
 use signorini_kernel::limits::Limits;
 
-use super::arrays::{Baked, TickOptions};
+use super::arrays::Baked;
 use super::listing::{self, listed};
+use super::options::TickOptions;
 use super::sizes::sizes;
-use crate::controller::{self, Parts};
+use crate::controller::{self, Parts, state};
 use crate::text::imports;
 use signorini_problem::scalar::Scalar;
 
@@ -34,7 +35,10 @@ pub fn source<R: Scalar>(baked: &Baked<R>) -> String {
     );
     let mut text = baked.face.source::<R>("full", about, &features);
     let _ = write!(text, "\n/// Positions in the arrays.\ntype Index = {index};\n");
-    let own = lengths(baked) + &controller(baked) + state(baked);
+    let mut own = lengths(baked) + &controller(baked);
+    if baked.stored.is_some() {
+        own += &state("{ LENGTHS.handed_on() }");
+    }
     text += &(required(&features) + &imports(NAMES, &own, "") + &own);
     text + &listed(baked).module(listing::NAMES, "Index, Scalar")
 }
@@ -90,24 +94,6 @@ const LENGTHS: Lengths = Lengths::of(&data::FULL);
 const EXCHANGES: [usize; 3] = sparse::storage::lengths(LENGTHS.active);
 ";
     own.to_owned() + if baked.factored.is_some() { exchanges } else { "" }
-}
-
-/// What outlives the program, of a model that steps in time.
-fn state<R: Scalar>(baked: &Baked<R>) -> &'static str {
-    match baked.stored {
-        None => "",
-        Some(_) => "
-/// All that the next tick takes from the last one: plain numbers, sealed. [`Controller::state`] gives it, and
-/// [`Controller::restore`] goes on from it with the same bits.
-pub type State = signorini_device::full::State<Scalar, { LENGTHS.handed_on() }>;
-
-impl controller::Lasting for Scene {
-    type State = State;
-
-    const HASH: u64 = SCENE_HASH;
-}
-",
-    }
 }
 
 /// The type of the memory, and what it is before the first tick.

@@ -1,7 +1,8 @@
 //! What a scene stores in steps of time, and where they start.
 
-use signorini_bound::certificate::{Carried, Rates, StoredCell};
+use signorini_bound::certificate::StoredCell;
 use signorini_device::full::{Begin, Storing};
+use signorini_kernel::evolution::{Carried, Rates};
 
 use signorini_certify::Certifier;
 use signorini_certify::evolution::{Evolution, rates};

@@ -24,7 +24,8 @@ pub fn found<R: Scalar>(baked: &Baked<R>, origin: &Origin) -> Ranges {
 
 /// Where it is proved, and not much larger than what some inputs reach.
 pub(super) fn largest_bound<R: Scalar>(baked: &Baked<R>, origin: &Origin) -> Option<LargestBound> {
-    if baked.without_bound().is_some() {
+    // What a step begins from has no range.
+    if baked.without_bound().is_some() || baked.steps.is_some() {
         return None;
     }
     // Loads were finite when the sides were found.
@@ -36,8 +37,8 @@ pub fn declared(scene: &Scene) -> bool {
     scene.inputs.is_empty() || scene.inputs.iter().any(|of| of.range.is_some())
 }
 
-/// The counts as constants of the module.
-pub fn constants(ranges: Ranges) -> String {
+/// The counts as constants of the module; of a model that steps in time, with its states and those of the mesh.
+pub fn constants(ranges: Ranges, states: Option<[usize; 2]>) -> String {
     let Ranges {
         always_open,
         always_touching,
@@ -46,13 +47,23 @@ pub fn constants(ranges: Ranges) -> String {
         largest_error_bound,
         ..
     } = ranges;
+    let (when, steps) = match states {
+        None => ("for all inputs within `Inputs::RANGES`", String::new()),
+        Some([own, all]) => (
+            "in every step",
+            format!(
+                " Steps are exact ones on the scene's mesh, with its {all} states, whatever inputs within `Inputs::RANGES` have been. This
+/// model has {own} of them: its own answers may differ by what it has dropped, and by rounding."
+            ),
+        ),
+    };
     format!(
         "
-/// Contact edges of the scene that are open for all inputs within `Inputs::RANGES`.
+/// Contact edges of the scene that are open {when}.{steps}
 pub const ALWAYS_OPEN: usize = {always_open};
-/// Contact edges of the scene that touch for all inputs within `Inputs::RANGES`.
+/// Contact edges of the scene that touch {when}.
 pub const ALWAYS_TOUCHING: usize = {always_touching};
-/// Contact edges of the scene whose flux is at its limit for all inputs within `Inputs::RANGES`.
+/// Contact edges of the scene whose flux is at its limit {when}.
 pub const ALWAYS_SATURATED: usize = {always_saturated};
 /// Contact edges of the scene that may change sides; all of them where nothing is proved. [`CONTACT`] has these, and others
 /// that the error bound needs.

@@ -8,6 +8,9 @@
 //! ```
 
 mod counts;
+#[cfg(test)]
+mod in_time;
+mod own;
 mod reach;
 mod runs;
 #[cfg(test)]
@@ -17,9 +20,9 @@ mod why;
 use std::fmt::Write as _;
 
 use crate::choice::{Choice, Origin};
-use crate::text::table;
+use crate::text::{short, table};
 use reach::Reach;
-use runs::runs;
+use runs::along_boundary;
 use signorini_condense::ranges::interval::Interval;
 use signorini_condense::ranges::largest::LargestBound;
 use signorini_condense::ranges::outputs::intervals;
@@ -36,12 +39,17 @@ pub use counts::{constants, declared, found};
 /// The section on ranges; empty for a full model, whose ticks need none.
 pub fn section<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> String {
     let Some((baked, origin)) = choice.condensed() else { return String::new() };
-    let mut text = format!("\nRanges of the inputs: {}\n", summary(&problem.scene, origin));
+    let when = problem.scene.step().filter(|_| origin.steps.is_some());
+    let when = when.map_or(String::new(), |step| format!(" for all times, at a step of {step} s"));
+    let mut text = format!("\nRanges of the inputs{when}: {}\n", summary(&problem.scene, origin));
     if let Some(why) = nothing_proved(&problem.scene, origin) {
         return text + &why + "\n";
     }
     if origin.whole.contact > 0 {
         text += &along_boundary(problem, origin);
+    }
+    if let Some(steps) = &origin.steps {
+        return text + &own::answers::<R>(steps);
     }
     let reach = Reach::new(problem, baked, origin);
     text + &outputs(problem, origin, &reach) + &bound(&reach, largest_bound(baked, origin))
@@ -65,6 +73,12 @@ fn summary(scene: &Scene, origin: &Origin) -> String {
     let of_edges = format!(
         "of {contact} contact edges {open} are always open, {touching} always touch, {at_limit}{may_change} may change sides."
     );
+    if let Some(steps) = &origin.steps {
+        let (own, all) = (steps.fading.len(), steps.modes);
+        return format!(
+            "{of_edges}\nThe model keeps all. That is of exact steps on the mesh with its {all} states, of which the model has {own}."
+        );
+    }
     if let Some(modes) = &origin.modes {
         let name = coefficient(scene, modes);
         return format!("{of_edges}\nThe model keeps all, since its matrix follows {name:?}.");
@@ -77,24 +91,6 @@ fn summary(scene: &Scene, origin: &Origin) -> String {
             "{of_edges}\nThe model keeps {kept}: those that may change, and {beside} that its error bound needs."
         ),
     }
-}
-
-/// The runs of edges on one side, in the order of the unknowns.
-fn along_boundary(problem: &Problem, origin: &Origin) -> String {
-    let head = ["along the boundary", "edges", "kept", "from", "to", "boundary"];
-    let mut rows = vec![head.map(str::to_owned)];
-    let point = |[x, y]: [f64; 2]| format!("({}, {})", short(x), short(y));
-    for run in runs(problem, origin) {
-        rows.push([
-            run.side.to_owned(),
-            run.edges.to_string(),
-            run.kept.to_string(),
-            point(run.from),
-            point(run.to),
-            run.boundary,
-        ]);
-    }
-    table(&rows)
 }
 
 /// Where each output lies, and what of it was reached.
@@ -164,12 +160,4 @@ fn row(name: &str, proved: Interval, seen: Interval) -> [String; 7] {
     };
     let [lo, hi, least, most] = [lo, hi, seen.lo, seen.hi].map(short);
     [name.to_owned(), lo, hi, least, most, width, String::new()]
-}
-
-/// A number with five digits.
-fn short(x: f64) -> String {
-    let rounded: f64 = format!("{x:.4e}").parse().unwrap_or(x);
-    // Rounding around 0.
-    let rounded = if rounded == 0.0 { 0.0 } else { rounded };
-    format!("{rounded:?}").trim_end_matches(".0").to_owned()
 }

@@ -1,6 +1,7 @@
 //! Runs of contact edges on one side, along the boundary.
 
 use crate::choice::Origin;
+use crate::text::{short, table};
 use signorini_condense::ranges::sides::EdgeSide;
 use signorini_problem::Problem;
 
@@ -19,6 +20,8 @@ pub(super) struct Run {
     pub to: [f64; 2],
     /// The table of the scene that they belong to.
     pub boundary: String,
+    /// The largest u − ψ in any step; nothing where ticks are no steps in time.
+    pub opening: Option<f64>,
 }
 
 /// An edge as it is walked along.
@@ -28,6 +31,7 @@ struct Step {
     kept: bool,
     boundary: Option<usize>,
     ends: [u32; 2],
+    opening: Option<f64>,
 }
 
 /// All runs, in the order of the unknowns.
@@ -49,6 +53,7 @@ fn run(problem: &Problem, steps: &[Step]) -> Run {
         from: at(first.ends[0]),
         to: at(last.ends[1]),
         boundary: first.boundary.map_or_else(String::new, name),
+        opening: steps.iter().filter_map(|step| step.opening).reduce(f64::max),
     }
 }
 
@@ -67,6 +72,11 @@ fn steps(problem: &Problem, origin: &Origin) -> Vec<Step> {
     let edges = &origin.whole.edges;
     let ends: Vec<[u32; 2]> = edges.iter().map(|edge| problem.ends[free + edge]).collect();
     let keeps = |at: usize| origin.reduced.is_none() || origin.sides.kept[at];
+    let enclosure = origin.sides.enclosure.as_ref().filter(|_| origin.steps.is_some());
+    let opening = |at: usize| match origin.sides.of[at] {
+        EdgeSide::Touching => enclosure.map(|_| 0.0),
+        _ => enclosure.map(|of| (of.hi[at] * origin.whole.opening[at]).max(0.0)),
+    };
     let mut steps: Vec<Step> = Vec::with_capacity(ends.len());
     for (at, &[a, b]) in ends.iter().enumerate() {
         let before = steps.last().map(|step| step.ends[1]);
@@ -77,7 +87,30 @@ fn steps(problem: &Problem, origin: &Origin) -> Vec<Step> {
             kept: keeps(at),
             boundary: problem.binding.boundary([a, b]),
             ends: if is_reversed { [b, a] } else { [a, b] },
+            opening: opening(at),
         });
     }
     steps
+}
+
+/// The runs of edges on one side, in the order of the unknowns; of steps in time with the largest openings.
+pub(super) fn along_boundary(problem: &Problem, origin: &Origin) -> String {
+    let head = ["along the boundary", "edges", "kept", "from", "to", "boundary"];
+    let point = |[x, y]: [f64; 2]| format!("({}, {})", short(x), short(y));
+    let runs = runs(problem, origin);
+    let row = |run: &Run| {
+        let [edges, kept] = [run.edges, run.kept].map(|count| count.to_string());
+        [run.side.to_owned(), edges, kept, point(run.from), point(run.to), run.boundary.clone()]
+    };
+    let rows: Vec<_> =
+        std::iter::once(head.map(str::to_owned)).chain(runs.iter().map(row)).collect();
+    if origin.steps.is_none() {
+        return table(&rows);
+    }
+    let of_runs = runs.iter().map(|run| run.opening.map_or_else(String::new, short));
+    let openings = std::iter::once("largest opening".to_owned()).chain(of_runs);
+    let with = |([side, edges, kept, from, to, boundary], opening): ([String; 6], String)| {
+        [side, edges, kept, from, to, opening, boundary]
+    };
+    table(&rows.into_iter().zip(openings).map(with).collect::<Vec<_>>())
 }

@@ -140,7 +140,7 @@ fn programs_are_told_of_ranges_where_there_are_any() {
     let chosen = choice_of(&without);
     assert_eq!(crate::emit::emit(&without, &chosen).chosen.ranges, None);
     let (baked, origin) = chosen.condensed().expect("condensed");
-    let all = constants(found(baked, origin));
+    let all = constants(found(baked, origin), None);
     assert!(
         all.contains("MAY_CHANGE: usize = 50") && all.contains("ALWAYS_OPEN: usize = 0"),
         "{all}"

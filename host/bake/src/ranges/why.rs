@@ -2,6 +2,7 @@
 
 use crate::choice::Origin;
 use signorini_condense::ModalModel;
+use signorini_condense::ranges::lasting::Unproved;
 use signorini_condense::ranges::split::Split;
 use signorini_scene::scene::Scene;
 
@@ -20,7 +21,9 @@ pub(super) fn nothing_proved(scene: &Scene, origin: &Origin) -> Option<String> {
     if whole.contact == 0 || origin.sides.enclosure.is_some() {
         return None;
     }
-    let reason = if !whole.held_by_contact.is_empty() {
+    let reason = if let Some(why) = origin.unproved {
+        of_steps(why)
+    } else if !whole.held_by_contact.is_empty() {
         "contact alone holds a part of the domain, and its matrix is singular"
     } else if let Some(modes) = &origin.modes {
         let name = coefficient(scene, modes);
@@ -35,6 +38,23 @@ pub(super) fn nothing_proved(scene: &Scene, origin: &Origin) -> Option<String> {
         "the matrix of the edges that are always open is not positive definite to working precision"
     };
     Some(format!("Nothing is proved: {reason}."))
+}
+
+/// Why not of steps in time.
+pub(super) fn of_steps(why: Unproved) -> &'static str {
+    match why {
+        Unproved::NoRange => "an input has no range",
+        Unproved::Indefinite => {
+            "the contact edges' matrix less all that earlier steps load by, and its positive entries off the diagonal, is no M-matrix; \
+             a longer step may have one"
+        }
+        Unproved::IndefiniteWithLimits => {
+            "fluxes have limits, and the contact edges' matrix pushes too much in some step; a longer step may do"
+        }
+        Unproved::Start => "time.initial is not within what steps would stay in",
+        Unproved::Rounding => "what a step rounds may add up to more than anything else",
+        Unproved::Overflow => "what bounds all steps overflows",
+    }
 }
 
 /// The name of the input that changes the coefficient.

@@ -1,13 +1,12 @@
 //! The certificate of a step in time, and its terms in the bound of the evolution.
 
-use signorini_bound::certificate::{self, Kept, StoredCell, Verdict, certify_step_with};
+use signorini_bound::certificate::{self, Judged, StoredCell, Verdict, certify_step_with};
 use signorini_bound::equilibrium::Iterate;
 use signorini_kernel::Error as KernelError;
 
 use super::Certifier;
 use crate::data::Data;
 use crate::evolution::StepTerms;
-use crate::fields::Fields;
 use crate::lifted::Lifts;
 use crate::stored::stored_cells;
 use signorini_problem::scalar::Scalar;
@@ -25,44 +24,36 @@ impl<R: Scalar> Certifier<R> {
         let forms = data.forms();
         let given = data.given(assembled, forms.as_slice())?;
         let discretization = self.ways.discretization(assembled, &self.metric)?;
-        let State { vertices, bubbles, .. } = &step.begin;
+        let State { vertices, bubbles, openings, .. } = &step.begin;
         let law = assembled.law();
         let cells = self.stored_cells(assembled, step);
         let storage = step.storage(assembled.edges())?;
-        let of_kernel = certificate::Step { storage, cells: &cells, vertices, bubbles };
-        let iterate = Iterate { u, law };
-        let mut evolution = Vec::new();
-        let mut of = |kept: Kept, fields: &mut Fields<R>| {
-            let (verdict, residual) = certify_step_with(
-                &discretization,
-                (&given, &of_kernel),
-                iterate,
-                kept,
-                fields.buffers(),
-                &moved,
-            )?;
-            fields.open(&discretization, &given, law)?;
-            if let Some(certificate) = verdict.certificate() {
-                let left = (&residual, data.oscillation() + certificate.rounding);
-                let begin = (&step.begin, step.length);
-                let terms = fields.terms(&discretization, &given, law, begin, left)?;
-                evolution.push(lifted(terms, data.lifts(), step.begin.lifted));
-            }
-            Ok::<_, KernelError>(verdict)
-        };
-        let kept = of(Kept::All, &mut self.fields)?;
-        let total = |of: &Verdict<R>| of.certificate().map_or(R::INFINITY, |of| of.total);
-        if self.hands_on {
-            let mut fields = self.fields.clone();
-            let handed = of(Kept::Part, &mut fields)?;
-            if total(&handed) < total(&kept) {
-                self.fields = fields;
-                self.evolution = evolution;
-                return Ok(handed);
-            }
+        let length = R::narrow(step.length);
+        let of_kernel =
+            certificate::Step { length, storage, cells: &cells, vertices, bubbles, openings };
+        let (iterate, mut second) = (Iterate { u, law }, self.fields.clone());
+        if !self.hands_on {
+            second.tau.clear();
         }
-        self.evolution = evolution;
-        Ok(kept)
+        let buffers = (self.fields.buffers(), second.handed());
+        let given_step = (&given, &of_kernel);
+        let judged = certify_step_with(&discretization, given_step, iterate, buffers, &moved)?;
+        let terms = judged.iter().filter_map(|way| Some((way.terms?, way.verdict.certificate()?)));
+        let wide = terms.map(|(terms, certificate)| {
+            // How far extensions have moved stands in the residual there.
+            let oscillation = data.oscillation() + certificate.rounding;
+            let terms = widened(&StepTerms { oscillation, ..terms });
+            lifted(StepTerms { length: step.length, ..terms }, data.lifts(), step.begin.lifted)
+        });
+        self.evolution = wide.collect();
+        let total = |of: &Judged<R>| of.verdict.certificate().map_or(R::INFINITY, |of| of.total);
+        let [kept, handed] = judged;
+        let is_handed = total(&handed) < total(&kept);
+        if is_handed {
+            (self.fields.tau, self.fields.indicators) = (second.tau, second.indicators);
+        }
+        self.fields.open(&discretization, &given, law)?;
+        Ok(if is_handed { handed.verdict } else { kept.verdict })
     }
 
     /// What each cell stores in `step`, triangles first, as its bound takes it.
@@ -70,6 +61,17 @@ impl<R: Scalar> Certifier<R> {
         let contents: Vec<f64> = step.contents().map(|content| content.wide()).collect();
         let keep = self.ways.kept(assembled.edges(), &self.metric, &contents);
         stored_cells(assembled.problem(), step, &keep)
+    }
+}
+
+fn widened<R: Scalar>(of: &StepTerms<R>) -> StepTerms<f64> {
+    StepTerms {
+        length: of.length.wide(),
+        distance: of.distance.map(R::wide),
+        contact: of.contact.map(R::wide),
+        oscillation: of.oscillation.wide(),
+        inside: of.inside.wide(),
+        residual: of.residual.map(R::wide),
     }
 }
 

@@ -33,7 +33,7 @@ use signorini_scene::error::Result;
 pub use cleared::{followed, may_be_cleared, peak};
 pub use cross::between_smooth_rays;
 pub use inside::{of_rough_sides, points, points_along_sides};
-pub use panels::{PANELS, points_along};
+pub use panels::PANELS;
 pub use singular::Rough;
 
 /// Gauss points a panel, and away from the edge.
@@ -70,7 +70,7 @@ pub struct Curved {
 /// # Errors
 /// Data that are not finite or not differentiable at a quadrature point.
 pub fn curved(problem: &Problem, time: f64) -> Result<Vec<Curved>> {
-    Ok(curved_edges(problem, time)?.records)
+    Ok(CurvedEdges::new(problem, &Deviations::at_time(problem, time)?)?.records)
 }
 
 /// The records, and what they leave out.
@@ -80,43 +80,48 @@ pub struct CurvedEdges {
     pub records: Vec<Curved>,
     /// ‖A^½∇·‖ of what edges without a record and points of the others leave out of Σv: to be added to the bound.
     pub left_out: f64,
+    /// The panels of each record.
+    panels: Vec<Panels>,
 }
 
-/// Curved edges together with the data that are left out.
-///
-/// # Errors
-/// As for [`curved`].
-pub fn curved_edges(problem: &Problem, time: f64) -> Result<CurvedEdges> {
-    let deviations = Deviations::at_time(problem, time)?;
-    let (records, dropped) = (records(problem, &deviations.found)?, deviations.dropped);
-    let mut of_cells = BTreeMap::new();
-    for record in &records {
-        let (at, _) = problem.topology.first_side(record.edge as usize);
-        *of_cells.entry(at).or_insert(0.0) += record.missed;
+impl CurvedEdges {
+    /// The edges of these deviations, which are all of a time.
+    ///
+    /// # Errors
+    /// As for [`curved`].
+    pub fn new(problem: &Problem, deviations: &Deviations) -> Result<Self> {
+        let mut extensions: Vec<Extension> = Vec::with_capacity(deviations.found.len());
+        let mut records = Vec::with_capacity(deviations.found.len());
+        let edges = deviations.found.iter().map(|deviation| deviation.edge);
+        for (deviation, may_be_cleared) in
+            deviations.found.iter().zip(may_be_cleared(problem, edges))
+        {
+            let extension = Extension::new(problem, deviation)?;
+            let mut record = extension.integrate()?;
+            record.missed += extension.missed(problem)?;
+            if may_be_cleared {
+                record.peak = cleared::peak_on(deviation, &extension.panels)?;
+            }
+            // A boundary cell has few sides, but they need not be neighbours in the order of the edges.
+            for earlier in extensions.iter().filter(|other| other.at == extension.at) {
+                record.energy += 2.0 * extension.cross(earlier)?;
+            }
+            records.push(record);
+            extensions.push(extension);
+        }
+        let mut of_cells = BTreeMap::new();
+        for (record, extension) in records.iter().zip(&extensions) {
+            *of_cells.entry(extension.at).or_insert(0.0) += record.missed;
+        }
+        let missed = of_cells.values().fold(0.0_f64, |sum, missed| sum.hypot(*missed));
+        let panels = extensions.into_iter().map(|extension| extension.panels).collect();
+        Ok(Self { records, left_out: deviations.dropped + missed, panels })
     }
-    let missed = of_cells.values().fold(0.0_f64, |sum, missed| sum.hypot(*missed));
-    Ok(CurvedEdges { records, left_out: dropped + missed })
-}
 
-fn records(problem: &Problem, deviations: &[Deviation]) -> Result<Vec<Curved>> {
-    let mut extensions: Vec<Extension> = Vec::with_capacity(deviations.len());
-    let mut records = Vec::with_capacity(deviations.len());
-    let may_be_cleared = may_be_cleared(problem, deviations.iter().map(|of| of.edge));
-    for (deviation, may_be_cleared) in deviations.iter().zip(may_be_cleared) {
-        let extension = Extension::new(problem, deviation)?;
-        let mut record = extension.integrate()?;
-        record.missed += extension.missed(problem)?;
-        if may_be_cleared {
-            record.peak = cleared::peak_on(deviation, &extension.panels)?;
-        }
-        // A boundary cell has few sides, but they need not be neighbours in the order of the edges.
-        for earlier in extensions.iter().filter(|other| other.at == extension.at) {
-            record.energy += 2.0 * extension.cross(earlier)?;
-        }
-        records.push(record);
-        extensions.push(extension);
+    /// Points along each edge with their weights, and ∫(w − w̃)² of what they miss.
+    pub fn points(&self) -> impl Iterator<Item = (Vec<[f64; 2]>, f64)> {
+        self.panels.iter().map(|panels| (panels.rule(), panels.missed[0]))
     }
-    Ok(records)
 }
 
 /// v_E with its cell.

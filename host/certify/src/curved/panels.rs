@@ -141,15 +141,6 @@ impl Panels {
     }
 }
 
-/// Points along an edge with their weights, and ∫(w − w̃)² of what they miss.
-///
-/// # Errors
-/// Data that are not finite.
-pub fn points_along(deviation: &Deviation) -> Result<(Vec<[f64; 2]>, f64)> {
-    let panels = Panels::along(deviation)?;
-    Ok((panels.rule(), panels.missed[0]))
-}
-
 fn width([a, b]: [f64; 2]) -> f64 {
     b - a
 }

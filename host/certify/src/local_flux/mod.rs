@@ -100,7 +100,7 @@ impl LocalFlux {
         quad::fitted(*corners, &inverse(a), rule, factors, sides).0.max(0.0).sqrt()
     }
 
-    /// What rows of quads make of it: nothing on a triangle.
+    /// The factors by rows of a quad; nothing on a triangle.
     pub fn in_rows(&self, cell: &Cell, a: &Tensor<f64>) -> Option<InRows> {
         let (Cell::Quad(corners), Divergence::Quad(factors)) = (cell, &self.divergence) else {
             return None;

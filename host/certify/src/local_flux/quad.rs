@@ -22,7 +22,7 @@ impl Ends {
         Self([std::array::from_fn(of_x), std::array::from_fn(of_y)])
     }
 
-    /// What that adds to the factor of P_n(ŷ) in the divergence, or of P_n(x̂).
+    /// The amount that the ends add to the factor of P_n(ŷ) in the divergence, or of P_n(x̂).
     fn rise(&self, axis: usize, n: usize) -> f64 {
         self.0[axis][n][1] - self.0[axis][n][0]
     }

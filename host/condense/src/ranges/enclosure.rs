@@ -12,9 +12,9 @@ use crate::CondensedModel;
 use signorini_reference::ReferenceError;
 
 /// Steps at most: each is an enclosure, and later ones gain little.
-const STEPS: u32 = 16;
+pub(super) const STEPS: u32 = 16;
 /// An enclosure that shrinks by less than this part of its size in a step is taken.
-const GAIN: f64 = 1e-3;
+pub(super) const GAIN: f64 = 1e-3;
 
 /// lo ≤ x ≤ hi for every load of a box.
 #[derive(Debug, Clone, PartialEq)]
@@ -92,11 +92,35 @@ impl EndBox {
             }
             loads
         };
-        let mut of = Self { least: side(0, f64::NEG_INFINITY), greatest: side(1, f64::INFINITY) };
-        // Inputs with the upper end below the lower one have no solution.
-        of.greatest.hi = higher(&of.greatest.hi, &of.least.hi);
-        of.least.lo = lower(&of.least.lo, &of.greatest.lo);
-        of
+        Self { least: side(0, f64::NEG_INFINITY), greatest: side(1, f64::INFINITY) }.feasible()
+    }
+
+    /// Intervals of both loads of every edge, where these ends of it are finite.
+    pub(super) fn of(intervals: &[[[f64; 2]; 2]], ends: &[[Vec<f64>; 2]]) -> Self {
+        let side = |side: usize| {
+            let all = intervals.iter().zip(ends).map(|(own, ends)| match ends[side][0] {
+                end if end.is_finite() => (own[side][0], own[side][1]),
+                infinite => (infinite, infinite),
+            });
+            let (lo, hi) = all.unzip();
+            LoadBox { lo, hi }
+        };
+        Self { least: side(0), greatest: side(1) }.feasible()
+    }
+
+    /// With so much more on either side.
+    pub(super) fn widened(&self, by: &[f64]) -> Self {
+        let moved =
+            |of: &[f64], sign: f64| of.iter().zip(by).map(|(end, by)| end + sign * by).collect();
+        let side = |of: &LoadBox| LoadBox { lo: moved(&of.lo, -1.0), hi: moved(&of.hi, 1.0) };
+        Self { least: side(&self.least), greatest: side(&self.greatest) }
+    }
+
+    /// Without inputs that put the upper end below the lower one: they have no solution.
+    fn feasible(mut self) -> Self {
+        self.greatest.hi = higher(&self.greatest.hi, &self.least.hi);
+        self.least.lo = lower(&self.least.lo, &self.greatest.lo);
+        self
     }
 }
 
@@ -133,7 +157,9 @@ impl Enclosure {
         }
         // What overflows tells nothing of any edge.
         if now.is_finite() {
-            now.reaction = split.rooms(&now, box_of);
+            // (Sx − b)_i = s_ii x_i + (Nx)_i off the diagonal + (Px)_i − b_i
+            let [down, up] = split.push(&now.lo);
+            now.reaction = rooms(split.off_diagonal(), [&down, &up], &now, box_of);
         }
         Ok(Some(now))
     }
@@ -156,7 +182,7 @@ impl Enclosure {
     }
 
     /// Σ (hi − lo)
-    fn width(&self) -> f64 {
+    pub(super) fn width(&self) -> f64 {
         self.hi.iter().zip(&self.lo).map(|(hi, lo)| hi - lo).sum()
     }
 
@@ -181,35 +207,37 @@ impl Enclosure {
     }
 }
 
-impl Split {
-    /// At most the way from (Sx − b)_i = s_ii x_i + (N x)_i off the diagonal + (Px)_i − b_i to either end, where x_i = 0 is taken.
-    fn rooms(&self, of: &Enclosure, EndBox { least, greatest }: &EndBox) -> Vec<f64> {
-        let pushes = self.push(&of.lo);
-        let room = |(at, row): (usize, Vec<f64>)| {
-            let way = |x: &[f64], push: f64, end: f64, sign: f64| {
-                let (sum, noise) = product(&row, x);
-                let size = sum.abs() + push.abs() + end.abs();
-                match end.is_infinite() {
-                    true => f64::INFINITY,
-                    false => sign * (sum + push - end) - noise - 4.0 * f64::EPSILON * size,
-                }
-            };
-            let [down, up] = [&pushes[0], &pushes[1]].map(|push| push[at]);
-            let above = way(&of.hi, down, least.hi[at], 1.0);
-            above.min(way(&of.lo, up, greatest.lo[at], -1.0))
+/// At most the way from Σ_j a_ij x_j + pushes_i − b_i to either end, for rows a_i that take x_i = 0 or its past alone; from below what `lo`
+/// pushes by, from above what `hi` does.
+pub(super) fn rooms(
+    rows: impl Iterator<Item = Vec<f64>>,
+    pushes: [&[f64]; 2],
+    of: &Enclosure,
+    EndBox { least, greatest }: &EndBox,
+) -> Vec<f64> {
+    let room = |(at, row): (usize, Vec<f64>)| {
+        let way = |x: &[f64], push: f64, end: f64, sign: f64| {
+            let (sum, noise) = product(&row, x);
+            let size = sum.abs() + push.abs() + end.abs();
+            match end.is_infinite() {
+                true => f64::INFINITY,
+                false => sign * (sum + push - end) - noise - 4.0 * f64::EPSILON * size,
+            }
         };
-        self.off_diagonal().enumerate().map(room).collect()
-    }
+        let above = way(&of.hi, pushes[0][at], least.hi[at], 1.0);
+        above.min(way(&of.lo, pushes[1][at], greatest.lo[at], -1.0))
+    };
+    rows.enumerate().map(room).collect()
 }
 
-fn minus(a: &[f64], b: &[f64]) -> Vec<f64> {
+pub(super) fn minus(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
-fn lower(a: &[f64], b: &[f64]) -> Vec<f64> {
+pub(super) fn lower(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a.min(*b)).collect()
 }
 
-fn higher(a: &[f64], b: &[f64]) -> Vec<f64> {
+pub(super) fn higher(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a.max(*b)).collect()
 }

@@ -90,7 +90,7 @@ impl Sides {
     }
 
     /// Every edge may change.
-    pub(super) fn unproved(model: &CondensedModel) -> Self {
+    pub fn unproved(model: &CondensedModel) -> Self {
         let (n, inputs) = (model.contact, widened(&model.ranges));
         let infinite = [f64::NEG_INFINITY, f64::INFINITY];
         let limits = (0..n).map(|at| there_is(model, at, infinite)).collect();

@@ -35,20 +35,28 @@ pub struct Split {
 impl Split {
     /// Splits `matrix`, n × n row by row; nothing where its part N is not proved to be a nonsingular M-matrix.
     pub fn new(matrix: &[f64], n: usize) -> Option<Self> {
-        if !matrix.iter().all(|entry| entry.is_finite()) {
+        // The lesser of a NaN and 0 is 0.
+        if matrix.iter().any(|entry| entry.is_nan()) {
             return None;
         }
         let is_diagonal = |at: usize| at / n == at % n;
         let entries = || matrix.iter().copied().enumerate();
-        let negative: Vec<f64> =
-            entries().map(|(at, s)| if is_diagonal(at) { s } else { s.min(0.0) }).collect();
+        let negative = entries().map(|(at, s)| if is_diagonal(at) { s } else { s.min(0.0) });
         let positive = entries().map(|(at, s)| if is_diagonal(at) { 0.0 } else { s.max(0.0) });
+        Self::of(negative.collect(), positive.collect(), n)
+    }
+
+    /// N and P themselves, n × n row by row, N without positive entries off the diagonal and P without negative ones; nothing
+    /// where N is not proved to be a nonsingular M-matrix.
+    pub(super) fn of(negative: Vec<f64>, positive: Vec<f64>, n: usize) -> Option<Self> {
+        if !negative.iter().chain(&positive).all(|entry| entry.is_finite()) {
+            return None;
+        }
         let factor = MatRef::from_row_major_slice(&negative, n, n).llt(Side::Lower).ok()?;
         let w = factor.solve(Mat::from_fn(n, 1, |_, _| 1.0));
         let direction: Vec<f64> = (0..n).map(|i| w[(i, 0)]).collect();
         let slope = least(&direction, &negative);
         let is_proved = direction.iter().all(|&w| w > 0.0 && w.is_finite()) && slope > 0.0;
-        let positive = positive.collect();
         is_proved.then_some(Self { n, negative, positive, direction, slope })
     }
 
@@ -57,7 +65,7 @@ impl Split {
         self.positive.iter().all(|&entry| entry == 0.0)
     }
 
-    /// Px for 0 ≤ x, from below and from above.
+    /// Px, from below and from above.
     pub fn push(&self, x: &[f64]) -> [Vec<f64>; 2] {
         if self.has_all_signs() {
             return [vec![0.0; self.n], vec![0.0; self.n]];

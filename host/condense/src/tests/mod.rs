@@ -7,6 +7,8 @@ mod limits_bound;
 mod limits_same;
 mod modes;
 mod rejected;
+mod stepped;
+mod stepped_bound;
 mod transfer;
 
 use signorini_scene::error::Result;

@@ -1,4 +1,4 @@
-//! What images of baked scenes take, by what the scenes contain: `tests/firmware/size.txt`.
+//! The sizes of images of baked scenes, by what the scenes contain: `tests/firmware/size.txt`.
 
 use std::fmt::Write as _;
 

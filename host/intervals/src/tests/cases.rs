@@ -39,7 +39,7 @@ fn they_hold_the_values_of_an_exact_solution() -> Result<()> {
         for n in [4, 16] {
             let (_, problem) = on_grid(HARMONIC, grid(n, cells))?;
             let solution = solve(&problem, &options())?;
-            let found = of_outputs(&problem, &solution);
+            let found = of_outputs(&problem, &solution, Coverage::Small);
             for (name, value) in exact {
                 let interval = found[name].as_ref().unwrap_or_else(|why| panic!("{name}: {why}"));
                 check(name, interval, value);
@@ -72,7 +72,7 @@ setting.element = "nonparametric"
         *vertex = [vertex[0], if vertex[0] < 0.0 { vertex[1] } else { 3.0 * vertex[1] }];
     }
     let (_, problem) = on_grid(TRAPEZOID, mesh)?;
-    let found = of_outputs(&problem, &solve(&problem, &options())?);
+    let found = of_outputs(&problem, &solve(&problem, &options())?, Coverage::Small);
     let middle = found["middle"].as_ref().expect("an interval");
     check("the area's", middle, -5.0 / 12.0 + 2.0 * 13.0 / 12.0);
     assert!(middle.plus_minus < 1e-6, "{middle:?}");
@@ -109,7 +109,7 @@ fn a_sum_has_an_interval_where_its_parts_have_none() -> Result<()> {
         for n in [4, 8] {
             let (scene, problem) = on_grid(TAILWATER, grid(n, cells))?;
             let solution = solve(&problem, &options())?;
-            let found = of_outputs(&problem, &solution);
+            let found = of_outputs(&problem, &solution, Coverage::Small);
             let values = outputs(&problem, &solution)?;
             for name in ["face", "weir", "force"] {
                 assert!(
@@ -162,7 +162,7 @@ fn without_transfer_there_are_intervals_that_hold() -> Result<()> {
     let (_, fine) = on_grid(ROOF, grid(32, Cells::Triangles))?;
     let exact = outputs(&fine, &solve(&fine, &options())?)?;
     let (_, problem) = on_grid(ROOF, grid(4, Cells::Triangles))?;
-    let found = of_outputs(&problem, &solve(&problem, &options())?);
+    let found = of_outputs(&problem, &solve(&problem, &options())?, Coverage::Small);
     for name in ["below", "side"] {
         check(name, found[name].as_ref().expect("an interval"), exact[name].expect("a value"));
     }
@@ -202,8 +202,10 @@ fn contents_and_means_over_materials_hold_and_shrink() -> Result<()> {
             for n in [4, 16] {
                 let (_, problem) = on_grid(&stores(c, zero), mesh(n))?;
                 let solution = solve(&problem, &options())?;
-                let (found, values) =
-                    (of_outputs(&problem, &solution), outputs(&problem, &solution)?);
+                let (found, values) = (
+                    of_outputs(&problem, &solution, Coverage::Small),
+                    outputs(&problem, &solution)?,
+                );
                 for (name, exact) in [
                     ("heat", c * (1.0 + 3.0 * zero)),
                     ("cold", c * (zero - 1.0)),

@@ -17,6 +17,7 @@ use signorini_scene::mesh::{self, adapted};
 use signorini_scene::scene::{Output, Scene};
 use signorini_solve::outputs::outputs;
 use signorini_solve::{Options, SolverKind, solve};
+use signorini_tolerances::solve::SHARED_SOLVER;
 
 fn options() -> Options {
     Options { solver: SolverKind::Factor, ..Options::default() }
@@ -82,7 +83,7 @@ fn they_hold_the_values_of_finer_meshes() -> Result<()> {
     {
         let scene = scene(&format!("{name}.toml"))?;
         let (coarse, solution) = solved(&scene, 0)?;
-        let found: BTreeMap<String, Found> = of_outputs(&coarse, &solution);
+        let found: BTreeMap<String, Found> = of_outputs(&coarse, &solution, Coverage::Small);
         let once = refined(&scene, &coarse, 1)?;
         let twice = refined(&scene, &coarse, 2)?;
         let mut count = 0;
@@ -99,6 +100,45 @@ fn they_hold_the_values_of_finer_meshes() -> Result<()> {
         }
         assert_eq!(count, with_interval, "{name}: {found:?}");
     }
+    Ok(())
+}
+
+/// Whoever solves the linear problems, the intervals are the same.
+#[test]
+fn multigrid_weighs_as_the_factor_does() -> Result<()> {
+    for name in ["levee", "strip", "antiicing"] {
+        let (problem, solution) = solved(&scene(&format!("{name}.toml"))?, 0)?;
+        let Some((scaled, own)) = solution.in_its_units().or(Some((&problem, &solution))) else {
+            continue;
+        };
+        let solver = Some(Box::new(SharedSolver::Multigrid));
+        let by_multigrid = Lasting { solver, ..Lasting::default() };
+        let found = of_next(scaled, &own.into(), &by_multigrid);
+        let mut count = 0;
+        for (output, expected) in of_answer(scaled, &own.into(), Coverage::Small) {
+            let Ok(expected) = expected else { continue };
+            let found = found[&output].as_ref().expect("an interval");
+            let size = expected.plus_minus;
+            SHARED_SOLVER.check_over(&output, found.plus_minus - size, size);
+            SHARED_SOLVER.check_over(&output, found.center - expected.center, size);
+            count += 1;
+        }
+        assert!(count > 0, "{name}");
+    }
+    Ok(())
+}
+
+/// None where they are not asked for; on large meshes only where they are.
+#[test]
+fn they_are_worked_out_where_they_are_asked_for() -> Result<()> {
+    let (problem, solution) = solved(&scene("strip.toml")?, 0)?;
+    assert!(of_outputs(&problem, &solution, Coverage::None).is_empty());
+    let count =
+        |asked| of_outputs(&problem, &solution, asked).values().filter(|of| of.is_ok()).count();
+    assert_eq!(count(Coverage::All), count(Coverage::Small));
+    let large = on_grid(signorini_problem::fixtures::SMOOTH, grid(200, Cells::Triangles))?.1;
+    assert!(large.topology.counts.unknowns() > MOST_UNKNOWNS);
+    assert!(Coverage::All.takes(&large) && !Coverage::Small.takes(&large));
     Ok(())
 }
 
@@ -145,7 +185,7 @@ fn they_hold_the_values_of_the_catalogue_and_are_not_huge() -> Result<()> {
     for (name, scene) in known_scenes()? {
         for times in [0, 1] {
             let (problem, solution) = solved(&scene, times)?;
-            for (output, found) in of_outputs(&problem, &solution) {
+            for (output, found) in of_outputs(&problem, &solution, Coverage::Small) {
                 let Ok(found) = found else { continue };
                 let exact = found.exact.expect("an exact solution");
                 check(&format!("{name}: {output}"), &found, exact);

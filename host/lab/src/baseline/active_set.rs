@@ -7,7 +7,7 @@ use super::failed;
 use super::quadratic::Quadratic;
 use super::series::{InitialGuess, Run, TimedSolver, counted};
 use signorini_reference::Factor;
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 
 /// The solver on its problem.
 pub(super) struct ActiveSet<'q> {

@@ -20,7 +20,7 @@ use super::quadratic::Quadratic;
 use super::series::{Baseline, Task};
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Parts, Problem};
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 
 pub(super) const PSOR: &str = "kernel PSOR f64";
 const MANNERS: [(&str, Manner); 4] = [

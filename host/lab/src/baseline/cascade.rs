@@ -16,7 +16,7 @@ use super::full::Full;
 use super::psor::{TickLoads, solve};
 use super::series::{InitialGuess, Run, TimedSolver, counted};
 use signorini_problem::Problem;
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 use signorini_session::coarse;
 
 /// One grid.

@@ -13,7 +13,7 @@ use super::failed;
 use super::program::Program;
 use super::quadratic::{Matrix, Quadratic};
 use super::series::{InitialGuess, Run, TimedSolver, counted};
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 
 /// The solver on its problem.
 pub(super) struct Clarabel<'q> {

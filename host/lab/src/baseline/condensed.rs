@@ -12,7 +12,7 @@ use faer::Mat;
 use signorini_condense::{CondensedModel, along_boundary};
 use signorini_problem::Problem;
 use signorini_reference::{Factor, Linear};
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 
 use super::failed;
 use super::quadratic::{Matrix, Quadratic, QuadraticLoads};

@@ -12,7 +12,7 @@
 //!   discrete solution, cold and warm apart. It is found before anything is timed. Exact methods and solvers left as
 //!   they come have one answer; `algebraic_error` tells how near it is.
 
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 
 use super::series::{Baseline, InitialGuess, Series, Task, TimedSolver};
 

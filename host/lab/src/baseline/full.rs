@@ -9,7 +9,7 @@ use super::quadratic::{Matrix, Quadratic, QuadraticLoads};
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Assembled, Parts, Problem};
 use signorini_reference::Factor;
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 use signorini_solve::Reduced;
 
 /// The kernel's system in the scalar `R`.

@@ -11,8 +11,8 @@ use std::sync::Arc;
 
 use signorini_problem::inputs::{InputSpace, drawn};
 use signorini_problem::{Loads, Problem};
-use signorini_scene::error::Result;
-use signorini_scene::scene::{Field, Scene};
+use signorini_scene::scene::Field;
+use signorini_scene::{Result, Scene};
 
 /// The tilt of loads at most, over the tenth by which inputs are drawn: less would leave the contact set of
 /// a coarse mesh where it is.

@@ -32,9 +32,8 @@ use benchmark::Benchmark;
 use load_case::LoadCase;
 pub use series::Baseline;
 use signorini_problem::{Approach, Problem};
-use signorini_scene::error::{Error, InputError, Result};
-use signorini_solve::norms;
-use signorini_solve::{Options, SolverKind, solve};
+use signorini_scene::{Error, InputError, Result};
+use signorini_solve::{Options, SolverKind, norms, solve};
 pub use sizes::{Size, Sizes, sizes};
 pub use table::{findings, table};
 

@@ -27,7 +27,7 @@ use super::quadratic::Quadratic;
 use super::series::{InitialGuess, Run, TimedSolver};
 use crate::checkout::root;
 use crate::cycles::IS_WIDE;
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 
 /// The program, built once a run; `Err` in one line why it cannot be had.
 pub(super) fn program() -> std::result::Result<&'static Path, &'static str> {

@@ -15,7 +15,7 @@ use super::series::{InitialGuess, Run, TimedSolver, counted};
 use signorini_bake::condensed::{Baked, Work};
 use signorini_condense::CondensedModel;
 use signorini_problem::scalar::Scalar;
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 
 /// Exchanges of a solve, and sweeps where these do not suffice: no limit that is reached.
 const WORK: Work = Work { pivots: Some(100_000), sweeps: 100_000 };

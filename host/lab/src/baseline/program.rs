@@ -8,7 +8,7 @@
 //! z = (u, s), and C z ≥ r. An edge of m_i = 0 has a given flux and no row. Without limits z is u, and C takes the contact
 //! unknowns out of it.
 
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 
 use super::failed;
 use super::quadratic::{Matrix, Quadratic, QuadraticLoads};

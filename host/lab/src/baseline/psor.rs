@@ -10,7 +10,7 @@ use signorini_kernel::system::System;
 use super::failed;
 use super::series::{InitialGuess, Run, TimedSolver, counted};
 use signorini_problem::scalar::Scalar;
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 
 /// Sweeps after which a solver is given up.
 const MOST_SWEEPS: u32 = 100_000;

@@ -11,7 +11,7 @@
 
 use serde::Serialize;
 use signorini_reference::{Factor, Problem};
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 
 use super::failed;
 

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::cycles::{self, median_and_spread};
 use crate::record_file::word;
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 
 use super::quadratic::Quadratic;
 

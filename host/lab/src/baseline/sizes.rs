@@ -12,9 +12,8 @@ use super::{SHARE, discretisation_error, osqp};
 use crate::checkout::root;
 use crate::cycles::{NARROW, REGISTERS};
 use signorini_problem::Problem;
-use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_scene::scene::Scene;
+use signorini_scene::{Result, Scene};
 
 /// Squares over the height of the domain: 48 to 18 800 unknowns.
 const GRIDS: [u32; 6] = [3, 4, 8, 16, 32, 56];

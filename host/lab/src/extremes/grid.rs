@@ -9,8 +9,9 @@
 //!   +=====+=====+       +-----+-----+          +--------+--+           +----`+'----+
 //! ```
 
+use signorini_scene::Mesh;
+use signorini_scene::mesh::Curve;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_scene::mesh::{Curve, Mesh};
 
 /// The shape of the cells.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -15,7 +15,7 @@ use std::sync::mpsc::RecvTimeoutError;
 use serde::{Deserialize, Serialize};
 
 use super::measure::{Measured, Reference};
-use signorini_scene::error::Error;
+use signorini_scene::Error;
 use signorini_solve::ScalarKind;
 
 /// A bound is useful up to this multiple of what the exact discrete solution gets.

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::trade::journal::{Journal, program};
 use crate::trade::shard::Shard;
-use signorini_scene::error::{Error, Result};
+use signorini_scene::{Error, Result};
 
 /// A finished case, and the seconds that all runs together had taken by then.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

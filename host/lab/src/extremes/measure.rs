@@ -1,8 +1,8 @@
 //! How wrong an answer is, at scale 1 and without the solver that gave it.
 //!
 //! The answer is divided by the factors of its scale; the exact solution is evaluated on the mesh at scale 1,
-//! where coordinates are of size 1 and numbers neither overflow nor vanish. There 16×16 points per cell
-//! (`large`: fewer) integrate the distance, and the direct solver says what the grid allows for.
+//! where coordinates are of size 1 and numbers neither overflow nor vanish. There 16×16 points per cell (on large grids 4×4)
+//! integrate the distance, and the direct solver says what the grid allows for.
 //! Where ‖u‖ spans more than 16 digits inside a cell (κ = 10⁶ and beyond), or loads are subnormal, the
 //! exact solution is itself good to a few digits only; bounds there are far above that.
 
@@ -12,14 +12,11 @@ use std::sync::Arc;
 use super::attempt::Attempt;
 use super::case::ExtremeCase;
 use super::grid::Shape;
-use super::large;
 use super::posed::Posed;
 use signorini_certify::admissible::Admissible;
-use signorini_certify::exact::distance;
+use signorini_certify::exact::{distance, of_fewer_points};
 use signorini_problem::Problem;
-use signorini_scene::error::Result;
-use signorini_scene::mesh::Mesh;
-use signorini_scene::scene::Scene;
+use signorini_scene::{Mesh, Result, Scene};
 use signorini_solve::norms::errors;
 use signorini_solve::{Options, Solution, SolverKind, solve};
 
@@ -30,7 +27,7 @@ pub struct Measured {
     pub bound: Option<f64>,
     /// The true error that it bounds; without a bound, ‖A^½∇_h(u − u_h)‖.
     pub error: f64,
-    /// How far that number may be off: what 12×12 points instead of 16×16 change, where it seems above the bound.
+    /// How far that number may be off: what half of the points a direction change, where it seems above the bound.
     pub uncertain: f64,
     /// The exact discrete solution beside the truth; none where the direct solver finds none.
     pub reference: Option<Reference>,
@@ -53,9 +50,7 @@ pub struct Reference {
 
 /// Finer grids get their reference from one of this many rows, times the ratio of the widths.
 const FINEST: u32 = 64;
-/// Points a direction that tell how far 16 are enough.
-const FEWER: usize = 12;
-/// Grids with more rows are integrated with fewer points.
+/// Grids with more rows are integrated with fewer points: solutions that are polynomials in each cell need no more.
 const LARGE: u32 = 128;
 
 /// The distances of `attempt`.
@@ -92,13 +87,12 @@ pub fn measure(case: &ExtremeCase, attempt: &Attempt) -> Result<Measured> {
             let admissible =
                 Admissible { vertices: &vertices, bubbles: &bubbles, tau: &tau, following };
             if posed.grid.n > LARGE {
-                large::combined(exact, &problem, &admissible, large::INSIDE)?
+                of_fewer_points(exact, &problem, &admissible)?
             } else {
                 let found = distance(exact, &problem, &admissible)?.combined;
                 let transfers = !problem.loads.robin.is_empty();
                 if bound.is_some_and(|bound| found > bound) && !transfers {
-                    let fewer = large::combined(exact, &problem, &admissible, FEWER)?;
-                    uncertain = (found - fewer).abs();
+                    uncertain = (found - of_fewer_points(exact, &problem, &admissible)?).abs();
                 }
                 found
             }

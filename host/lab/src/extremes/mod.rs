@@ -16,7 +16,6 @@ mod flush;
 mod grid;
 pub mod judge;
 pub mod kept;
-mod large;
 mod measure;
 mod plan;
 mod posed;
@@ -43,7 +42,7 @@ use watch::watched;
 pub use record::text;
 
 use signorini_problem::threads::on_two_threads;
-use signorini_scene::error::{Error, Result};
+use signorini_scene::{Error, Result};
 
 /// Longer than any case takes by a factor of some ten, on a machine that has other work: what has no answer by then hangs.
 const LIMIT: Duration = Duration::from_secs(900);

@@ -12,7 +12,8 @@ use std::fmt::Write;
 
 use super::grid::Grid;
 use super::solution::{Shear, Solution, Texts};
-use signorini_scene::mesh::{Curve, Mesh};
+use signorini_scene::Mesh;
+use signorini_scene::mesh::Curve;
 
 /// Factors that change numbers, not the problem.
 #[derive(Debug, Clone, Copy, PartialEq)]

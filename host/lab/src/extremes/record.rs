@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::judge::{DIGITS, FAR, INTEGRATED, Outcome, USEFUL};
 use crate::record_file;
 use signorini_draw::{Column, Table};
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 
 /// The committed record, from the root of the checkout.
 pub const RECORD: &str = "host/benches/extremes/extremes.json";
@@ -109,16 +109,7 @@ impl Record {
 
     /// The text of `extremes.json`: a line per case.
     pub fn json(&self) -> String {
-        let line = |value: serde_json::Result<String>| value.unwrap_or_default();
-        let definitions: Vec<_> =
-            self.definitions.iter().map(serde_json::to_string).map(line).collect();
-        let cases: Vec<_> = self.cases.iter().map(serde_json::to_string).map(line).collect();
-        format!(
-            "{{\n\"definitions\": [\n{}\n],\n\"seconds\": {},\n\"cases\": [\n{}\n]\n}}\n",
-            definitions.join(",\n"),
-            self.seconds,
-            cases.join(",\n")
-        )
+        record_file::json(self)
     }
 
     /// Reads the record at `path`; none where there is no file.

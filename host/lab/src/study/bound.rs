@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::checks::Check;
 use signorini_certify::{ErrorBound, eigenvalues};
 use signorini_problem::Problem;
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 use signorini_solve::Solution;
 use signorini_solve::norms::{Errors, of_solution};
 

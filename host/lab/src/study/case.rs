@@ -10,8 +10,7 @@ use super::cost::{self, Cost};
 use super::outputs::KnownOutputs;
 use crate::cycles;
 use signorini_problem::Problem;
-use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
+use signorini_scene::{Result, Scene};
 use signorini_solve::adaptive::mesh_of_scene;
 use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
 

@@ -10,12 +10,9 @@ use super::checks::Check;
 use signorini_draw::{Chart, Curve, Strip, measured_rate};
 use signorini_problem::Problem;
 use signorini_problem::threads::on_two_threads;
-use signorini_scene::error::Result;
-use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::structured::Trapezoids::{Everywhere, InTwoRows};
 use signorini_scene::mesh::structured::{Cells, grid, trapezoids};
-use signorini_scene::scene::Scene;
-use signorini_scene::setting::Setting;
+use signorini_scene::{Mesh, Result, Scene, Setting};
 use signorini_solve::norms::{Errors, of_solution};
 use signorini_solve::{Options, SolverKind, solve};
 

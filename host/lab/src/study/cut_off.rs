@@ -9,8 +9,7 @@ use super::checks::Check;
 use signorini_draw::{Chart, Column, Curve, Strip, Table};
 use signorini_problem::Problem;
 use signorini_problem::threads::on_two_threads;
-use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
+use signorini_scene::{Result, Scene};
 use signorini_solve::adaptive::mesh_of_scene;
 use signorini_solve::{Options, solve};
 

@@ -25,7 +25,7 @@ use cut_off::CutOff;
 use signorini_draw::{Report, html};
 use signorini_files::atomic::write_atomically;
 use signorini_problem::progress::{say, steps};
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 
 /// Error norms by what they weigh, with their symbols; these do not break at the end of a line.
 const OF_GRADIENT: &str = "gradient error of u, unweighed: |u\u{a0}−\u{a0}u_h|₁";

@@ -4,10 +4,10 @@ use serde::Serialize;
 
 use super::checks::Check;
 use signorini_files::stated::{Stated, sentence};
-use signorini_intervals::{OutputBound, estimate, of_outputs};
+use signorini_intervals::{Coverage, OutputBound, estimate, of_outputs};
 use signorini_problem::Problem;
 use signorini_problem::functional::wanted;
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 use signorini_solve::Solution;
 use signorini_solve::outputs::outputs;
 
@@ -36,7 +36,7 @@ impl KnownOutputs {
         solution: &Solution,
     ) -> Result<(Self, Vec<Check>)> {
         let values = outputs(problem, solution)?;
-        let mut intervals = of_outputs(problem, solution);
+        let mut intervals = of_outputs(problem, solution, Coverage::Small);
         estimate(problem, &values, &mut intervals);
         let all = wanted(&problem.scene);
         let stated: Vec<Stated> =

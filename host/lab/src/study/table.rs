@@ -83,7 +83,8 @@ pub fn scenes(cases: &[KnownScene]) -> String {
          the flux (L²)\n\
          intervals of outputs: half-widths {:.1} times the true errors in the median of {} with an exact value\n\
          cycles in f64 / f32: {}; a sweep reads {:.0} / {:.0} bytes and does {:.1} multiply-adds an \
-         unknown, and takes {:.1} / {:.1} times as long as reading the matrix alone (medians)",
+         unknown, and takes {:.1} / {:.1} times as long as reading the matrix alone (medians)\n\
+         all are steady: scenes whose materials store u are left out, `signorini tick` steps them in time",
         main_table(cases).text(),
         middle(over_error.clone()),
         over_error.len(),

@@ -14,7 +14,7 @@ use signorini_image::room::NoResult;
 use signorini_image::tools;
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
-use signorini_scene::error::{Error, Result};
+use signorini_scene::{Error, Result};
 use signorini_solve::ScalarKind;
 
 /// Bakes a problem with its setting, builds its image under the name `name`, plays it: what ran, with the bits of

@@ -19,8 +19,7 @@ use crate::baseline;
 use crate::checkout::{root, scenes};
 use crate::record_file::json;
 use signorini_files::atomic::{writable, write_atomically};
-use signorini_scene::error::{InputError, Result};
-use signorini_scene::scene::Scene;
+use signorini_scene::{InputError, Result, Scene};
 
 /// Studies, and whether the study of sizes goes with them.
 #[derive(Debug)]

@@ -11,9 +11,7 @@ use super::record::{Point, Trade};
 use crate::record_file::json;
 use signorini_draw::pareto_file;
 use signorini_files::atomic::write_atomically;
-use signorini_scene::error::{Error, Result};
-use signorini_scene::scene::Scene;
-use signorini_scene::setting::Setting;
+use signorini_scene::{Error, Result, Scene, Setting};
 
 /// The setting to take, as a fragment of the scene.
 pub const FRAGMENT: &str = "recommended.toml";

@@ -3,7 +3,7 @@
 use super::digits::whole;
 use super::record::{Point, Recommendation, Trade};
 use super::reference::EXACT;
-use signorini_scene::goal::Goal;
+use signorini_scene::Goal;
 
 /// The user's wish: a budget, an error.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

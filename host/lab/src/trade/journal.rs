@@ -22,7 +22,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::shard::Shard;
-use signorini_scene::error::{Error, InputError, Result};
+use signorini_scene::{Error, InputError, Result};
 
 /// One line: a case that is finished.
 #[derive(Serialize, Deserialize)]

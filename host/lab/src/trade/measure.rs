@@ -8,8 +8,8 @@ use crate::cycles::{self, median_and_spread};
 use crate::record_file::word;
 use signorini_problem::Problem;
 use signorini_problem::inputs::{InputSpace, drawn};
-use signorini_scene::error::Result;
-use signorini_scene::setting::{Method, ModelKind, Omega, Precision, Setting, Start};
+use signorini_scene::setting::{Method, ModelKind, Omega, Precision, Start};
+use signorini_scene::{Result, Setting};
 use signorini_session::{Session, completed, with_session};
 use signorini_solve::Solution;
 

@@ -3,12 +3,9 @@
 use std::collections::HashMap;
 
 use signorini_problem::Problem;
-use signorini_scene::error::Result;
-use signorini_scene::goal::Goal;
 use signorini_scene::mesh::adapted::adapted;
-use signorini_scene::mesh::{self, Mesh};
-use signorini_scene::scene::Scene;
-use signorini_scene::setting::{CellKind, Setting};
+use signorini_scene::setting::CellKind;
+use signorini_scene::{Goal, Mesh, Result, Scene, Setting, mesh};
 use signorini_solve::adaptive::{MOST_UNKNOWNS, Promised, Refining, promised_mesh};
 
 /// Unknowns of the finest mesh that a study measures, if the scene's own has fewer.

@@ -17,7 +17,7 @@
 use std::thread::panicking;
 
 use super::shard::Shard;
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 
 /// This process among the ranks, from the start of MPI to its end.
 #[derive(Debug)]
@@ -154,7 +154,7 @@ impl Ranks {
 #[cfg(all(test, not(feature = "mpi")))]
 mod tests {
     use super::*;
-    use signorini_scene::error::Error;
+    use signorini_scene::Error;
 
     #[test]
     fn one_process_has_all_cases_and_merges() {

@@ -1,4 +1,4 @@
-//! What firmware a promised error takes: on the mesh refined where its bound asks for it, and on the mesh refined everywhere.
+//! The firmware that a promised error takes: on the mesh refined where its bound asks for it, and on the mesh refined everywhere.
 //!
 //! ```text
 //!   scene, error ─► smallest mesh of either kind whose bound is small enough for all inputs tried ─► model ─► bytes, instructions
@@ -14,10 +14,8 @@ use signorini_bake::promise;
 use signorini_draw::{Column, Table};
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
-use signorini_scene::error::{Error, Result};
-use signorini_scene::goal::Goal;
 use signorini_scene::mesh::adapted;
-use signorini_scene::scene::Scene;
+use signorini_scene::{Error, Goal, Result, Scene};
 use signorini_solve::adaptive::{Promise, Promised, Refining, promised_mesh};
 
 /// Unknowns beyond which no mesh is tried: each is solved a thousand times.
@@ -65,7 +63,7 @@ pub struct Firmware {
     pub instructions: Option<f64>,
 }
 
-/// What each of these errors takes, on both kinds of meshes.
+/// The firmware that each of these errors takes, on both kinds of meshes.
 ///
 /// # Errors
 /// A scene that is wrong whatever its mesh.

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::target::Target;
 use crate::baseline::Baseline;
-use signorini_scene::setting::Setting;
+use signorini_scene::Setting;
 
 /// The study of one scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -13,7 +13,7 @@ use serde::de::DeserializeOwned;
 use super::record::Trade;
 use crate::baseline::Sizes;
 use crate::record_file;
-use signorini_scene::error::{Error, Result};
+use signorini_scene::{Error, Result};
 
 /// The folder of all records, from the root of the checkout.
 pub const RECORD: &str = "host/benches/trade";

@@ -17,10 +17,9 @@ use crate::baseline;
 use crate::baseline::Baseline;
 use crate::cycles::{NARROW, REGISTERS};
 use signorini_problem::{Approach, Problem};
-use signorini_scene::error::{Error, InputError, Result};
-use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::adapted::adapted;
-use signorini_scene::setting::{ModelKind, Precision, Setting};
+use signorini_scene::setting::{ModelKind, Precision};
+use signorini_scene::{Error, InputError, Mesh, Result, Setting};
 use signorini_solve::tuned_omega;
 
 /// The algebraic error that a tuned ω reaches from a cold start.

@@ -78,7 +78,7 @@ fn summary(scenes: &[Scene]) -> Table {
     Table::new(&columns, scenes)
 }
 
-/// What `text` says of the recommended setting; a dash where there is none.
+/// The words of `text` on the recommended setting; a dash where there is none.
 fn taken(trade: Option<&Trade>, text: impl FnOnce(&Trade, &Point) -> String) -> String {
     let both = trade.and_then(|trade| Some((trade, trade.recommendation.point.as_ref()?)));
     or_dash(both, |(trade, point)| text(trade, point))

@@ -6,7 +6,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use signorini_scene::error::InputError;
+use signorini_scene::InputError;
 
 /// One of `count` processes that share the cases of a campaign; written `i/n`, i counted from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

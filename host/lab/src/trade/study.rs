@@ -10,10 +10,9 @@ use super::target::Target;
 use crate::checkout::root;
 use signorini_bake::module_api::ModuleApi;
 use signorini_problem::Problem;
-use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 use signorini_scene::scene::term::at_rest_warning;
 use signorini_scene::setting::Precision;
+use signorini_scene::{Result, Scene};
 
 /// A study: a scene, whose cost decides, where it goes, and which cases are this process's.
 #[derive(Debug, Clone)]

@@ -78,7 +78,7 @@ pub fn baselines(trade: &Trade) -> Table {
     Table::new(&columns, &trade.baselines)
 }
 
-/// What the functions of micromath do to the solution.
+/// The effect of the functions of micromath on the solution.
 pub fn math(trade: &Trade) -> Table {
     let change = |part: Option<f64>| or_dash(part, |part| percent(part, 1.0));
     let columns = [

@@ -8,9 +8,7 @@ use crate::baseline::Baseline;
 use crate::trade::record::PointError;
 use signorini_draw::plain;
 use signorini_problem::Problem;
-use signorini_scene::mesh;
-use signorini_scene::scene::Scene;
-use signorini_scene::setting::Setting;
+use signorini_scene::{Scene, Setting, mesh};
 
 /// A scene of `meshes`.
 pub fn scene(name: &str) -> Scene {

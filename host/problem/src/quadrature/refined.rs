@@ -8,7 +8,7 @@ use signorini_scene::expression::enclosure::Region;
 /// A part of a region, an integral over it and what it may be off by.
 #[derive(Debug, Clone, Copy)]
 pub struct Part {
-    /// What it is a part of.
+    /// The cell that it is a part of.
     pub of: usize,
     /// Where it is.
     pub region: Region,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numbers
 import os
+from pathlib import Path
 from typing import Any, Optional
 
 
@@ -61,3 +62,22 @@ def count(name: str, value: Any, least: int = 0, bits: int = 32) -> Optional[int
     if not is_whole:
         raise ValueError(f"{name} is {value!r}, expected a count" + (f" of {least} or more" if least else ""))
     return int(value)
+
+
+def flag(name: str, value: Any) -> Optional[bool]:
+    """True or False, where there is one."""
+    if value is None or isinstance(value, bool):
+        return value
+    raise TypeError(f"{name} is {value!r}, expected True or False")
+
+
+def write(place: str, text: str) -> None:
+    """Writes a file, whole or not at all."""
+    fresh = Path(f"{place}.{os.getpid()}")
+    try:
+        fresh.write_text(text, encoding="utf-8")
+        fresh.replace(place)
+    except OSError as error:
+        fresh.unlink(missing_ok=True)
+        # Nobody has named the file that is written first.
+        raise OSError(error.errno, error.strerror, place) from None

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 
 from . import _native, arguments
@@ -23,15 +22,7 @@ class Baked:
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes the source to a file, whole or not at all."""
-        place = arguments.path("path", path)
-        fresh = Path(f"{place}.{os.getpid()}")
-        try:
-            fresh.write_text(self.source, encoding="utf-8")
-            fresh.replace(place)
-        except OSError as error:
-            fresh.unlink(missing_ok=True)
-            # Nobody has named the file that is written first.
-            raise OSError(error.errno, error.strerror, place) from None
+        arguments.write(arguments.path("path", path), self.source)
 
 
 def bake(
@@ -131,6 +122,28 @@ class Controller:
     def reset(self) -> None:
         """Forgets all ticks: the next one is the first again."""
         self._native.reset()
+
+    def window(self) -> Optional[Tuple[float, float]]:
+        """The bound of the evolution from the start until now, of a scene that steps in time: the root of the mean over time of the
+        square of the energy error is at most the first number, with weights that reach back as long as the second says. None where
+        there is no such bound."""
+        return self._native.window()
+
+    def state(self) -> bytes:
+        """What the next step in time takes from the last one, byte for byte as `state` gives it in Rust and `NAME_save` in C."""
+        state = self._native.state()
+        if state is None:
+            raise ValueError("the scene does not step in time, and has no state")
+        return state
+
+    def restore(self, state: bytes) -> None:
+        """Goes on from a state with the same bits, in the bound of the evolution too.
+
+        Raises
+        ------
+        SceneError : a state of another scene (its `refusal` is foreign-state) or a damaged one (damaged-state); nothing has changed then.
+        """
+        self._native.restore(bytes(state))
 
     def __repr__(self) -> str:
         return f"<signorini.Controller: {self.name}>"

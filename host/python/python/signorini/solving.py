@@ -23,6 +23,7 @@ class _How:
     max_sweeps: Optional[int]
     max_error: Optional[str]
     max_unknowns: Optional[int]
+    intervals: Optional[bool]
 
 
 def solve(
@@ -36,6 +37,7 @@ def solve(
     solver: Optional[str] = None,
     tolerance: Optional[float] = None,
     max_sweeps: Optional[int] = None,
+    intervals: Optional[bool] = None,
     out: Optional[Union[str, "os.PathLike[str]"]] = None,
 ) -> Result:
     """Solves a scene.
@@ -49,6 +51,7 @@ def solve(
     max_error : refine the mesh where the bound says until it is below this: "5%" of `energy_norm`, or an energy.
     max_unknowns : the largest mesh that may be tried for it.
     scalar, solver, tolerance, max_sweeps : as for `signorini solve`; the scene's own setting where left out.
+    intervals : whether outputs get intervals; on meshes of up to 200 000 unknowns where left out.
     out : a folder for the files of `signorini solve`.
 
     Raises
@@ -82,11 +85,12 @@ def solve(
         max_error = repr(arguments.number("max_error", max_error))
     how = _How(
         arguments.text("scalar", scalar, "f32 or f64"),
-        arguments.text("solver", solver, "auto, kernel or direct"),
+        arguments.text("solver", solver, "auto, kernel, direct or multigrid"),
         tolerance,
         arguments.count("max_sweeps", max_sweeps),
         arguments.text("max_error", max_error),
         arguments.count("max_unknowns", max_unknowns, least=1, bits=63),
+        arguments.flag("intervals", intervals),
     )
     found = _native.solve(given(scene, mesh, inputs), how, None if out is None else arguments.path("out", out))
     summary = json.loads(found["summary"])

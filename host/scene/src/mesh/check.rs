@@ -8,6 +8,9 @@
 use super::{Curve, Mesh};
 use crate::error::{InputError, Result};
 
+/// Numbers of cells above are refused: a slip of the pen, or a job for another machine.
+pub const MOST_CELLS: usize = 4_000_000;
+
 /// Cells that meet in a way no plane mesh has: three at one edge, or two on the same side of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault {
@@ -98,6 +101,14 @@ fn edge_of(sides: &[CellSide]) -> std::result::Result<[u32; 2], Fault> {
         [a, b] if a.upward == b.upward => Err(Fault { edge, cells: vec![a.cell, b.cell] }),
         _ => Ok(edge),
     }
+}
+
+/// Refuses to make so many cells.
+pub(super) fn check_count(cells: usize, hint: &str) -> Result<()> {
+    let message =
+        format!("the refined mesh would have {cells} cells, expected at most {MOST_CELLS}");
+    let error = || InputError::new(message).hint(hint).into();
+    if cells > MOST_CELLS { Err(error()) } else { Ok(()) }
 }
 
 #[cfg(test)]

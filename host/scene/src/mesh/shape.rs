@@ -98,6 +98,13 @@ fn turns(corners: &[[f64; 2]]) -> [i8; 4] {
     })
 }
 
+/// The mean of some of the vertices.
+pub(super) fn mean(vertices: &[[f64; 2]], corners: &[u32]) -> [f64; 2] {
+    let share = 1.0 / corners.len() as f64;
+    let part = |axis: usize| corners.iter().map(move |&at| share * vertices[at as usize][axis]);
+    [0, 1].map(|axis| part(axis).sum())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -250,6 +250,17 @@ impl Scene {
         self.materials.iter().any(Material::stores)
     }
 
+    /// The length of a step in time, where ticks are such.
+    pub fn step(&self) -> Option<f64> {
+        self.time.as_ref().filter(|_| self.stores()).map(|time| time.step)
+    }
+
+    /// Gives ticks another length.
+    pub fn set_step(&mut self, step: f64) {
+        let (end, initial) = self.time.take().map_or((None, None), |time| (time.end, time.initial));
+        self.time = Some(Time { step, end, initial });
+    }
+
     /// The file to be named for it: the fragment, if one extends the scene.
     pub fn file(&self) -> &Path {
         self.fragment.as_ref().unwrap_or(&self.path)

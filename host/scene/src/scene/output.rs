@@ -3,7 +3,7 @@
 use super::control::{find_boundary, list, read_unit};
 use super::entry::Entry;
 use super::table::Table;
-use super::{Boundary, Condition, Located, Material, Output, Quantity, Scene};
+use super::{Boundary, Condition, Located, Material, Output, Quantity};
 use crate::error::Result;
 
 /// The kinds of outputs, with words for each.
@@ -161,7 +161,7 @@ impl Output {
         self.of.iter().any(|of| of.value == name)
     }
 
-    /// What it is about in words, each name as `written`: `all` where it names none.
+    /// The place that it is about in words, each name as `written`: `all` where it names none.
     pub fn place(&self, all: &str, written: impl Fn(&str) -> String) -> String {
         match &self.of.iter().map(|of| written(&of.value)).collect::<Vec<_>>()[..] {
             [] => all.to_owned(),
@@ -175,20 +175,5 @@ impl Quantity {
     /// Whether it is an integral over cells of materials; `of` names these.
     pub fn is_inside(self) -> bool {
         matches!(self, Self::Content | Self::MeanInside)
-    }
-}
-
-impl Scene {
-    /// Refuses outputs that the steady state does not have.
-    ///
-    /// # Errors
-    /// A bound over time.
-    pub fn check_at_rest(&self) -> Result<()> {
-        let window = self.outputs.iter().find(|output| output.quantity == Quantity::Window);
-        window.map_or(Ok(()), |output| {
-            let message = "this is the steady state, which has no bound over time";
-            let hint = "`signorini tick` steps in time; a `bound` is that of the steady state";
-            Err(self.error(&output.name, message).hint(hint).into())
-        })
     }
 }

@@ -10,7 +10,7 @@ use crate::goal::Goal;
 use crate::setting::{CellKind, MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
 
 const KEYS: &str = "refine, error, cells, element, scalar, math, model, solver, start, omega, \
-                    sweeps, share, certificate";
+                    sweeps, share, certificate, memory";
 
 const CELLS: [(&str, CellKind); 2] =
     [("triangles", CellKind::Triangles), ("quads", CellKind::Quads)];
@@ -32,6 +32,9 @@ const STARTS: [(&str, Start); 2] = [("cold", Start::Cold), ("warm", Start::Warm)
 /// Six refinements make 4096 cells of one.
 const FINEST: u32 = 6;
 
+/// More states than any mesh that is condensed has modes.
+const MOST_STATES: u32 = 10_000;
+
 /// Reads `[setting]`; what is left out is as in [`Setting::default`].
 pub(super) fn read_setting(table: &Table) -> Result<Setting> {
     table.only("the setting", KEYS)?;
@@ -44,13 +47,14 @@ pub(super) fn read_setting(table: &Table) -> Result<Setting> {
         scalar: choice(table, "scalar", &SCALARS)?,
         math: choice(table, "math", &MATHS)?.unwrap_or(default.math),
         model: choice(table, "model", &MODELS)?,
-        solver: choice(table, "solver", &SOLVERS)?.flatten(),
+        solver: read(table, "solver", solver)?.flatten(),
         start: choice(table, "start", &STARTS)?.unwrap_or(default.start),
         omega: read(table, "omega", omega)?.unwrap_or(default.omega),
         sweeps: read(table, "sweeps", |entry| entry.whole(1..=u32::MAX))?,
         share: read(table, "share", |entry| entry.inside(0.0, 1.0))?,
         certificate: read(table, "certificate", |entry| entry.boolean())?
             .unwrap_or(default.certificate),
+        memory: read(table, "memory", |entry| entry.whole(0..=MOST_STATES))?,
     };
     match contradiction(&setting) {
         None => Ok(setting),
@@ -64,6 +68,18 @@ fn read<T>(table: &Table, key: &str, of: impl Fn(&Entry) -> Result<T>) -> Result
 
 fn choice<T: Copy>(table: &Table, key: &str, choices: &[(&str, T)]) -> Result<Option<T>> {
     read(table, key, |entry| Ok(entry.choice(choices)?.value))
+}
+
+/// A scene says what a device does; what is for the desk alone is told.
+fn solver(entry: &Entry) -> Result<Option<Method>> {
+    if matches!(&entry.at.value, DeValue::String(word) if word == "multigrid") {
+        let hint = "leave it out, and give `signorini solve --solver multigrid`";
+        return Err(entry
+            .error("`multigrid` is a solver of the desk, no device has it")
+            .hint(hint)
+            .into());
+    }
+    Ok(entry.choice(&SOLVERS)?.value)
 }
 
 fn omega(entry: &Entry) -> Result<Omega> {
@@ -96,6 +112,7 @@ fn contradiction(setting: &Setting) -> Option<(&'static str, &'static str, &'sta
     const SWEEP: &str = "remove it, or write solver = \"sweeps\"";
     const EXACT: &str = "write solver = \"exact\", or take model = \"full\"";
     const FACTOR: &str = "write solver = \"factor\", or take model = \"condensed\"";
+    const CONDENSED: &str = "remove it, or take model = \"condensed\"";
     const ONE_FORMAT: &str = "write f32 or f64, or solver = \"sweeps\"";
     const FORMAT: &str = "write f32 or f64, or take model = \"full\"";
     const FULL: &str = "remove it, or take model = \"full\"";
@@ -104,7 +121,9 @@ fn contradiction(setting: &Setting) -> Option<(&'static str, &'static str, &'sta
     let twice = setting.error.is_some() && setting.refine > 0;
     let [swept, shared] = [setting.sweeps.is_some(), setting.share.is_some()];
     let [exact, factored] = [Method::Exact, Method::Factor].map(|of| setting.solver == Some(of));
-    let condensed = model == Some(ModelKind::Condensed) || (exact && model.is_none());
+    let remembers = setting.memory.is_some();
+    let condensed =
+        model == Some(ModelKind::Condensed) || ((exact || remembers) && model.is_none());
     let [mixed, fast] = [scalar == Some(Precision::Mixed), setting.math == MathKind::Micromath];
     let [fixed, cold] = [matches!(omega, Omega::Fixed(_)), setting.start == Start::Cold];
     let wide = scalar.is_some_and(|scalar| scalar != Precision::F32);
@@ -117,6 +136,7 @@ fn contradiction(setting: &Setting) -> Option<(&'static str, &'static str, &'sta
         (shared && !certificate, "share", of_bound, BOUND),
         (shared && condensed, "share", "the condensed model has no share to stop at", NUMBER),
         (factored && condensed, "solver", "a factor is for the full model", EXACT),
+        (remembers && !condensed, "memory", "states are those of a condensed model", CONDENSED),
         (exact && !condensed, "solver", "the exact method is for the condensed model", FACTOR),
         (swept && exact, "sweeps", "the exact method takes no number of sweeps", SWEEP),
         (swept && factored, "sweeps", "a factor takes no sweeps", SWEEP),

@@ -1,6 +1,6 @@
 //! A scene's loads as a sum: base + Σ input · pattern, and the scene that only some of these terms leave.
 
-use super::{Datum, Field, Located, Role, Scene};
+use super::{Datum, Field, Located, Output, Quantity, Role, Scene};
 use crate::expression::Expression;
 
 /// A term of the sum: 0 is the base, 1 + j what one unit of input j adds.
@@ -65,8 +65,12 @@ pub fn at_rest_warning(scene: &Scene) -> Option<String> {
             "{key} = \"{value}\" depends on t: all data are those of t = 0 (`signorini tick` plays the scene over time)"
         )
     });
-    let both: Vec<String> = moves.into_iter().chain(stores).collect();
-    (!both.is_empty()).then(|| both.join("; "))
+    let window = scene.outputs.iter().find(|output| output.quantity == Quantity::Window);
+    let window = window.map(|Output { name, .. }| {
+        format!("output.{} has no value: the steady state has no bound over time", name.value)
+    });
+    let all: Vec<String> = moves.into_iter().chain(stores).chain(window).collect();
+    (!all.is_empty()).then(|| all.join("; "))
 }
 
 /// The first load that depends on t.

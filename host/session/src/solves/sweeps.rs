@@ -1,4 +1,4 @@
-//! What a solve per tick sweeps over: a problem assembled in one scalar, or in f32 on residuals in f64.
+//! Rows that a solve per tick sweeps over: a problem assembled in one scalar, or in f32 on residuals in f64.
 
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};

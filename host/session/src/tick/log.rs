@@ -11,10 +11,10 @@ use std::path::Path;
 
 use csv::{Reader, ReaderBuilder, StringRecord, Trim};
 
-use super::{ScheduledTick, schedule::MOST};
+use super::ScheduledTick;
+use super::schedule::{self, MOST};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::scene::Scene;
-use signorini_solve::step_of;
 
 const SHAPE: &str = "a log is a CSV file: a line t,NAME,… with inputs of the scene, then numbers";
 
@@ -51,38 +51,11 @@ pub fn read_after(path: &Path, scene: &Scene, last: Option<f64>) -> Result<Vec<S
         }
         moments.push(moment);
     }
-    check_steps(path, scene, last, &moments)?;
+    schedule::check_steps(scene, last, &moments).map_err(|error| blamed(path, error))?;
     if moments.is_empty() {
         return Err(InputError::new("no tick in the log").file(path).line(1).hint(SHAPE).into());
     }
     Ok(moments)
-}
-
-/// Refuses moments of steps in time that do not follow each other by the scene's step, which the matrix is made for.
-fn check_steps(
-    path: &Path,
-    scene: &Scene,
-    last: Option<f64>,
-    moments: &[ScheduledTick],
-) -> Result<()> {
-    if !scene.stores() {
-        return Ok(());
-    }
-    let step = step_of(scene)?;
-    let follows = |pair: &[f64]| {
-        let slack = 1e-6 * step + 4.0 * f64::EPSILON * pair[1].abs();
-        (pair[1] - pair[0] - step).abs() <= slack
-    };
-    let times: Vec<f64> =
-        last.into_iter().chain(moments.iter().map(|moment| moment.time)).collect();
-    let Some(pair) = times.windows(2).find(|pair| !follows(pair)) else { return Ok(()) };
-    let [before, time] = [pair[0], pair[1]];
-    let message =
-        format!("t: {time} comes {} after {before}, expected the step {step}", time - before);
-    let error = InputError::new(message).file(path).line(line_of(path, time).unwrap_or(0));
-    Err(error
-        .hint("a material has a capacity: lines follow each other by time.step, or by --step")
-        .into())
 }
 
 /// Reports an error at time t as an error of the line of the log whose inputs made it so.

@@ -11,12 +11,16 @@
 //! its state and the answer before, as on a device.
 
 pub mod columns;
+pub mod half;
 mod intervals;
 pub mod log;
 mod play;
 mod record;
+pub mod refusals;
 mod saved;
 pub mod schedule;
+#[cfg(test)]
+mod states;
 #[cfg(test)]
 mod steps;
 #[cfg(test)]
@@ -24,7 +28,7 @@ mod tests;
 pub mod window_error;
 
 pub use record::{TickInterval, TickRecord};
-pub use saved::Saved;
+pub use saved::{Moment, Saved};
 
 use signorini_device::tick::Limits;
 use signorini_kernel::solver::Settings;

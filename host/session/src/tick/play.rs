@@ -95,6 +95,8 @@ pub(super) fn play<R: Scalar>(
     saved.units = units;
     saved.state = problem.loads.step.take().map(|step| step.begin);
     saved.evolution = play.evolution.filter(Evolution::is_finite);
+    let sums = play.error.as_ref().map(WindowError::sums);
+    saved.error = sums.filter(|sums| sums.iter().all(|sum| sum.is_finite()));
     saved.session = session.saved();
     Ok(Played { ticks, saved: Some(saved).filter(Saved::is_finite) })
 }
@@ -129,7 +131,18 @@ fn again(given: &Problem, saved: &Saved) -> Result<Begun> {
     let Moment { time, .. } = saved.begun;
     problem.set(&saved.begun.values().collect::<Vec<_>>(), time)?;
     let parts = Some(Parts::whatever_inputs(&problem)?.counts);
-    Ok(Begun { problem, parts, evolution: None, error: None, ticks: Vec::new() })
+    let error = error_until(given, saved);
+    Ok(Begun { problem, parts, evolution: None, error, ticks: Vec::new() })
+}
+
+/// The error of the evolution until a state, where that is known.
+fn error_until(given: &Problem, saved: &Saved) -> Option<WindowError> {
+    let (state, units) = (saved.state.as_ref()?, &saved.units);
+    let vertices = state.vertices.iter().map(|&u| units.value(u)).collect();
+    let bubbles = state.bubbles.iter().map(|&bubble| bubble * units.u).collect();
+    let at_last = Problem { time: saved.last.time, ..given.clone() };
+    let seconds = saved.evolution.as_ref()?.seconds();
+    WindowError::resume(&at_last, seconds, saved.error?, [vertices, bubbles])
 }
 
 /// Lays the numbers of a state into `problem` and its session, both in `units`.

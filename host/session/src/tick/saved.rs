@@ -78,6 +78,9 @@ pub struct Saved {
     pub(super) state: Option<State>,
     /// The bound over time, where all steps had one.
     pub(super) evolution: Option<Evolution>,
+    /// The sums of `window_error`, where it is known.
+    #[serde(default)]
+    pub(super) error: Option<[f64; 2]>,
     /// What the session carries; nothing before its first answer.
     pub(super) session: Option<SavedSession>,
     /// The file that it was read from.
@@ -101,6 +104,7 @@ impl Saved {
             units: Units::default(),
             state: None,
             evolution: None,
+            error: None,
             session: None,
             path: PathBuf::new(),
         }

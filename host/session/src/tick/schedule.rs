@@ -1,8 +1,9 @@
 //! Ticks at t = 0, step, 2·step, … from `[time]` of the scene.
 
 use super::ScheduledTick;
-use signorini_scene::error::{InputError, Result};
+use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::scene::{Scene, Time};
+use signorini_solve::step_of;
 
 /// Most ticks of one run: each is kept until all are written.
 pub const MOST: u32 = 1_000_000;
@@ -59,6 +60,30 @@ pub fn moments_after(
     Ok((first..first + count)
         .map(|tick| ScheduledTick { time: base + time_of(tick, step), inputs: Vec::new() })
         .collect())
+}
+
+/// Refuses moments of steps in time that do not follow each other, and the one at `last`, by the scene's step, which the matrix is
+/// made for.
+///
+/// # Errors
+/// The first that does not, with its time; no step.
+pub fn check_steps(scene: &Scene, last: Option<f64>, moments: &[ScheduledTick]) -> Result<()> {
+    if !scene.stores() {
+        return Ok(());
+    }
+    let step = step_of(scene)?;
+    let follows = |pair: &[f64]| {
+        let slack = 1e-6 * step + 4.0 * f64::EPSILON * pair[1].abs();
+        (pair[1] - pair[0] - step).abs() <= slack
+    };
+    let times: Vec<f64> =
+        last.into_iter().chain(moments.iter().map(|moment| moment.time)).collect();
+    let Some(pair) = times.windows(2).find(|pair| !follows(pair)) else { return Ok(()) };
+    let [before, time] = [pair[0], pair[1]];
+    let message =
+        format!("t: {time} comes {} after {before}, expected the step {step}", time - before);
+    let hint = "a material has a capacity: ticks follow each other by time.step, or by --step";
+    Err(Error::from(InputError::new(message).hint(hint)).at_time(time))
 }
 
 /// Ticks from the one with the number `first` to `end`, both among them.
@@ -118,7 +143,7 @@ mod tests {
         let scene = Scene::parse(text, std::path::Path::new("s.toml")).unwrap();
         let of = |count: Option<u32>, last: Option<f64>| {
             let all = moments_after(&scene, count, last)?;
-            Ok::<_, signorini_scene::error::Error>(all.iter().map(|of| of.time).collect::<Vec<_>>())
+            Ok::<_, Error>(all.iter().map(|of| of.time).collect::<Vec<_>>())
         };
         let whole = of(None, None).unwrap();
         assert_eq!(whole.len(), 11);

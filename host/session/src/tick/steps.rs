@@ -13,7 +13,7 @@ use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_solve::ScalarKind;
 
 /// A heater below a Robin side and between Dirichlet ones, all of which inputs change; sweeps go on to rounding.
-const HEATED: &str = r#"
+pub(super) const HEATED: &str = r#"
 mesh = "grid"
 material.default = { conductivity = "1", capacity = "2" }
 boundary.dirichlet = { kind = "robin", coefficient = "0", ambient = "1" }
@@ -58,7 +58,7 @@ fn moments(count: u32) -> Vec<ScheduledTick> {
     (1..=count).map(of).collect()
 }
 
-fn near(what: &str, found: f64, expected: f64, part: f64) {
+pub(super) fn near(what: &str, found: f64, expected: f64, part: f64) {
     assert!(
         (found - expected).abs() <= part * expected.abs().max(1.0),
         "{what}: {found} {expected}"
@@ -184,7 +184,7 @@ fn main() {{
     Ok(())
 }
 
-/// The full model alone: another that is asked for is refused, and so are data that leave a step no bound.
+/// A coefficient that moves has no condensed steps; data that leave a step no bound are refused.
 #[test]
 fn what_no_controller_steps_is_refused() -> Result<()> {
     let refused = |stated: &str, instead: &str| -> Result<String> {
@@ -194,7 +194,7 @@ fn what_no_controller_steps_is_refused() -> Result<()> {
         Ok(choice.err().map_or_else(String::new, |error| error.to_string()))
     };
     let why = refused("setting.share = 1e-9", "setting.model = \"condensed\"")?;
-    assert!(why.contains("no condensed model steps in time yet"), "{why}");
+    assert!(why.contains("it changes the matrix"), "{why}");
     let why = refused("gap = \"0.35\"", "gap = \"0.35*x^2\"")?;
     assert!(why.contains("not linear along an edge"), "{why}");
     let why = refused("time.step = 0.05", "")?;
@@ -253,5 +253,48 @@ fn main() {{
         let baked = stepping::<f32>(&heated(cells, "")?)?;
         assert_eq!(printed(&(source(&baked) + &program)), "the same\n", "{cells:?}");
     }
+    Ok(())
+}
+
+/// The bytes of a state in firmware are those of this machine's controller, which goes on from them, and refuses others.
+#[test]
+fn a_state_of_firmware_goes_on_at_the_desk() -> Result<()> {
+    let log: Vec<_> = (1..5).map(|at| format!("{:?}", inputs(at))).collect();
+    let program = format!(
+        "
+fn main() {{
+    let mut controller = Box::new(Controller::new());
+    for inputs in [{}] {{
+        controller.tick(Inputs::from_array(inputs.map(|x: f64| x as f32))).unwrap();
+    }}
+    let state = controller.state();
+    // The last four bytes may be none of its.
+    let bytes = unsafe {{ std::slice::from_raw_parts((&raw const state).cast::<u8>(), size_of::<State>() - 4) }};
+    println!(\"{{bytes:?}}\");
+}}
+",
+        log.join(", ")
+    );
+    let problem = heated(Cells::Triangles, "")?;
+    let baked = stepping::<f32>(&problem)?;
+    let told = printed(&(source(&baked) + &program));
+    let [mut one, mut other] = [(); 2].map(|()| Controller::<f32, TRIANGLES>::new(&baked));
+    played(&mut one, 1..5);
+    let state = one.state().expect("a state");
+    assert_eq!(told.trim(), format!("{:?}", &state[..state.len() - 4]));
+    let then = played(&mut one, 5..9);
+    played(&mut other, 3..6);
+    let before = other.state();
+    for at in [0, 9, 16, state.len() - 5] {
+        let mut damaged = state.clone();
+        damaged[at] ^= 1;
+        assert!(other.restore(&damaged).is_err(), "{at}");
+    }
+    for foreign in [&state[..8], &state[..state.len() - 8], &vec![0; state.len()], &[]] {
+        assert!(other.restore(foreign).is_err());
+    }
+    assert_eq!(other.state(), before);
+    other.restore(&state).expect("its own state");
+    assert_eq!(played(&mut other, 5..9), then);
     Ok(())
 }

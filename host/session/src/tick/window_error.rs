@@ -23,8 +23,16 @@ pub(super) fn has_window_error(scene: &Scene) -> bool {
     scene.stores() && scene.exact.is_some() && of_other_data(scene).is_none()
 }
 
+/// Why a scene that stores u and knows its exact solution has no `window_error`.
+pub fn without_window_error(scene: &Scene) -> Option<String> {
+    let key = of_other_data(scene).filter(|_| scene.stores())?;
+    Some(format!(
+        "no window_error: a step holds or interpolates {key}, so that [exact] is of other data"
+    ))
+}
+
 /// The first datum for which the exact solution of a scene that stores u is not that of its ticks.
-pub fn of_other_data(scene: &Scene) -> Option<String> {
+fn of_other_data(scene: &Scene) -> Option<String> {
     scene.exact.as_ref()?;
     let held = |datum: &Datum| datum.value.uses_time().then(|| datum.key.clone());
     let on_line = |datum: &Datum| {
@@ -83,6 +91,22 @@ impl WindowError {
             begun.weights = seconds;
         }
         Ok(Some(begun))
+    }
+
+    /// Goes on from `sums` after the tick that has left `problem`, in the scene's units, and `s`, its vertices and bubbles.
+    pub(super) fn resume(
+        problem: &Problem,
+        seconds: f64,
+        [integral, weights]: [f64; 2],
+        last: [Vec<f64>; 2],
+    ) -> Option<Self> {
+        let exact = problem.scene.exact.clone()?;
+        Some(Self { problem: problem.clone(), exact, seconds, integral, weights, last })
+    }
+
+    /// What another run goes on from: the weighed integral of the error's square, and the weights.
+    pub(super) fn sums(&self) -> [f64; 2] {
+        [self.integral, self.weights]
     }
 
     /// Goes on to the answer at `moment`, in the scene's units, and gives the error until then.

@@ -21,8 +21,9 @@ pub use stop::{Allowed, MeshOfScene, Promise, Promised, Refining, Stop};
 
 use std::time::Instant;
 
+use crate::cost::Size;
 use crate::energy_norm;
-use crate::{Options, Solution, SolverKind, solve_from};
+use crate::{Options, Ran, ScalarKind, Solution, SolverKind, solve_from};
 use marking::History;
 use signorini_problem::Problem;
 use signorini_problem::progress::stage;
@@ -44,13 +45,16 @@ pub struct Wanted {
 }
 
 impl Wanted {
-    /// Takes a factor: sweeps are ahead on small meshes of the easiest scenes alone, and by milliseconds. Here there are
+    /// How a level is solved. Sweeps are ahead on small meshes of the easiest scenes alone, and by milliseconds. Here there are
     /// many small meshes with cells of many sizes, for which sweeps are slow: a factor is as good as any there, and often faster.
-    fn by_factor(mut self) -> Self {
-        if self.options.solver == SolverKind::Auto {
-            self.options.solver = SolverKind::Factor;
-        }
-        self
+    fn options_on(&self, problem: &Problem) -> Options {
+        let is_double = self.options.scalar == ScalarKind::F64;
+        let is_small = Size::of(problem).quickest(is_double) == Ran::Sweeps;
+        let solver = match self.options.solver {
+            SolverKind::Auto if is_small => SolverKind::Factor,
+            asked => asked,
+        };
+        Options { solver, ..self.options }
     }
 }
 
@@ -88,10 +92,10 @@ pub fn refined_until(
     let pose = |hierarchy: &Hierarchy| Problem::new(scene, hierarchy.mesh().clone());
     let mut clock = Instant::now();
     let mut problem = pose(&hierarchy)?;
-    let wanted = wanted.by_factor();
     loop {
         stage(&format!("level {number}, {} unknowns", problem.topology.counts.unknowns()));
-        let level = Level::solved(number, problem, clock, &wanted.options, &start)?;
+        let options = wanted.options_on(&problem);
+        let level = Level::solved(number, problem, clock, &options, &start)?;
         let goes_on = look(&level)?;
         let bound = level.solution.bound.map_or(f64::NAN, |bound| bound.total);
         history.push(level.unknowns(), bound);

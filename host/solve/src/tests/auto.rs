@@ -1,7 +1,10 @@
 //! The choices of `auto`, and that its answers are the kernel's.
 
+use std::path::Path;
+
 use super::{distance, read, standard_scenes};
 use crate::auto::by_factor;
+use crate::cost::Size;
 use crate::{Options, Ran, ScalarKind, Solution, SolverKind, solve};
 use signorini_problem::Parts;
 use signorini_problem::fixtures::{SMOOTH, on_grid};
@@ -87,6 +90,70 @@ fn small_meshes_are_swept_and_large_ones_factored() -> Result<()> {
         same("large", &large, &kernel, [of_u, BOUND_OF_FACTOR_NARROW]);
     }
     Ok(())
+}
+
+fn text(path: &str) -> String {
+    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
+}
+
+/// What each solver took.
+const RECORD: &str = "../benches/solvers/record.csv";
+
+/// A row of the record.
+struct Timed {
+    what: String,
+    size: Size,
+    /// Seconds of each solver.
+    taken: Vec<(Ran, f64)>,
+}
+
+fn record() -> Vec<Timed> {
+    let row = |line: &str| {
+        let fields: Vec<&str> = line.split(',').collect();
+        let count = |at: usize| fields[at].parse().unwrap();
+        let size = Size {
+            unknowns: count(3),
+            contact: count(4),
+            quads: fields[5] == "true",
+            stretch: fields[6].parse().unwrap(),
+        };
+        let seconds = |micros: f64| 1e-6 * micros * size.unknowns as f64;
+        let all = [Ran::Sweeps, Ran::Factor, Ran::Direct, Ran::Multigrid].into_iter();
+        let taken = all.zip(&fields[7..]);
+        let taken = taken.filter_map(|(ran, micros)| Some((ran, seconds(micros.parse().ok()?))));
+        Timed { what: fields[..3].join(" "), size, taken: taken.collect() }
+    };
+    text(RECORD).lines().skip(1).map(row).collect()
+}
+
+#[test]
+fn the_page_quotes_rows_of_the_record() {
+    let (page, record) = (text("../../docs/benchmarks.md"), text(RECORD));
+    let (_, section) = page.split_once("## Solvers by size").expect("a section");
+    let block = section.split("```").nth(3).expect("a block after the command");
+    let quoted: Vec<&str> = block.lines().skip(1).filter(|line| !line.is_empty()).collect();
+    assert!(quoted.len() > 10);
+    for line in quoted {
+        assert!(record.lines().any(|of| of == line), "{line}");
+    }
+}
+
+/// No solver that is chosen takes 1.3 times what another one does, unless that is a twentieth of a second, which nobody waits for.
+#[test]
+fn the_choice_is_near_the_quickest_of_the_record() {
+    const AT_ONCE: f64 = 0.05;
+    let record = record();
+    assert_eq!(record.len(), 60, "five scenes, three anisotropies, four sizes");
+    for Timed { what, size, taken } in record {
+        let single: Vec<_> = taken.iter().copied().filter(|of| of.0 != Ran::Direct).collect();
+        for (all, is_double) in [(&taken, true), (&single, false)] {
+            let chosen = size.quickest(is_double);
+            let own = all.iter().find(|of| of.0 == chosen).map_or(f64::INFINITY, |of| of.1);
+            let least = all.iter().map(|of| of.1).fold(f64::INFINITY, f64::min);
+            let most = (1.3 * least).max(least + AT_ONCE);
+            assert!(own <= most, "{what}: {chosen:?} {own} of {least}");
+        }
+    }
 }
 
 #[test]

@@ -13,7 +13,7 @@ use signorini_kernel::mesh::boundary::Robin;
 use signorini_kernel::mesh::edges::Side;
 use signorini_kernel::{Real, features};
 
-/// Adds it all to the sums and to the indicators of the cells.
+/// Adds it all to the sums and to the indicators of the cells, but for the [`perturbation`] of the data.
 #[inline(always)]
 pub(super) fn add<R: Real, I: Index>(
     discretization: &Discretization<R, I>,
@@ -60,7 +60,7 @@ pub(super) fn add<R: Real, I: Index>(
             parts.algebraic += off * off / law.coefficient;
         }
     }
-    parts.perturbation += moved + perturbation(discretization, given, contact, s);
+    parts.perturbation += moved;
     let curved = if features::CURVED { given.curved } else { &[] };
     for curved in curved {
         let edge = curved.edge.at();
@@ -180,7 +180,8 @@ pub(super) fn ends<R: Real, I: Index>(
 /// The square of what storing u_D and ψ in this scalar can do: each value moves by ε|value|, and the
 /// perturbation's energy in the cells along the boundary is at most 4Σ|K| for each square. Where u_D lies below ψ, which only
 /// rounding may do, s does as well, and ψ moves by what is missing.
-fn perturbation<R: Real, I: Index>(
+#[inline(always)]
+pub(super) fn perturbation<R: Real, I: Index>(
     discretization: &Discretization<R, I>,
     given: &LoadCase<R, I>,
     contact: Law<R>,

@@ -18,6 +18,12 @@ pub(super) fn minus<R: Real, const N: usize>(mut a: [R; N], b: [R; N]) -> [R; N]
     a
 }
 
+/// The mean of two numbers.
+pub(super) fn mean<R: Real, const N: usize>(mut a: [R; N], b: [R; N]) -> [R; N] {
+    a.iter_mut().zip(b).for_each(|(a, b)| *a = R::HALF * *a + R::HALF * b);
+    a
+}
+
 /// ‖Δ − mean‖² = |T|/36 Σ_{i<j} (Δ_i − Δ_j)²
 pub(super) fn of_triangle<R: Real>(now: [R; 3], old: [R; 3]) -> Change<R> {
     let [a, b, c] = minus(now, old);

@@ -41,9 +41,9 @@
 
 mod boundary;
 mod change;
-mod evolution;
 mod extension;
 mod factor;
+mod in_step;
 mod metric;
 mod motion;
 mod parts;
@@ -55,18 +55,17 @@ mod transfer;
 mod triangle;
 mod walk;
 
-pub use evolution::{Carried, PHI, Rates, StepTerms, THETA};
 pub use extension::{Curved, is_clear};
 pub use factor::{Above, ENTRIES, Factor};
+pub use in_step::WAYS;
 pub use metric::{Metric, POINTS, of_quad, of_triangle};
-pub use motion::Motion;
+pub use motion::openings;
 pub use signorini_kernel::verdict::{Certificate, Verdict};
 pub use stability::stability;
-pub use step::{Kept, Step, certify_step, certify_step_with};
-pub use stored::{Residual, StoredCell};
+pub use step::{Handed, Judged, certify_step, certify_step_with};
+pub use stored::{Step, StoredCell};
 pub use transfer::TransferForms;
 
-use parts::CellTerms;
 use quad::Values;
 
 use crate::averages;
@@ -79,6 +78,7 @@ use signorini_kernel::index::{Index, read};
 use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::stiffness::Stiffness;
+use signorini_kernel::storage::Storage;
 use signorini_kernel::{Mesh, Real};
 
 /// Cost of surplus in the cells. With w_T = ‖A^{−½}·‖ of the flux that brings 1 from cell T along the forest to its
@@ -180,7 +180,7 @@ pub fn certify_with<R: Real, I: Index>(
 ) -> Result<Verdict<R>, Error> {
     let Discretization { edges, cells, .. } = discretization;
     let mut buffers = buffers;
-    admissible(discretization, given, iterate, &mut buffers, moved)?;
+    admissible(discretization, (given, None), iterate, &mut buffers, moved)?;
     let Buffers { vertices, bubbles, tau, indicators } = buffers;
     equilibrium::impose(edges, &given.boundary, iterate, tau);
     let s = Continuous { vertices, bubbles };
@@ -189,15 +189,16 @@ pub fn certify_with<R: Real, I: Index>(
         return Ok(Verdict::Pulled { edge });
     }
     boundary::add(discretization, given, iterate, s, tau, indicators, &mut parts);
+    parts.perturbation += boundary::perturbation(discretization, given, iterate.law, s);
     let missed = discretization.metric.missed;
     Ok(parts.conclude(cells.len(), (discretization.stability, missed), given.oscillation))
 }
 
-/// Fills s, and τ with the means of fluxes over the cells of each edge.
+/// Fills s, and τ with the means of fluxes over the cells of each edge, in a step with what these store.
 #[inline(always)]
 fn admissible<R: Real, I: Index>(
     discretization: &Discretization<R, I>,
-    given: &LoadCase<R, I>,
+    (given, stored): (&LoadCase<R, I>, Option<Storage<R>>),
     iterate: Iterate<R>,
     buffers: &mut Buffers<R>,
     moved: impl FnOnce(&mut [R], &mut [R]),
@@ -209,7 +210,8 @@ fn admissible<R: Real, I: Index>(
     same_length(Array::Quads, cells.quads.len(), edges.of_quads().len())?;
     same_length_or_empty(Array::Scratch, indicators.len(), edges.cells())?;
     same_length_or_empty(Array::Robin, given.transfer.len(), given.boundary.robin().len())?;
-    averages::fill(cells, given.loads, discretization.metric.distortions, u, vertices, tau)?;
+    let distortions = discretization.metric.distortions;
+    averages::fill(cells, (given.loads, stored), distortions, u, vertices, tau)?;
     if law.is_limited() {
         let gap = given.ends.gap;
         conforming::relax_to_gap(mesh, edges, discretization.stiffness, u, law, gap, vertices);

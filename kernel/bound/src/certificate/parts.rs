@@ -43,6 +43,35 @@ impl<R: Real> Sum<R> {
     }
 }
 
+/// ‖A^½∇s − A^{−½}τ‖² + ∫_R (τ·n + h(s − u_ext))²/h as it adds up. Extensions of curved data are left out.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Distance<R> {
+    pub gap: Sum<R>,
+    /// The same of what A has above what it is taken for.
+    pub open: R,
+}
+
+impl<R: Real> Distance<R> {
+    #[inline(always)]
+    pub fn add(&mut self, [gap, open]: [R; 2]) {
+        self.gap.add(gap);
+        if features::VARYING || features::PIECES {
+            self.open += open;
+        }
+    }
+
+    /// The square, with what A has above what it is taken for.
+    pub fn square(&self, missed: R) -> R {
+        let root = |square: R| square.or_larger(R::ZERO).rounded_sqrt();
+        let square = self.gap.value();
+        if !(features::VARYING || features::PIECES) {
+            return square;
+        }
+        let seen = (R::ONE + missed) * (root(square) + root(self.open));
+        seen * seen
+    }
+}
+
 /// Sums over the mesh.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Parts<R> {
@@ -64,7 +93,19 @@ pub(super) struct Parts<R> {
     pub open: R,
 }
 
+impl<R: Real> CellTerms<R> {
+    /// The share of a [`Distance`].
+    pub fn distance(&self) -> [R; 2] {
+        [self.gap, self.open]
+    }
+}
+
 impl<R: Real> Parts<R> {
+    /// What the cells have added to it so far.
+    pub fn distance(&self) -> Distance<R> {
+        Distance { gap: self.gap, open: self.open }
+    }
+
     #[inline(always)]
     pub fn add(&mut self, share: CellTerms<R>) {
         self.gap.add(share.gap);

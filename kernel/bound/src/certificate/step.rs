@@ -11,48 +11,40 @@
 //! as ever.
 //!
 //! A cell may keep what it lacks of balance: that is R̄. Or it hands it on along the forest, as in the steady problem, of which a
-//! cell that stores nothing has to hand on all. [`Kept`] says which; the caller takes the lesser total of both.
+//! cell that stores nothing has to hand on all. One walk does both ([`WAYS`]): each has a τ of its own, s and all that it changes by
+//! are the same. The caller takes the lesser total.
 //!
-//! The bound is about this one step, whose start w is s of the step before, not about the evolution.
+//! The bound is about this one step, whose start w is s of the step before, not about the evolution, of which [`Judged`] has the terms.
 
-use super::change::{Change, minus, of_quad, of_triangle};
-use super::parts::{CellTerms, Parts};
-use super::stored::{Balance, Residual, StoredCell};
-use super::walk::{share_of_quad, share_of_triangle};
-use super::{
-    Buffers, Continuous, Discretization, LoadCase, Verdict, admissible, boundary, quad, triangle,
-};
-use crate::cells::{Cell, Cells, Either, Quad, Triangle, pick};
+use super::in_step::{Fields, OfStep, WAYS, Way};
+use super::motion::Motion;
+use super::parts::Parts;
+use super::stored::{Inside, Means, Step};
+use super::{Buffers, Continuous, Discretization, LoadCase, Verdict, admissible, boundary};
 use crate::equilibrium::{self, Iterate};
-use signorini_kernel::Real;
-use signorini_kernel::error::{Array, Error, same_length};
-use signorini_kernel::flux::{on_quad, on_triangle};
-use signorini_kernel::index::{Index, read, write};
-use signorini_kernel::storage::Storage;
+use signorini_kernel::error::{Array, Error, same_length, same_length_or_empty};
+use signorini_kernel::evolution::StepTerms;
+use signorini_kernel::{Index, Real};
 
-/// A step in time (borrowed).
-#[derive(Debug, Clone, Copy)]
-pub struct Step<'a, R> {
-    /// What cells store by their sides, and the means that the step begins from.
-    pub storage: Storage<'a, R>,
-    /// One per cell, triangles first.
-    pub cells: &'a [StoredCell<R>],
-    /// s_old at the vertices.
-    pub vertices: &'a [R],
-    /// The bubbles of s_old, one per edge; may be empty where there are no quads.
-    pub bubbles: &'a [R],
+/// What is known of a step by one way to balance its cells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Judged<R> {
+    /// The bound of the step.
+    pub verdict: Verdict<R>,
+    /// Its terms in the bound of the evolution, where there is a bound.
+    pub terms: Option<StepTerms<R>>,
 }
 
-/// What becomes of the balance that a cell lacks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kept {
-    /// The cell keeps all of it.
-    All,
-    /// It keeps its part ([`StoredCell::keep`]), and hands the rest on.
-    Part,
+/// Memory of the second way.
+#[derive(Debug)]
+pub struct Handed<'a, R> {
+    /// Becomes its τ; empty where no cell may hand anything on, of which way nothing is known then.
+    pub tau: &'a mut [R],
+    /// Becomes its indicators; may be empty.
+    pub indicators: &'a mut [R],
 }
 
-/// Bounds the error of an iterate of `step`, and says what is left of its equation.
+/// Bounds the error of an iterate of `step` by each way to balance its cells; `buffers` are of the first.
 ///
 /// # Errors
 /// Arrays of the wrong length.
@@ -60,10 +52,9 @@ pub fn certify_step<R: Real, I: Index>(
     discretization: &Discretization<R, I>,
     (given, step): (&LoadCase<R, I>, &Step<R>),
     iterate: Iterate<R>,
-    kept: Kept,
-    buffers: Buffers<R>,
-) -> Result<(Verdict<R>, Residual<R>), Error> {
-    certify_step_with(discretization, (given, step), iterate, kept, buffers, |_, _| ())
+    buffers: (Buffers<R>, Handed<R>),
+) -> Result<[Judged<R>; WAYS], Error> {
+    certify_step_with(discretization, (given, step), iterate, buffers, |_, _| ())
 }
 
 /// Bounds the error of a step with what `moved` makes of s, as [`certify_with`](super::certify_with) does.
@@ -74,25 +65,67 @@ pub fn certify_step_with<R: Real, I: Index>(
     discretization: &Discretization<R, I>,
     (given, step): (&LoadCase<R, I>, &Step<R>),
     iterate: Iterate<R>,
-    kept: Kept,
-    mut buffers: Buffers<R>,
+    (mut buffers, handed): (Buffers<R>, Handed<R>),
     moved: impl FnOnce(&mut [R], &mut [R]),
-) -> Result<(Verdict<R>, Residual<R>), Error> {
-    let Discretization { edges, cells, .. } = discretization;
+) -> Result<[Judged<R>; WAYS], Error> {
+    let Discretization { edges, .. } = discretization;
     same_length(Array::Storage, step.cells.len(), edges.cells())?;
     same_length(Array::Vertices, step.vertices.len(), buffers.vertices.len())?;
-    admissible(discretization, given, iterate, &mut buffers, moved)?;
+    same_length(Array::Contact, step.openings.len(), given.ends.gap.len())?;
+    same_length_or_empty(Array::Fluxes, handed.tau.len(), buffers.tau.len())?;
+    admissible(discretization, (given, Some(step.storage)), iterate, &mut buffers, moved)?;
     let Buffers { vertices, bubbles, tau, indicators } = buffers;
-    add_stored(cells, step.storage, iterate.u, tau);
     equilibrium::impose(edges, &given.boundary, iterate, tau);
+    handed.tau.iter_mut().zip(tau.iter()).for_each(|(to, &from)| *to = from);
     let s = Continuous { vertices, bubbles };
-    let of_cells = OverCells { discretization, given, step, u: iterate.u, s, kept };
-    let (mut parts, stored) = of_cells.sum(tau, indicators);
-    if let Some(edge) = equilibrium::pulled(edges, &given.boundary, tau) {
-        return Ok((Verdict::Pulled { edge }, stored));
+    let perturbation = boundary::perturbation(discretization, given, iterate.law, s);
+    let of_step = OfStep { discretization, given, step, iterate, s, perturbation };
+    let mut fields = [(tau, indicators), (handed.tau, handed.indicators)];
+    let (ways, inside) = of_step.walk(&mut fields);
+    let ([kept, mut handed], [of_kept, of_handed]) = (ways, fields);
+    let (kept, algebraic) = of_step.judge(kept, &inside, of_kept);
+    if of_handed.0.is_empty() {
+        return Ok([kept, Judged { verdict: Verdict::NotAsked, terms: None }]);
     }
-    boundary::add(discretization, given, iterate, s, tau, indicators, &mut parts);
-    Ok((conclude(discretization, given.oscillation, parts, stored), stored))
+    // What is handed on stays in τ however long sweeps go on: they remove what fluxes lack without it.
+    handed.algebraic = Some(algebraic);
+    Ok([kept, of_step.judge(handed, &inside, of_handed).0])
+}
+
+impl<R: Real, I: Index> OfStep<'_, R, I> {
+    /// What is known by one way, and its algebraic part.
+    #[inline(never)]
+    fn judge(
+        &self,
+        way: Way<R>,
+        inside: &Inside<R>,
+        (tau, indicators): Fields<R>,
+    ) -> (Judged<R>, R) {
+        let Self { discretization, given, step, iterate, s, perturbation } = *self;
+        let (edges, missed) = (&discretization.edges, discretization.metric.missed);
+        let Way { mut parts, means, earlier: [begin, middle], algebraic } = way;
+        let ends = [begin, middle, parts.distance()];
+        let pulled = equilibrium::pulled(edges, &given.boundary, tau);
+        boundary::add(discretization, given, iterate, s, tau, indicators, &mut parts);
+        parts.perturbation += perturbation;
+        let of_kept = parts.algebraic;
+        parts.algebraic = algebraic.unwrap_or(parts.algebraic);
+        let verdict = match pulled {
+            Some(edge) => Verdict::Pulled { edge },
+            None => conclude(discretization, given.oscillation, parts, (&means, inside)),
+        };
+        let terms = verdict.certificate().map(|certificate| {
+            let begin = Continuous { vertices: step.vertices, bubbles: step.bubbles };
+            let motion = Motion { begin, end: s, tau };
+            let distance = motion.with_transfer(discretization, given, ends);
+            let distance = distance.map(|of| of.square(missed));
+            let contact = motion.contacts(discretization, given, iterate.law, step.openings);
+            let oscillation = given.oscillation + certificate.rounding;
+            let residual = [means.mean, inside.rest, inside.loose];
+            StepTerms::new(step.length, (residual, oscillation), distance, contact)
+        });
+        (Judged { verdict, terms }, of_kept)
+    }
 }
 
 /// The least total of those where no, some or all quarters of R′ are in the storage, and the rest in the oscillation.
@@ -100,148 +133,27 @@ fn conclude<R: Real, I: Index>(
     discretization: &Discretization<R, I>,
     oscillation: R,
     mut parts: Parts<R>,
-    stored: Residual<R>,
+    (means, inside): (&Means<R>, &Inside<R>),
 ) -> Verdict<R> {
     let (cells, missed) = (discretization.cells.len(), discretization.metric.missed);
     let stability = discretization.stability;
     // s is moved by rounding of its data, in the norm of the storage too.
     let moved = R::TWO * R::EPSILON;
-    parts.perturbation += moved * moved * stored.size;
-    parts.gap.add(stored.mean);
+    parts.perturbation += moved * moved * inside.size;
+    parts.gap.add(means.mean);
     let root = |square: R| square.or_larger(R::ZERO).rounded_sqrt();
     // What rounding leaves of a cell's balance may leave along the forest, or stay.
-    let staying = R::from_count(8) * R::EPSILON * root(stored.terms);
+    let staying = R::from_count(8) * R::EPSILON * root(means.terms);
     let unbalanced = parts.unbalanced(cells, stability).or_smaller(staying);
-    let shed = root(stored.shed);
+    let shed = root(inside.shed);
     let with = |quarters: u32| {
-        let inside = R::QUARTER * R::from_count(quarters);
+        let share = R::QUARTER * R::from_count(quarters);
         let mut parts = parts;
-        parts.gap.add(inside * inside * stored.rest);
-        let oscillation = oscillation + (R::ONE - inside) * shed;
+        parts.gap.add(share * share * inside.rest);
+        let oscillation = oscillation + (R::ONE - share) * shed;
         parts.conclude_with(cells, (stability, missed), oscillation, unbalanced)
     };
     let total = |of: &Verdict<R>| of.certificate().map_or(R::INFINITY, |of| of.total);
     let lesser = |a, b| if total(&b) < total(&a) { b } else { a };
     (1..=4).map(with).fold(with(0), lesser)
-}
-
-/// Adds to the means of fluxes on edges what the cells store by their sides.
-fn add_stored<R: Real, I: Index>(cells: &Cells<R, I>, storage: Storage<R>, u: &[R], tau: &mut [R]) {
-    let mut add = |edge: I, flux: R| {
-        let sum = read(tau, edge.at()) + flux * read(cells.of_edges, edge.at());
-        write(tau, edge.at(), sum);
-    };
-    for cell in cells.triangles {
-        let stored = storage.in_triangle(cell.number.at(), &cell.edges, u);
-        let flux = cell.turned(stored.map(|flux| flux * cell.softness));
-        cell.edges.iter().zip(flux).for_each(|(&edge, flux)| add(edge, flux));
-    }
-    for cell in cells.quads {
-        let number = cell.number.at().wrapping_sub(cells.triangles.len());
-        let stored = storage.in_quad(number, &cell.edges, u);
-        let flux = cell.turned(stored.map(|flux| flux * cell.softness));
-        cell.edges.iter().zip(flux).for_each(|(&edge, flux)| add(edge, flux));
-    }
-}
-
-struct OverCells<'a, R, I> {
-    discretization: &'a Discretization<'a, R, I>,
-    given: &'a LoadCase<'a, R, I>,
-    step: &'a Step<'a, R>,
-    u: &'a [R],
-    s: Continuous<'a, R>,
-    kept: Kept,
-}
-
-impl<R: Real, I: Index> OverCells<'_, R, I> {
-    /// The walk over the cells from the leaves.
-    fn sum(&self, tau: &mut [R], indicators: &mut [R]) -> (Parts<R>, Residual<R>) {
-        let (mut parts, mut stored) = (Parts::default(), Residual::nothing());
-        for cell in self.discretization.cells.from_leaves() {
-            let (number, found) = match cell {
-                Either::Triangle(cell) => (cell.number, self.of_triangle(cell, tau, &mut stored)),
-                Either::Quad(cell) => (cell.number, self.of_quad(cell, tau, &mut stored)),
-            };
-            let Some((share, of_mean)) = found else { break };
-            write(indicators, number.at(), share.gap + share.open + of_mean);
-            parts.add(share);
-        }
-        (parts, stored)
-    }
-
-    /// A triangle's share, and its ‖R̄‖²/k.
-    fn of_triangle(
-        &self,
-        cell: &Triangle<R, I>,
-        tau: &mut [R],
-        stored: &mut Residual<R>,
-    ) -> Option<(CellTerms<R>, R)> {
-        let (number, metric) = (cell.number.at(), self.discretization.metric);
-        let source = read(self.given.loads.triangles, number);
-        let [now, old] = [self.s.vertices, self.step.vertices];
-        let now = pick(&cell.vertices, now)?;
-        let change = of_triangle(now, pick(&cell.vertices, old)?);
-        let (balance, out) = self.balanced(cell, source, &change, tau)?;
-        let mut share = share_of_triangle(metric, cell, now, self.u, (balance.load, out))?;
-        let own = on_triangle(&cell.k, &pick(&cell.edges, self.u)?, source);
-        let kept = self.step.storage.in_triangle(number, &cell.edges, self.u);
-        share.algebraic =
-            triangle::energy(cell, metric.varying(number), minus(minus(out, own), kept));
-        let of_mean = stored.add(self.stored_in(number), (&balance, &change), &out, &mut share);
-        Some((share, of_mean))
-    }
-
-    /// A quad's share, and its ‖R̄‖²/k.
-    fn of_quad(
-        &self,
-        cell: &Quad<R, I>,
-        tau: &mut [R],
-        stored: &mut Residual<R>,
-    ) -> Option<(CellTerms<R>, R)> {
-        let (number, metric) = (cell.number.at(), self.discretization.metric);
-        let quad = number.wrapping_sub(self.discretization.cells.triangles.len());
-        let source = read(self.given.loads.quads, quad);
-        let in_mesh = |vertices: &[R], bubbles: &[R]| {
-            let corners = cell.vertices_in_mesh(pick(&cell.vertices, vertices)?);
-            Some([corners, cell.sides_in_mesh(pick(&cell.edges, bubbles)?)])
-        };
-        let [now, old] = [
-            in_mesh(self.s.vertices, self.s.bubbles)?,
-            in_mesh(self.step.vertices, self.step.bubbles)?,
-        ];
-        let change = of_quad(now, old, self.stored_in(number).tilt);
-        let (balance, out) = self.balanced(cell, source, &change, tau)?;
-        let by_sides = (balance.load, out);
-        let s = self.s.in_quad(cell)?;
-        let mut share = share_of_quad(metric, (cell, quad), s, self.u, by_sides)?;
-        let own = on_quad(&cell.k, &pick(&cell.edges, self.u)?, source);
-        let kept = self.step.storage.in_quad(quad, &cell.edges, self.u);
-        share.algebraic = quad::energy(cell, metric.varying(number), minus(minus(out, own), kept));
-        let of_mean = stored.add(self.stored_in(number), (&balance, &change), &out, &mut share);
-        Some((share, of_mean))
-    }
-
-    fn stored_in(&self, cell: usize) -> StoredCell<R> {
-        read(self.step.cells, cell)
-    }
-
-    /// Balances a cell as far as it does not keep what it lacks, and gives the fluxes out of it. A cell that keeps all changes no flux,
-    /// so that its way out may end on an edge whose flux is given.
-    fn balanced<const SIDES: usize, const ENTRIES: usize>(
-        &self,
-        cell: &Cell<R, I, SIDES, ENTRIES>,
-        source: R,
-        change: &Change<R>,
-        tau: &mut [R],
-    ) -> Option<(Balance<R>, [R; SIDES])> {
-        let StoredCell { content, keep, .. } = self.stored_in(cell.number.at());
-        let wanted = source - content * change.mean;
-        let out = cell.outward(tau)?;
-        let lacking = out.iter().fold(-wanted, |rest, &flux| rest - flux);
-        if content > R::ZERO && self.kept == Kept::All {
-            return Some((Balance { source, wanted, load: wanted + lacking }, out));
-        }
-        let load = if content > R::ZERO { wanted + keep * lacking } else { wanted };
-        Some((Balance { source, wanted, load }, cell.settle(load, tau)?))
-    }
 }

@@ -3,6 +3,7 @@
 use super::change::Change;
 use super::parts::CellTerms;
 use signorini_kernel::Real;
+use signorini_kernel::storage::Storage;
 
 /// What one cell stores.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -23,21 +24,43 @@ pub struct StoredCell<R> {
     pub keep: R,
 }
 
-/// What is left of R = f − k(s − s_old) + ∇·τ over the cells.
+/// A step in time (borrowed).
 #[derive(Debug, Clone, Copy)]
-pub struct Residual<R> {
+pub struct Step<'a, R> {
+    /// dt
+    pub length: R,
+    /// What cells store by their sides, and the means that the step begins from.
+    pub storage: Storage<'a, R>,
+    /// One per cell, triangles first.
+    pub cells: &'a [StoredCell<R>],
+    /// s_old at the vertices.
+    pub vertices: &'a [R],
+    /// The bubbles of s_old, one per edge; may be empty where there are no quads.
+    pub bubbles: &'a [R],
+    /// The means of (s_old − ψ)⁺ and (ψ − s_old)⁺ along each contact edge, with ψ as it was then.
+    pub openings: &'a [[R; 2]],
+}
+
+/// What s changes by leaves of R = f − k(s − s_old) + ∇·τ inside the cells, whatever τ, without what f varies by.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Inside<R> {
+    /// Σ‖R′‖²/k
+    pub rest: R,
+    /// Σ‖R′‖²/(k + π²α/h²)
+    pub shed: R,
+    /// Σ‖R′‖²/(π²α/h²)
+    pub loose: R,
+    /// Σ k|T| s²
+    pub size: R,
+}
+
+/// The means of R that τ leaves.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Means<R> {
     /// Σ‖R̄‖²/k
     pub mean: R,
-    /// Σ‖R′‖²/k, without what f varies by.
-    pub rest: R,
-    /// Σ‖R′‖²/(k + π²α/h²), without what f varies by.
-    pub shed: R,
-    /// Σ‖R′‖²/(π²α/h²), without what f varies by.
-    pub loose: R,
     /// Σ(terms of R̄|T|)²/(k|T|), infinite where a cell stores nothing.
-    pub(super) terms: R,
-    /// Σ k|T| s²
-    pub(super) size: R,
+    pub terms: R,
 }
 
 /// What a cell is to give up by its sides, and what it does.
@@ -50,44 +73,52 @@ pub(super) struct Balance<R> {
     pub load: R,
 }
 
-impl<R: Real> Residual<R> {
-    /// Of no cells.
-    pub(super) fn nothing() -> Self {
-        let zero = R::ZERO;
-        Self { mean: zero, rest: zero, shed: zero, loose: zero, terms: zero, size: zero }
+impl<R: Real> Inside<R> {
+    /// Adds a cell, and gives its ‖R′‖²/k.
+    #[inline(always)]
+    pub(super) fn add(&mut self, of: &StoredCell<R>, change: &Change<R>) -> R {
+        let mut variance = of.spread * change.variance;
+        if of.skew > R::ZERO {
+            // ∇·τ goes with the inverse of the area element, and what s changes does not.
+            let apart = variance.rounded_sqrt() + change.mean.magnitude() * of.skew.rounded_sqrt();
+            variance = apart * apart;
+        }
+        let rest = of.content * variance;
+        self.rest += rest;
+        self.shed += of.shed * rest;
+        self.loose += of.loose * rest;
+        self.size += of.content * change.size * change.size;
+        rest
     }
+}
 
+impl<R: Real> Means<R> {
     /// Adds a cell with these fluxes out of it, and gives its ‖R̄‖²/k.
+    #[inline(always)]
     pub(super) fn add(
         &mut self,
-        of: StoredCell<R>,
-        (balance, change): (&Balance<R>, &Change<R>),
+        (of, change, rest): (&StoredCell<R>, &Change<R>, R),
+        balance: &Balance<R>,
         out: &[R],
         share: &mut CellTerms<R>,
     ) -> R {
-        let StoredCell { content, spread, skew, shed, loose, .. } = of;
-        let of_change = content * change.size;
+        let of_change = of.content * change.size;
         share.terms += balance.source * balance.source + of_change * of_change;
-        if content == R::ZERO {
+        if of.content == R::ZERO {
             self.terms = R::INFINITY;
             return R::ZERO;
         }
         let lacking = balance.wanted - balance.load;
-        // ∇·τ goes with the inverse of the area element, and what s changes does not.
-        let of_mean = lacking * lacking / content * (R::ONE + skew);
-        let apart = (spread * change.variance).rounded_sqrt();
-        let apart = apart + change.mean.magnitude() * skew.rounded_sqrt();
-        let rest = content * apart * apart;
-        // Both are orthogonal but for what the area element makes of R̄.
-        let of_mean = of_mean + R::TWO * (lacking * lacking / content * skew * rest).rounded_sqrt();
+        let mut of_mean = lacking * lacking / of.content;
+        if of.skew > R::ZERO {
+            // Both are orthogonal but for what the area element makes of R̄.
+            let product = (of_mean * of.skew * rest).rounded_sqrt();
+            of_mean = of_mean * (R::ONE + of.skew) + R::TWO * product;
+        }
         let terms = balance.source.magnitude() + of_change;
         let terms = out.iter().fold(terms, |sum, flux| sum + flux.magnitude());
         self.mean += of_mean;
-        self.rest += rest;
-        self.shed += shed * rest;
-        self.loose += loose * rest;
-        self.terms += terms * terms / content;
-        self.size += of_change * change.size;
+        self.terms += terms * terms / of.content;
         of_mean
     }
 }

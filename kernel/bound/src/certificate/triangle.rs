@@ -33,10 +33,9 @@ pub(super) fn share<R: Real, I: Index>(
     let own = product(k, &u);
     let algebraic = [tau_middle[0] - own[0], tau_middle[1] - own[1], tau_middle[2] - own[2]];
     let jump = [gap[0] + algebraic[0], gap[1] + algebraic[1], gap[2] + algebraic[2]];
-    let linear = R::HALF * (k[0] + k[1] + k[2]) * third * third;
     let terms = squares(tau, load);
     CellTerms {
-        gap: cell.compliance * (form(k, gap) - linear),
+        gap: square(cell, gap, third),
         algebraic: cell.compliance * form(k, algebraic),
         nonconforming: cell.compliance * form(k, jump),
         uncertainty: cell.uncertainty * sum_of_squares(flows, terms),
@@ -44,6 +43,26 @@ pub(super) fn share<R: Real, I: Index>(
         terms,
         open: R::ZERO,
     }
+}
+
+/// ‖A^½∇s − A^{−½}τ‖² for outward fluxes τ that balance `load`.
+#[inline(always)]
+pub(super) fn gap<R: Real, I: Index>(
+    cell: &Triangle<R, I>,
+    s: [R; 3],
+    (load, tau): (R, [R; 3]),
+) -> R {
+    let third = load * R::THIRD;
+    let ([t01, t12, t20], [o0, o1, o2]) = (flows(&cell.k, s), tau.map(|flux| flux + third));
+    square(cell, [t01 - t20 - o0, t12 - t01 - o1, t20 - t12 - o2], third)
+}
+
+/// The square of a field with these fluxes of its mean, whose outward ones leave three times `third`.
+#[inline(always)]
+fn square<R: Real, I: Index>(cell: &Triangle<R, I>, fluxes: [R; 3], third: R) -> R {
+    let k = &cell.k;
+    let linear = R::HALF * (k[0] + k[1] + k[2]) * third * third;
+    cell.compliance * (form(k, fluxes) - linear)
 }
 
 /// K_ij (mean of s on j − mean of s on i) for 01, 12, 20, from the vertex values of s.
@@ -77,6 +96,7 @@ fn sum_of_squares<R: Real>([t01, t12, t20]: [R; 3], terms: R) -> R {
 }
 
 /// ‖A^{−½}·‖² of the Raviart–Thomas field with these outward fluxes.
+#[inline(always)]
 pub(super) fn energy<R: Real, I: Index>(
     cell: &Triangle<R, I>,
     varying: Option<Varying<R>>,
@@ -84,7 +104,10 @@ pub(super) fn energy<R: Real, I: Index>(
 ) -> R {
     let (none, load) = ([R::ZERO; 3], -(out[0] + out[1] + out[2]));
     match varying {
-        None => share(cell, none, out, none, load).gap,
+        None => {
+            let third = load * R::THIRD;
+            square(cell, out.map(|flux| flux + third), third)
+        }
         Some(Varying::Points(points)) => {
             let (k, out) = (cell.stiffness_in_mesh(), cell.sides_in_mesh(out));
             share_at_points(points, R::ZERO, (&k, cell.compliance), none, out, none, load).gap

@@ -108,10 +108,10 @@ impl<R: Real> Form<'_, R> {
         }
         for (edge, ends) in sides.ends.iter().enumerate() {
             let [a, b] = ends.map(|end| self.end(sides, (edge, end), answer, z));
-            let Some(price) = price_of(sides, edge, answer, [a?, b?], uncertainty) else {
+            let Some(charge) = self.charge(edge, answer, [a?, b?], uncertainty) else {
                 return Ok(None);
             };
-            sum += price;
+            sum += charge;
         }
         Ok(Some([sum, misplaced]))
     }
@@ -139,36 +139,37 @@ impl<R: Real> Form<'_, R> {
         let stray = Error::OutOfRange { of: Array::Vertices, at };
         self.corners.get(at).ok_or(stray)?.at(inputs)
     }
-}
 
-/// Charge of a contact edge; `None` where s is on a side that does not exist by more than rounding.
-fn price_of<R: Real>(
-    sides: &Baked<R>,
-    edge: usize,
-    answer: &Candidate<R>,
-    [a, b]: [[R; 2]; 2],
-    uncertainty: R,
-) -> Option<R> {
-    let (x, r) = (read(answer.x, edge), read(answer.residual, edge));
-    let [least, most] = answer.ranges.ends(edge);
-    let tau = answer.ranges.admissible(edge, x, r);
-    let unsure = if x == R::ZERO { R::TWO * uncertainty } else { R::ZERO };
-    let slack = a[1].or_larger(b[1]);
-    let (low, high) = (a[0].or_smaller(b[0]), a[0].or_larger(b[0]));
-    if low < -slack && !most.finite() || high > slack && !least.finite() {
-        return None;
-    }
-    let [above, below] = Excess { ends: [a[0], b[0]], bubble: R::ZERO }.sides();
-    let range = FluxRange::new(R::ZERO, Span::new(most - least));
-    let beside = unsure + answer.ranges.moved(edge);
-    let one = |mean: R, may_be: bool, distance: R| {
-        let mean = if may_be { mean + slack } else { mean };
-        if mean > R::ZERO && distance.finite() {
-            let unseen = range.unseen(distance + unsure, sides.excess).or_smaller(sides.excess);
-            R::TWO * mean * (distance + unseen + beside)
-        } else {
-            R::ZERO
+    /// Charge of a contact edge for s − ψ at its ends, each with what rounding may hide; `None` where s is on a side that does not exist by more than rounding.
+    pub(crate) fn charge(
+        &self,
+        edge: usize,
+        answer: &Candidate<R>,
+        [a, b]: [[R; 2]; 2],
+        uncertainty: R,
+    ) -> Option<R> {
+        let most_excess = self.sides.baked().map_or(R::ZERO, |sides| sides.excess);
+        let (x, r) = (read(answer.x, edge), read(answer.residual, edge));
+        let [least, most] = answer.ranges.ends(edge);
+        let tau = answer.ranges.admissible(edge, x, r);
+        let unsure = if x == R::ZERO { R::TWO * uncertainty } else { R::ZERO };
+        let slack = a[1].or_larger(b[1]);
+        let (low, high) = (a[0].or_smaller(b[0]), a[0].or_larger(b[0]));
+        if low < -slack && !most.finite() || high > slack && !least.finite() {
+            return None;
         }
-    };
-    Some(one(above, high > -slack, tau - least) + one(below, low < slack, most - tau))
+        let [above, below] = Excess { ends: [a[0], b[0]], bubble: R::ZERO }.sides();
+        let range = FluxRange::new(R::ZERO, Span::new(most - least));
+        let beside = unsure + answer.ranges.moved(edge);
+        let one = |mean: R, may_be: bool, distance: R| {
+            let mean = if may_be { mean + slack } else { mean };
+            if mean > R::ZERO && distance.finite() {
+                let unseen = range.unseen(distance + unsure, most_excess).or_smaller(most_excess);
+                R::TWO * mean * (distance + unseen + beside)
+            } else {
+                R::ZERO
+            }
+        };
+        Some(one(above, high > -slack, tau - least) + one(below, low < slack, most - tau))
+    }
 }

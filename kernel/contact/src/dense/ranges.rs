@@ -1,4 +1,4 @@
-//! What w = Sx − b may be on each contact edge, where that is not just w ≥ 0: three sides instead of two.
+//! Ranges of w = Sx − b on each contact edge, where that is not just w ≥ 0: three sides instead of two.
 //!
 //! ```text
 //!   x > 0:  w = 0        x = 0:  0 ≤ w ≤ m        x < 0:  w = m          m ≥ 0, or ∞: no third side
@@ -19,7 +19,7 @@ use signorini_kernel::index::{read, write};
 pub struct Given<'a, R> {
     /// b
     pub load: &'a [R],
-    /// What w may be.
+    /// The values that w may have.
     pub ranges: Ranges<'a, R>,
 }
 
@@ -59,7 +59,7 @@ impl<'a, R: Real> Given<'a, R> {
     }
 }
 
-/// What w may be on each contact edge (borrowed).
+/// The values that w may have on each contact edge (borrowed).
 #[derive(Debug, Clone, Copy)]
 pub struct Ranges<'a, R> {
     spans: Spans<'a, R>,
@@ -118,7 +118,7 @@ impl<R: Real> Ranges<'_, R> {
         (z - least).or_smaller(most - z)
     }
 
-    /// The same for phases in which whoever is above its range, or at its upper end, waits.
+    /// The violation in phases in which whoever is above its range, or at its upper end, waits.
     pub(super) fn violation_from_below(&self, at: usize, z: R, x: R, within: bool) -> R {
         match within {
             true if x < R::ZERO => R::ZERO,

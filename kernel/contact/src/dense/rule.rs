@@ -25,7 +25,7 @@ use super::blocks::{SIDE, groups, padded};
 use signorini_kernel::Real;
 use signorini_kernel::features;
 
-/// What to do next.
+/// The choice of the next exchange.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Step {
     /// Nothing is wrong by more than rounding.
@@ -51,7 +51,7 @@ pub trait Rule {
     /// `has_limits` where a flux has a third side.
     fn most(&self, order: usize, has_limits: bool) -> usize;
 
-    /// What to do after so many `pivots`, where nothing counts as wrong up to `noise`.
+    /// Chooses the step after so many `pivots`, where nothing counts as wrong up to `noise`.
     ///
     /// z = −x where an unknown is exchanged, w elsewhere.
     fn next<R: Real>(&mut self, z: &[R], exchanged: &[bool], noise: R, pivots: u32) -> Step;

@@ -186,7 +186,9 @@ where
     Flags: AsRef<[u8]> + AsMut<[u8]>,
 {
     fn save(&self, setup: &Self::Setup<'_>, scene: u64) -> State<R, N> {
-        self.own.save(setup.lengths, scene)
+        let mut numbers = [R::ZERO; N];
+        self.own.hand_on(setup.lengths, &mut numbers);
+        State::seal(scene, numbers)
     }
 
     fn restore(
@@ -195,7 +197,7 @@ where
         state: &State<R, N>,
         scene: u64,
     ) -> Result<(), Error> {
-        self.own.restore(state, setup.lengths, scene)
+        self.own.take_over(setup.lengths, state.open(scene)?)
     }
 }
 

@@ -46,6 +46,8 @@ pub struct Numbers<T> {
     pub carried: T,
     /// What K_ii has beyond the element matrices in a step whose transfer coefficients change.
     pub diagonal: T,
+    /// The fluxes where cells hand on what they lack of balance, in a step with a bound.
+    pub handed: T,
 }
 
 /// The lengths of all arrays that change; data that no input changes have none.
@@ -90,6 +92,7 @@ impl<T> Numbers<T> {
             openings: each(self.openings)?,
             carried: each(self.carried)?,
             diagonal: each(self.diagonal)?,
+            handed: each(self.handed)?,
         })
     }
 }
@@ -101,7 +104,8 @@ impl Numbers<usize> {
         let of_cells = self.triangles + self.quads;
         let of_contact = self.contact_flux + self.gap + self.gap_ends + self.spans;
         let [u, vertices, bubbles] = self.begin;
-        let of_step = u + vertices + bubbles + self.openings + self.carried + self.diagonal;
+        let of_bound = self.openings + self.carried + self.handed;
+        let of_step = u + vertices + bubbles + of_bound + self.diagonal;
         let given = self.dirichlet + self.dirichlet_ends + self.transfer;
         of_tick + of_cells + of_contact + given + of_step
     }
@@ -124,10 +128,11 @@ impl Lengths {
     /// Memory for what a step hands on.
     const fn store<R: Real, I: Index>(&mut self, full: &Full<R, I>) {
         let numbers = &mut self.numbers;
-        if full.storing.get().is_some() {
+        if let Some(storing) = full.storing.get() {
             numbers.begin = [numbers.u, numbers.vertices, numbers.bubbles];
             numbers.openings = 2 * self.active;
             numbers.carried = 2;
+            numbers.handed = if storing.cells.is_empty() { 0 } else { numbers.tau };
         }
     }
 
@@ -152,6 +157,7 @@ impl Lengths {
             openings: 0,
             carried: 0,
             diagonal: 0,
+            handed: 0,
         };
         let (rows, active) = (counts.unknowns(), counts.contact);
         Self { rows, active, numbers, neumann: 0, robin: 0, curved: 0 }

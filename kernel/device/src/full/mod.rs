@@ -29,10 +29,11 @@ pub use lengths::{Lengths, Numbers};
 pub use pattern::{
     AmbientShare, Contribution, DataMemory, EdgeTrace, Pattern, Points, TransferPattern,
 };
-pub use state::State;
 pub use storage::{ArrayStorage, Storage};
 pub use storing::{Begin, HandedOn, Past, Storing};
 pub use units::Units;
+
+pub use crate::state::{State, checksum};
 
 use crate::tick::{self, Data, Deadline, Ended, IfStoring, Limits, Method, Progress, Report, Tick};
 use functional::TickState;
@@ -126,9 +127,9 @@ impl<R: Real, I: Index> Full<'_, R, I> {
             }
             past.weigh(storing, of_data.robin);
         }
-        let step = self.storing.get().map(|storing| past.step(storing));
-        let data = of_data.view(&self.base, edges, forms, (oscillation, moved))?;
-        let data = Data { step: step.as_ref().map_or(IfStoring::NOTHING, IfStoring::of), ..data };
+        let step = self.storing.get().map(|storing| past.step(storing, handed_on.openings));
+        let given = of_data.view(&self.base, edges, forms, (oscillation, moved))?;
+        let data = Data { step: step.as_ref().map_or(IfStoring::NOTHING, IfStoring::of), ..given };
         let known = match progress.has_begun() {
             true => *progress,
             false => Progress::new(self.relaxation)?,
@@ -142,7 +143,7 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         let report = tick.enter(data, size).advance(method, limits, deadline)?;
         *progress = tick.progress();
         let report = Report { verdict: self.allowed(report.verdict, &data.given.ends), ..report };
-        let answer = TickState { tick: &tick, data: &data, report: &report };
+        let answer = TickState { tick: &tick, data: &given, report: &report };
         let mut is_known = true;
         for (output, functional) in outputs.iter_mut().zip(self.outputs) {
             *output = functional.of(&answer);
@@ -158,7 +159,8 @@ impl<R: Real, I: Index> Full<'_, R, I> {
             }
             if M::CERTIFIES {
                 let has_bound = report.verdict.certificate().is_some();
-                handed_on.advance(storing, &mut tick, &data, has_bound)?;
+                let terms = step.as_ref().filter(|_| has_bound).map(|step| step.terms.get());
+                handed_on.advance(storing, &terms.unwrap_or_default(), &tick, &given)?;
             }
             past.advance(tick.memory());
         }

@@ -2,7 +2,7 @@
 //! what a reset or a brown-out has left of it may make a tick wrong, and nothing worse.
 
 use super::storing::copy;
-use super::{DataMemory, Full, HandedOn, Lengths, Memory, Numbers, Past, State};
+use super::{DataMemory, Full, HandedOn, Lengths, Memory, Numbers, Past};
 use crate::tick::{self, Progress};
 use signorini_bound::certificate::Curved;
 use signorini_kernel::error::{Array, Error, same_length};
@@ -136,6 +136,7 @@ impl<R: Real, Rows, Floats, Flags, Fluxes, Laws, Bends>
                 vertices: old_vertices,
                 bubbles: old_bubbles,
                 diagonal: numbers.diagonal,
+                handed: numbers.handed,
             },
             handed_on: HandedOn { openings: pairs(numbers.openings), carried: numbers.carried },
             progress: &mut self.progress,
@@ -155,37 +156,50 @@ impl<R: Real, Rows, Floats, Flags, Fluxes, Laws, Bends>
         })
     }
 
-    /// What the last tick has left, sealed; `scene` is the hash of the scene. One with room for other numbers than
-    /// [`Lengths::handed_on`] is restored nowhere.
-    pub fn save<const N: usize>(&self, lengths: &Lengths, scene: u64) -> State<R, N>
+    /// Lays what the last tick has left into `to`, which has room for [`Lengths::handed_on`] numbers: 0 before the first one.
+    pub fn hand_on(&self, lengths: &Lengths, to: &mut [R])
     where
         Floats: AsRef<[R]>,
         Flags: AsRef<[u8]>,
     {
-        let numbers = self.numbers(lengths).unwrap_or_default();
-        State::seal(scene, &self.progress, &numbers, self.active.as_ref())
+        to.iter_mut().for_each(|to| *to = R::ZERO);
+        if !self.has_begun() {
+            return;
+        }
+        let Numbers { begin: [u, vertices, bubbles], openings, carried, .. } =
+            self.numbers(lengths).unwrap_or_default();
+        let search = self.progress.numbers();
+        let arrays = [u, vertices, bubbles, openings, carried, &search[..]];
+        let active = self.active.as_ref().iter();
+        let flags = active.map(|&flag| if flag == 0 { R::ZERO } else { R::ONE });
+        let all = arrays.into_iter().flatten().copied().chain(flags);
+        to.iter_mut().zip(all).for_each(|(to, from)| *to = from);
     }
 
-    /// Goes on from a state.
+    /// Goes on from what [`Storage::hand_on`] has laid there.
     ///
     /// # Errors
-    /// That of another scene, or a damaged one: nothing has changed then.
-    pub fn restore<const N: usize>(
-        &mut self,
-        state: &State<R, N>,
-        lengths: &Lengths,
-        scene: u64,
-    ) -> Result<(), Error>
+    /// [`Error::ForeignState`] where it is of another length: nothing has changed then.
+    pub fn take_over(&mut self, lengths: &Lengths, numbers: &[R]) -> Result<(), Error>
     where
         Floats: AsMut<[R]>,
         Flags: AsMut<[u8]>,
     {
-        let numbers = split(lengths, self.numbers.as_mut())?;
-        self.progress = state.open(scene, numbers, self.active.as_mut())?;
+        if numbers.len() != lengths.handed_on() {
+            return Err(Error::ForeignState);
+        }
+        let Numbers { begin: [u, vertices, bubbles], openings, carried, u: answer, .. } =
+            split(lengths, self.numbers.as_mut())?;
+        let mut from = numbers.iter().copied();
+        for array in [&mut *u, vertices, bubbles, openings, carried] {
+            array.iter_mut().zip(from.by_ref()).for_each(|(to, from)| *to = from);
+        }
         // A step begins where the last one has ended.
-        let numbers = split(lengths, self.numbers.as_mut())?;
-        let [u, ..] = numbers.begin;
-        copy(u, numbers.u);
+        copy(u, answer);
+        let search = core::array::from_fn(|_| from.next().unwrap_or(R::ZERO));
+        let active = self.active.as_mut().iter_mut();
+        active.zip(from).for_each(|(to, from)| *to = u8::from(from != R::ZERO));
+        self.progress = Progress::of_numbers(search);
         Ok(())
     }
 

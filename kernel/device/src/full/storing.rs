@@ -6,9 +6,12 @@
 //!                      └────────── a refused tick leaves it, bit for bit ◄─────────────┘
 //! ```
 
+use core::cell::Cell;
+
 use crate::controller::Window;
 use crate::tick::{Data, InStep, Memory, Tick};
-use signorini_bound::certificate::{Carried, Rates, Step, StoredCell};
+use signorini_bound::certificate::{Step, StoredCell};
+use signorini_kernel::evolution::{Carried, Rates, StepTerms};
 use signorini_kernel::mesh::boundary::Robin;
 use signorini_kernel::storage::Storage;
 use signorini_kernel::{Error, Index, Real};
@@ -56,6 +59,8 @@ pub struct Past<'a, R> {
     pub bubbles: &'a mut [R],
     /// [`Storing::diagonal`] where inputs change ∫h.
     pub diagonal: &'a mut [R],
+    /// [`InStep::handed`]
+    pub handed: &'a mut [R],
 }
 
 /// Memory of what else the bound of the evolution takes from it (borrowed).
@@ -109,16 +114,24 @@ impl<R: Real> Past<'_, R> {
         }
     }
 
-    /// The step that begins here.
-    pub(super) fn step<'s>(&'s self, of: &Storing<'s, R>) -> InStep<'s, R> {
+    /// The step that begins here, with these openings.
+    pub(super) fn step<'s>(
+        &'s mut self,
+        of: &Storing<'s, R>,
+        openings: &'s [[R; 2]],
+    ) -> InStep<'s, R> {
         InStep {
             step: Step {
+                length: of.length,
                 storage: Storage::baked(of.masses, self.u),
                 cells: of.cells,
                 vertices: self.vertices,
                 bubbles: self.bubbles,
+                openings,
             },
             diagonal: if self.diagonal.is_empty() { of.diagonal } else { self.diagonal },
+            handed: Cell::new(&mut *self.handed),
+            terms: Cell::default(),
         }
     }
 
@@ -137,24 +150,15 @@ impl<R: Real> HandedOn<'_, R> {
         copy(&[of.carried.bound, of.carried.before], self.carried);
     }
 
-    /// Takes in the step that has just ended; without a bound nothing is known from it on.
+    /// Takes in the terms of the step that has just ended, and how far its s is from ψ; without a bound nothing is known from it on.
     pub(super) fn advance<I: Index, const WIDTH: usize>(
         &mut self,
         of: &Storing<R>,
-        tick: &mut Tick<R, I, WIDTH>,
+        terms: &[Option<StepTerms<R>>],
+        tick: &Tick<R, I, WIDTH>,
         data: &Data<R, I>,
-        has_bound: bool,
     ) -> Result<(), Error> {
-        let now = carried(self.carried);
-        let known = match has_bound {
-            true => tick.terms(data, (self.openings, of.length))?,
-            false => [None; 2],
-        };
-        let Carried { bound, before } = match known {
-            [Some(first), Some(second)] => of.rates.advance(now, &[first, second]),
-            [Some(one), None] | [None, Some(one)] => of.rates.advance(now, &[one]),
-            [None, None] => of.rates.advance(now, &[]),
-        };
+        let Carried { bound, before } = of.rates.advance(carried(self.carried), terms);
         copy(&[bound, before], self.carried);
         tick.open(data, self.openings)
     }

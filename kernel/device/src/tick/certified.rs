@@ -16,7 +16,7 @@ impl<R: Real, I: Index, M: Math<R>> Method<R, I> for CertifiedSweeps<M> {
     #[inline(always)]
     fn advance<F: FnMut() -> u32, const WIDTH: usize>(
         &mut self,
-        running: &mut Running<'_, '_, R, I, WIDTH>,
+        running: &mut Running<'_, '_, '_, R, I, WIDTH>,
         limits: Limits<R>,
         deadline: &mut Deadline<F>,
     ) -> Result<Report<R>, Error> {
@@ -49,7 +49,7 @@ impl<R: Real, I: Index, M: Math<R>> Method<R, I> for CertifiedSweeps<M> {
 impl<R: Real, I: Index, M: Math<R>> Sweeping<R, I> for CertifiedSweeps<M> {
     fn conclude<const WIDTH: usize>(
         &self,
-        running: &mut Running<'_, '_, R, I, WIDTH>,
+        running: &mut Running<'_, '_, '_, R, I, WIDTH>,
         limits: Limits<R>,
     ) -> Result<Report<R>, Error> {
         let verdict = running.certified()?;
@@ -58,7 +58,7 @@ impl<R: Real, I: Index, M: Math<R>> Sweeping<R, I> for CertifiedSweeps<M> {
     }
 }
 
-impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, R, I, WIDTH> {
+impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, '_, R, I, WIDTH> {
     /// When the first certificate within these limits is due.
     fn plan(&mut self, limits: &Limits<R>) {
         self.next_certificate = match limits.error > R::ZERO || limits.share > R::ZERO {
@@ -83,7 +83,7 @@ impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, R, I, WIDTH> {
             return Ok(verdict);
         }
         let verdict = match self.data.step.get() {
-            Some(_) => self.tick.of_step(&self.data)?.0,
+            Some(step) => self.tick.of_step(&self.data, step)?,
             None => {
                 let Tick { discretization, memory, .. } = &mut *self.tick;
                 let (iterate, buffers) = memory.certified(self.data.law);

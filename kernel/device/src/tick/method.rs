@@ -31,7 +31,7 @@ pub trait Method<R: Real, I: Index> {
     /// Never for a tick that has begun, but for a factor of another mesh.
     fn advance<F: FnMut() -> u32, const WIDTH: usize>(
         &mut self,
-        running: &mut Running<'_, '_, R, I, WIDTH>,
+        running: &mut Running<'_, '_, '_, R, I, WIDTH>,
         limits: Limits<R>,
         deadline: &mut Deadline<F>,
     ) -> Result<Report<R>, Error>;
@@ -45,12 +45,12 @@ pub trait Sweeping<R: Real, I: Index>: Method<R, I> {
     /// Never for a tick that has begun.
     fn conclude<const WIDTH: usize>(
         &self,
-        running: &mut Running<'_, '_, R, I, WIDTH>,
+        running: &mut Running<'_, '_, '_, R, I, WIDTH>,
         limits: Limits<R>,
     ) -> Result<Report<R>, Error>;
 }
 
-impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, R, I, WIDTH> {
+impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, '_, R, I, WIDTH> {
     /// Goes on by `method` until one of the limits or the deadline ends it.
     ///
     /// # Errors

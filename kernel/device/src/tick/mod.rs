@@ -122,10 +122,10 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
     /// # Errors
     /// Arrays of the wrong length, numbers that are not finite or within 1/ε² of the largest one, where the answer
     /// may overflow (ψ, u_D, b and b_i/K_ii): the last answer stays then, bit for bit.
-    pub fn begin<'t>(
+    pub fn begin<'t, 'd>(
         &'t mut self,
-        data: Data<'t, R, I>,
-    ) -> Result<Running<'t, 'a, R, I, WIDTH>, Error> {
+        data: Data<'d, R, I>,
+    ) -> Result<Running<'t, 'd, 'a, R, I, WIDTH>, Error> {
         let size = self.admit(&data)?;
         Ok(self.enter(data, size))
     }
@@ -151,11 +151,11 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
 
     /// Begins with data that have been admitted.
     #[inline(always)]
-    pub(crate) fn enter<'t>(
+    pub(crate) fn enter<'t, 'd>(
         &'t mut self,
-        data: Data<'t, R, I>,
+        data: Data<'d, R, I>,
         size: R,
-    ) -> Running<'t, 'a, R, I, WIDTH> {
+    ) -> Running<'t, 'd, 'a, R, I, WIDTH> {
         self.search.disturb();
         self.memory.carry_over(self.discretization.edges.counts(), &data, size);
         Running::new(self, data, size)

@@ -26,9 +26,9 @@ pub(super) const FEWEST: u32 = 4;
 
 /// A tick with its data: [`Running::advance`] it as often as there is time.
 #[derive(Debug)]
-pub struct Running<'t, 'a, R: Real, I, const WIDTH: usize> {
+pub struct Running<'t, 'd, 'a, R: Real, I, const WIDTH: usize> {
     pub(super) tick: &'t mut Tick<'a, R, I, WIDTH>,
-    pub(super) data: Data<'t, R, I>,
+    pub(super) data: Data<'d, R, I>,
     /// That of the data in the unit of u.
     pub(super) size: R,
     /// ω as it was: what overflows teaches nothing.
@@ -43,8 +43,8 @@ pub struct Running<'t, 'a, R: Real, I, const WIDTH: usize> {
     pub(super) verdict: Option<Verdict<R>>,
 }
 
-impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH> {
-    pub(super) fn new(tick: &'t mut Tick<'a, R, I, WIDTH>, data: Data<'t, R, I>, size: R) -> Self {
+impl<'t, 'd, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'd, 'a, R, I, WIDTH> {
+    pub(super) fn new(tick: &'t mut Tick<'a, R, I, WIDTH>, data: Data<'d, R, I>, size: R) -> Self {
         Self {
             search: tick.search,
             tick,

@@ -36,7 +36,7 @@ impl<R: Real, I: Index, S: Sweeping<R, I>> Method<R, I> for Substitutions<'_, '_
     #[inline(always)]
     fn advance<F: FnMut() -> u32, const WIDTH: usize>(
         &mut self,
-        running: &mut Running<'_, '_, R, I, WIDTH>,
+        running: &mut Running<'_, '_, '_, R, I, WIDTH>,
         limits: Limits<R>,
         deadline: &mut Deadline<F>,
     ) -> Result<Report<R>, Error> {
@@ -49,7 +49,7 @@ impl<R: Real, I: Index, S: Sweeping<R, I>> Method<R, I> for Substitutions<'_, '_
     }
 }
 
-impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, R, I, WIDTH> {
+impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, '_, R, I, WIDTH> {
     /// Whether u is the solution now; if not it is what sweeps may start from. τ is scratch.
     fn solve(&mut self, exact: &mut Exact<R, I>) -> Result<bool, Error> {
         let (discretization, memory) = (&self.tick.discretization, &mut self.tick.memory);

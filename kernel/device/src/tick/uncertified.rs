@@ -20,7 +20,7 @@ impl<R: Real, I: Index, M: Math<R>> Method<R, I> for UncertifiedSweeps<M> {
     #[inline(always)]
     fn advance<F: FnMut() -> u32, const WIDTH: usize>(
         &mut self,
-        running: &mut Running<'_, '_, R, I, WIDTH>,
+        running: &mut Running<'_, '_, '_, R, I, WIDTH>,
         limits: Limits<R>,
         deadline: &mut Deadline<F>,
     ) -> Result<Report<R>, Error> {
@@ -51,7 +51,7 @@ impl<R: Real, I: Index, M: Math<R>> Method<R, I> for UncertifiedSweeps<M> {
 impl<R: Real, I: Index, M: Math<R>> Sweeping<R, I> for UncertifiedSweeps<M> {
     fn conclude<const WIDTH: usize>(
         &self,
-        running: &mut Running<'_, '_, R, I, WIDTH>,
+        running: &mut Running<'_, '_, '_, R, I, WIDTH>,
         _: Limits<R>,
     ) -> Result<Report<R>, Error> {
         running.recover()?;
@@ -59,7 +59,7 @@ impl<R: Real, I: Index, M: Math<R>> Sweeping<R, I> for UncertifiedSweeps<M> {
     }
 }
 
-impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, R, I, WIDTH> {
+impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, '_, R, I, WIDTH> {
     /// τ of the present iterate.
     fn recover(&mut self) -> Result<(), Error> {
         let (discretization, memory) = (&self.tick.discretization, &mut self.tick.memory);

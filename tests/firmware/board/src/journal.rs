@@ -40,6 +40,7 @@ pub struct Journal<'a>(pub &'a mut dyn FnMut(&str));
 
 impl Journal<'_> {
     /// A line of text.
+    #[inline(never)]
     pub fn text(&mut self, text: &str) {
         self.0(text);
         self.0("\n");
@@ -54,6 +55,7 @@ impl Journal<'_> {
     }
 
     /// A count, in decimal digits.
+    #[inline(never)]
     pub fn count(&mut self, name: &str, count: u32) {
         self.0(name);
         self.0(" ");
@@ -74,6 +76,7 @@ impl Journal<'_> {
         self.0("\n");
     }
 
+    #[inline(never)]
     fn decimal(&mut self, count: u32) {
         let mut power = 1;
         while count / power > 9 {
@@ -120,6 +123,7 @@ impl Journal<'_> {
         self.0("\n");
     }
 
+    #[inline(never)]
     fn digits(&mut self, bits: u64, digits: u32) {
         for place in (0..digits).rev() {
             self.digit(bits >> (4 * place) & 15);

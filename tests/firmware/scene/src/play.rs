@@ -4,7 +4,7 @@
 use signorini_board::journal::Journal;
 
 use crate::figures::Figures as _;
-use crate::loads::{TICKS, loads};
+use crate::loads::played;
 use crate::scene::{Answer, Controller, Inputs};
 
 /// Plays the ticks from a cold start. `tick` runs one, and may tell of it in notes, lines with an `@` that
@@ -14,7 +14,7 @@ pub fn play(
     journal: &mut Journal,
     mut tick: impl FnMut(&mut Controller, Inputs, &mut Journal) -> Option<Answer>,
 ) {
-    for (at, inputs) in (1..).zip(loads().take(TICKS)) {
+    for (at, inputs) in (1..).zip(played()) {
         journal.count("tick", at);
         let Some(answer) = tick(controller, inputs, journal) else {
             journal.text("refused");

@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use super::super::names::{KEYWORDS_OF_C, KEYWORDS_OF_CPP, MACROS};
+use super::super::names::{KEYWORDS_OF_C, KEYWORDS_OF_CPP, MACROS, name_of};
 use super::*;
 use crate::choice::{Choice, Wanted};
 use crate::emit::emit;
@@ -23,8 +23,10 @@ fn header_with(name: &str, state: usize, report: usize, outputs: &[&str]) -> Str
         chosen.without_interval = vec![None; outputs.len()];
     }
     let mark = "_of_0123456789abcdef_01234567".to_owned();
-    let library = Library { archive: Vec::new(), state, report, mark };
-    Header { name, api: &api, chosen: &chosen, library: &library, on }.text()
+    let saved = problem.scene.stores().then_some(16);
+    let library = Library { archive: Vec::new(), state, report, saved, mark };
+    let name = name_of(&problem);
+    Header { name: &name, api: &api, chosen: &chosen, library: &library, on }.text()
 }
 
 fn header(name: &str, state: usize, report: usize) -> String {
@@ -122,7 +124,7 @@ fn a_header_and_the_library_of_another_bake_do_not_link() {
     ] {
         assert!(why.contains(name) && why.contains("undefined"), "{why}");
     }
-    for own in EXPORTS.iter().chain(&EXPORTS_WITHIN) {
+    for own in exports(false) {
         let define = format!("#define levee_{own} levee_{own}_of_");
         let is_declared = [format!("levee_{own}("), format!("levee_{own};")];
         assert!(other.contains(&define) && is_declared.iter().any(|text| other.contains(text)));
@@ -151,4 +153,26 @@ fn it_is_c_and_asserts_the_sizes_of_the_library() {
     let left = levee.replace("_name_of_", "");
     assert!(!left.contains("name_") && !left.contains(MARK));
     assert_eq!(compiled(&header("slab", 8, 64)), Ok(()));
+}
+
+/// What steps in time has a saved state, of the library's size, and the bound of the evolution; nothing else has.
+#[test]
+fn steps_in_time_have_a_state_that_outlives_the_program() {
+    // 13 numbers and words of 4 bytes, and intervals of ten outputs.
+    let warm = header("antiicing-warm", 33_000, 92);
+    assert_eq!(compiled(&warm), Ok(()));
+    assert_eq!(compiled_by("c++", "-std=c++98", &warm), Ok(()));
+    let wrong = warm.replace("words[2]", "words[1]");
+    assert!(compiled(&wrong).is_err_and(|why| why.contains("saved_has_the_size")));
+    for line in [
+        "#define ANTIICING_WARM_STEP 1.0",
+        "antiicing_warm_error antiicing_warm_save(const antiicing_warm_state *state, antiicing_warm_saved *saved);",
+    ] {
+        assert!(warm.lines().any(|of| of == line), "{line}");
+    }
+    let said = warm.replace("\n *", "");
+    assert!(said.contains("A tick is a step of length ANTIICING_WARM_STEP"), "{warm}");
+    assert!(said.contains("antiicing_warm_window bounds the error"), "{warm}");
+    let levee = header("levee", 624, 64);
+    assert!(["_saved", "_window", "LEVEE_STEP"].iter().all(|of| !levee.contains(of)));
 }

@@ -1,6 +1,8 @@
 //! Enclosures against solutions for loads drawn from the box.
 
 mod follow;
+mod lasting;
+mod leaving;
 mod limits;
 mod rounding;
 mod sides;

@@ -2,7 +2,7 @@
 
 use crate::trade::tests::problem;
 use signorini_problem::Parts;
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 use signorini_solve::{Options, SolverKind, solve};
 use signorini_tolerances::lab::{CLARABEL_LIMITED, PIVOTING_LIMITED};
 

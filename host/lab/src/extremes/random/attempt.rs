@@ -4,9 +4,8 @@ use std::path::Path;
 
 use super::case::{RandomCase, Way};
 use signorini_problem::{Approach, Problem};
-use signorini_scene::error::{Error, Result};
-use signorini_scene::scene::Scene;
 use signorini_scene::setting::ModelKind;
+use signorini_scene::{Error, Result, Scene};
 use signorini_session::with_session;
 use signorini_solve::{Ending, Options, Solution, SolverKind, solve};
 
@@ -40,7 +39,9 @@ pub fn attempt(case: &RandomCase) -> Result<Attempt> {
 
 fn options(case: &RandomCase, problem: &Problem) -> Options {
     let updates = UPDATES / problem.topology.counts.unknowns().max(1) as f64;
+    // Of each kind of cases, with a feature and without, one half.
     let solver = match case.effort.way {
+        Way::Direct if case.number % 4 < 2 => SolverKind::Multigrid,
         Way::Direct => SolverKind::Direct,
         _ => SolverKind::Kernel,
     };

@@ -11,7 +11,7 @@ use super::posed::{Hold, Posed};
 use super::{catalogue, data, made};
 use crate::record_file::word;
 use signorini_problem::random::Random;
-use signorini_scene::mesh::Mesh;
+use signorini_scene::Mesh;
 use signorini_solve::ScalarKind;
 
 /// Where its truth comes from.
@@ -64,7 +64,7 @@ pub struct Effort {
 pub struct RandomCase {
     /// Its number in the run.
     pub number: u32,
-    /// What its data have, in every other case.
+    /// The feature of its data, in every other case.
     pub feature: Option<Feature>,
     /// Lines along which a finer mesh is cut for that.
     pub lines: Vec<Line>,

@@ -4,7 +4,8 @@
 
 use std::collections::HashMap;
 
-use signorini_scene::mesh::{Curve, Mesh};
+use signorini_scene::Mesh;
+use signorini_scene::mesh::Curve;
 
 /// Where one coordinate, x or y, has a value.
 #[derive(Debug, Clone, Copy, PartialEq)]

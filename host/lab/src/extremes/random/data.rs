@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use super::function::{Frame, Function, Rough};
 use super::mesh::{self, MeshPlan};
-use super::posed::{Ends, Hold, Posed, span};
+use super::posed::{Ends, Hold, Posed, span, turned};
 use signorini_problem::random::Random;
 
 /// Draws one; `moving`: with inputs.
@@ -70,14 +70,10 @@ impl Scene<'_> {
             1 => random.log(1.0, 1e8),
             _ => 1.0,
         };
-        let (sin, cos) =
-            if random.chance(0.3) { (0.0, 1.0) } else { random.between(0.0, PI).sin_cos() };
-        let [p, q] = [size * ratio.sqrt(), size / ratio.sqrt()];
+        let along = if random.chance(0.3) { (0.0, 1.0) } else { random.between(0.0, PI).sin_cos() };
         let entries = match ratio == 1.0 {
             true => [size, 0.0, size],
-            false => {
-                [p * cos * cos + q * sin * sin, (p - q) * sin * cos, p * sin * sin + q * cos * cos]
-            }
+            false => turned([size * ratio.sqrt(), size / ratio.sqrt()], along),
         };
         let factor = match random.below(6) {
             0 => Function::draw(random, self.frame, Rough::Kinked, 4.0).value(),

@@ -10,13 +10,13 @@ use serde::{Deserialize, Serialize};
 use super::catalogue;
 use super::cut::Line;
 use super::mesh::{self, MeshPlan, Outline, Regions};
-use super::posed::{Hold, Posed};
+use super::posed::{Hold, Posed, turned};
 use super::spot::{NAMES, SIDES, Side, Spot, shape};
 use crate::extremes::solution::Solution;
 use signorini_problem::random::Random;
-use signorini_scene::mesh::Mesh;
+use signorini_scene::Mesh;
 
-/// What the data of a scene have.
+/// A feature of the data of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Feature {
@@ -51,7 +51,7 @@ pub enum Feature {
 }
 
 impl Feature {
-    /// All of them.
+    /// All features.
     pub const ALL: [Self; 14] = [
         Self::Source,
         Self::Flux,
@@ -199,9 +199,7 @@ impl Data {
     /// A goes from diag(p, q) to that of any other axes.
     fn turn_tensor(&mut self, random: &mut Random, shape: &str) {
         let [p, q, r, s] = [0; 4].map(|_| random.log(0.1, 100.0));
-        let (sin, cos) = random.between(0.0, PI).sin_cos();
-        let other =
-            [r * cos * cos + s * sin * sin, (r - s) * sin * cos, r * sin * sin + s * cos * cos];
+        let other = turned([r, s], random.between(0.0, PI).sin_cos());
         let from = [p, 0.0, q];
         self.tensor = [0, 1, 2].map(|k| format!("{:e}+{:e}*{shape}", from[k], other[k] - from[k]));
     }

@@ -49,6 +49,10 @@ pub struct Row {
     pub window_over_error: Option<f64>,
     /// See `window_over_error`.
     pub at_last: Option<f64>,
+    /// As `error_over_window`, of the condensed controller.
+    pub condensed_error_over_window: Option<f64>,
+    /// As `at_last`, of the condensed controller.
+    pub condensed_at_last: Option<f64>,
     /// The part of the last step's bound that the finer answer proves to be error.
     pub error_over_step: Option<f64>,
     /// The bound of the last step over its error.
@@ -70,6 +74,8 @@ pub struct Record {
     pub with_window: usize,
     /// See `with_window`.
     pub ticks: usize,
+    /// How many of them were played by a condensed controller as well, with such a bound.
+    pub condensed: usize,
     /// How many steps have a bound and were judged.
     pub steps: usize,
     /// Least, median and largest of what is judged, by its kind.
@@ -130,16 +136,20 @@ fn row(seed: u64, number: u32) -> Row {
 impl Row {
     fn with(self, found: &JudgedTrajectory) -> Self {
         let over = |of: &JudgedWindow| of.window / of.apart;
-        let largest = |of: &dyn Fn(&JudgedWindow) -> f64| {
-            found.windows.iter().map(of).filter(|ratio| !ratio.is_nan()).reduce(f64::max)
+        let largest = |all: &[JudgedWindow], of: &dyn Fn(&JudgedWindow) -> f64| {
+            all.iter().map(of).filter(|ratio| !ratio.is_nan()).reduce(f64::max)
         };
         let finite = |ratio: f64| ratio.is_finite().then_some(ratio);
         let row = Self {
             rate: found.rate,
             ticks: found.windows.len(),
-            error_over_window: largest(&JudgedWindow::least_over_bound).and_then(finite),
-            window_over_error: largest(&over).and_then(finite),
+            error_over_window: largest(&found.windows, &JudgedWindow::least_over_bound)
+                .and_then(finite),
+            window_over_error: largest(&found.windows, &over).and_then(finite),
             at_last: found.windows.last().map(over).and_then(finite),
+            condensed_error_over_window: largest(&found.condensed, &JudgedWindow::least_over_bound)
+                .and_then(finite),
+            condensed_at_last: found.condensed.last().map(over).and_then(finite),
             error_over_step: found.step.and_then(|of| finite((of.apart - of.finer) / of.total)),
             step_over_error: found.step.and_then(|of| finite(of.ratio())),
             note: found.no_bound.clone().unwrap_or_default(),
@@ -149,6 +159,7 @@ impl Row {
         let above = |ratio: Option<f64>| ratio.is_some_and(|ratio| ratio > most);
         let broken = [
             (above(row.error_over_window), "the bound over time"),
+            (above(row.condensed_error_over_window), "the bound over time of the condensed model"),
             (above(row.error_over_step), "the bound of a step"),
         ];
         let broken = broken.into_iter().filter(|(is, _)| *is).map(|(_, what)| what);
@@ -164,6 +175,7 @@ impl Record {
         for row in rows {
             record.with_window += usize::from(row.ticks > 0);
             record.ticks += row.ticks;
+            record.condensed += usize::from(row.condensed_error_over_window.is_some());
             record.steps += usize::from(row.step_over_error.is_some());
             for (name, ratio) in row.ratios() {
                 all.entry(name).or_default().push(ratio);
@@ -190,9 +202,9 @@ impl Record {
 
     /// The text for the terminal.
     pub fn text(&self) -> String {
-        let Self { cases, with_window, ticks, steps, .. } = self;
+        let Self { cases, with_window, ticks, condensed, steps, .. } = self;
         let mut lines = vec![format!(
-            "{cases} random trajectories: {with_window} have a bound over time, judged in {ticks} ticks; {steps} steps judged"
+            "{cases} random trajectories: {with_window} have a bound over time, judged in {ticks} ticks; {condensed} have a condensed controller; {steps} steps judged"
         )];
         for (name, [least, median, most]) in &self.spreads {
             lines.push(format!("  {name}: {least:.3} to {most:.3}, median {median:.3}"));
@@ -214,8 +226,13 @@ impl Row {
         let end = if self.limit.is_some() { "cut off" } else { "to the end" };
         let all = [
             ("error over bound, over time".to_owned(), self.error_over_window),
+            ("error over bound, over time, condensed".to_owned(), self.condensed_error_over_window),
             ("error over bound, of a step".to_owned(), self.error_over_step),
             (format!("bound over error, over time, {start} start, {end}"), self.at_last),
+            (
+                format!("bound over error, over time, condensed, {start} start"),
+                self.condensed_at_last,
+            ),
             (format!("bound over error, of a step, {end}"), self.step_over_error),
         ];
         all.into_iter().filter_map(|(name, ratio)| Some((name, ratio?))).collect()
@@ -232,16 +249,23 @@ pub fn csv(rows: &[Row]) -> Result<Vec<u8>> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::window::may_be_condensed;
     use super::*;
 
-    /// The first of those that `signorini extremes --random N --seed 5 --in-time` draws.
+    /// The first of those that `signorini extremes --random N --seed 5 --in-time` draws, and the next of them that can be condensed.
     #[test]
     fn random_trajectories_keep_their_bounds() {
         let folder = tempfile::tempdir().unwrap();
-        let rows = run(5, 0..=39, &Kept::open(folder.path()).unwrap(), || ()).unwrap();
+        let kept = Kept::open(folder.path()).unwrap();
+        let mut rows = run(5, 0..=39, &kept, || ()).unwrap();
+        let may_be = |number: &u32| may_be_condensed(&Trajectory::draw(5, *number)).unwrap();
+        for number in (40..).filter(may_be).take(8) {
+            rows.extend(run(5, number..=number, &kept, || ()).unwrap());
+        }
         let record = Record::new(5, &rows);
         println!("{}", record.text());
         assert!(record.violations.is_empty(), "{:?}", record.violations);
         assert!(record.with_window > 30 && record.steps > 10, "{record:?}");
+        assert!(record.condensed > 10, "{record:?}");
     }
 }

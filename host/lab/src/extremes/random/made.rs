@@ -10,7 +10,7 @@ use std::fmt::Write;
 
 use super::function::{Frame, Function, Rough};
 use super::mesh::{self, Drawn, MeshPlan, Outline, Regions};
-use super::posed::{Ends, Hold, Posed, span};
+use super::posed::{self, Ends, Hold, Posed, span};
 use signorini_problem::random::Random;
 
 /// u with ∇u, σ = A∇u and f as texts, and the materials.
@@ -56,10 +56,8 @@ fn uniform(random: &mut Random, steepest: f64) -> Chosen {
     let u = Function::draw(random, Frame::RECTANGLE, Rough::Smooth, steepest);
     let [p, q] = [random.log(0.1, 10.0), random.log(0.1, 10.0)];
     let size = if random.chance(0.2) { random.log(1e-10, 1e10) } else { 1.0 };
-    let (sin, cos) = random.between(0.0, PI).sin_cos();
-    let [xx, xy, yy] =
-        [p * cos * cos + q * sin * sin, (p - q) * sin * cos, p * sin * sin + q * cos * cos]
-            .map(|entry| size * entry);
+    let along = random.between(0.0, PI).sin_cos();
+    let [xx, xy, yy] = posed::turned([p, q], along).map(|entry| size * entry);
     // a = exp(b·x), ∇a = a b.
     let [b, c] = match random.chance(0.3) {
         true => [random.between(-1.0, 1.0), random.between(-1.0, 1.0)],

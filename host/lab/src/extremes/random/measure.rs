@@ -15,16 +15,16 @@ use crate::extremes::measure::solve_directly;
 use signorini_certify::ErrorBound;
 use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::Conductivity;
-use signorini_certify::curved::curved_edges;
+use signorini_certify::curved::CurvedEdges;
+use signorini_certify::deviation::Deviations;
 use signorini_certify::exact::{Distance, distance_on};
 use signorini_certify::robin::missed;
 use signorini_intervals::Answered;
 use signorini_problem::Problem;
 use signorini_problem::quadrature::{gauss, on_panels};
-use signorini_scene::error::Result;
-use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::refine::refined;
 use signorini_scene::scene::units::Units;
+use signorini_scene::{Mesh, Result};
 use signorini_solve::norms::errors;
 use signorini_solve::outputs::Reading;
 use signorini_solve::{Solution, choose_units, times};
@@ -43,7 +43,7 @@ pub struct Measured {
     pub identity: Option<[f64; 2]>,
     /// Whether the gap may be above it: a condensed model has one excess of hi − lo for all edges, in the unit of its unknowns.
     pub may_exceed: bool,
-    /// What records of curved data leave out: the total has it.
+    /// The part that records of curved data leave out: the total has it.
     pub left_out: f64,
     /// The part of the gap that points may miss where A varies: the total has it, and rows of condensed models.
     pub unseen: f64,
@@ -80,7 +80,7 @@ impl Measured {
 
 /// Unknowns of a finer solve: mostly, and at most.
 const UNKNOWNS: [usize; 2] = [12_000, 200_000];
-/// The same before its mesh is cut along lines.
+/// Unknowns of a finer solve before its mesh is cut along lines.
 const BEFORE_CUTS: usize = 4000;
 /// Most refinements of a finer solve.
 const LEVELS: u32 = 3;
@@ -196,7 +196,8 @@ impl Held<'_> {
             let known = !is_rounding && self.missed()? <= RESOLVED * gap;
             found.identity = known.then_some([distance.identity, distance.rounding]);
             found.may_exceed = is_alike || is_condensed && self.case.effort.sweeps.is_some();
-            found.left_out = curved_edges(problem, problem.time)?.left_out;
+            let deviations = Deviations::at_time(problem, problem.time)?;
+            found.left_out = CurvedEdges::new(problem, &deviations)?.left_out;
             let missed = |at| Conductivity::of(problem, at).missed(Cell::of(problem, at))[0];
             found.unseen = (0..problem.cells()).map(missed).fold(0.0, f64::max);
         }

@@ -11,7 +11,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::extremes::grid::partition;
 use signorini_problem::random::Random;
-use signorini_scene::mesh::{Curve, Mesh, Surface};
+use signorini_scene::Mesh;
+use signorini_scene::mesh::{Curve, Surface};
 
 /// The cells of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -282,8 +283,7 @@ fn surface(name: &str, first: &[bool]) -> Surface {
 /// The edges with one cell, directed as it runs.
 fn boundary(mesh: &Mesh) -> Vec<[u32; 2]> {
     let mut found: BTreeMap<[u32; 2], Option<[u32; 2]>> = BTreeMap::new();
-    let triangles = mesh.triangles.iter().map(|cell| cell.as_slice());
-    for cell in triangles.chain(mesh.quads.iter().map(|cell| cell.as_slice())) {
+    for cell in mesh.corners() {
         for (k, &a) in cell.iter().enumerate() {
             let b = cell[(k + 1) % cell.len()];
             let side = found.entry([a.min(b), a.max(b)]);

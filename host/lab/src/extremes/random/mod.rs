@@ -47,8 +47,8 @@ use super::kept::Kept;
 use super::watch::watched;
 use signorini_files::atomic::write_atomically;
 use signorini_problem::threads::on_two_threads;
-use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh::gmsh::write as msh;
+use signorini_scene::{Error, Result};
 
 /// A case without an answer by then hangs.
 const LIMIT: Duration = Duration::from_secs(1800);

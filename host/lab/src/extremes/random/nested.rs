@@ -12,7 +12,7 @@ use signorini_certify::weighed::{minus, on_robin};
 use signorini_problem::field::CellField;
 use signorini_problem::quadrature::{Point, gauss};
 use signorini_problem::{Problem, Sum};
-use signorini_scene::error::{Error, Result};
+use signorini_scene::{Error, Result};
 
 /// One of the two: its problem, s and τ, and u_h where that is asked for.
 pub struct MeshSolution<'a> {

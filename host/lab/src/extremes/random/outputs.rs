@@ -7,10 +7,11 @@ use signorini_bake::intervals::narrowed;
 use signorini_certify::cell::Cell;
 use signorini_intervals::known::Answers;
 use signorini_intervals::weights::weights;
-use signorini_intervals::{Answered, exact_value, of_answer};
+use signorini_intervals::{Answered, Coverage, exact_value, of_answer};
 use signorini_kernel::verdict::Certificate;
 use signorini_problem::Problem;
-use signorini_scene::scene::{Condition, Located, Output, Quantity, Scene};
+use signorini_scene::Scene;
+use signorini_scene::scene::{Condition, Located, Output, Quantity};
 use signorini_session::with_module;
 use signorini_solve::outputs::{Reading, declared};
 use signorini_solve::{ScalarKind, Solution};
@@ -63,7 +64,7 @@ impl Asked<'_> {
     /// Its intervals beside those of a finer answer.
     pub fn by_finer(&self, finer: (&Problem, &Solution)) -> Intervals {
         let problem = with_outputs(self.problem, self, false);
-        let its = of_answer(&with_outputs(finer.0, self, false), &finer.1.into());
+        let its = of_answer(&with_outputs(finer.0, self, false), &finer.1.into(), Coverage::Small);
         let known = its.into_iter().filter_map(|(name, found)| {
             let found = found.ok()?;
             Some((name, [found.center, found.plus_minus]))
@@ -73,7 +74,7 @@ impl Asked<'_> {
 
     fn beside(&self, problem: &Problem, known: &Known) -> Intervals {
         let mut all = Intervals::default();
-        for (name, found) in of_answer(problem, &self.answer) {
+        for (name, found) in of_answer(problem, &self.answer, Coverage::Small) {
             if let (Ok(found), Some([value, slack])) = (found, known.get(&name)) {
                 all.add(name, (value - found.center).abs() - slack, found.plus_minus);
             }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use signorini_problem::random::Random;
-use signorini_scene::mesh::Mesh;
+use signorini_scene::Mesh;
 
 /// The condition that holds its parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -44,6 +44,11 @@ impl Ends {
     pub(super) fn draw(random: &mut Random) -> Self {
         random.pick(&[Self::Above, Self::Above, Self::Below, Self::Both, Self::Both])
     }
+}
+
+/// The tensor with the eigenvalues p, along an angle, and q across it, as its entries xx, xy and yy.
+pub(super) fn turned([p, q]: [f64; 2], (sin, cos): (f64, f64)) -> [f64; 3] {
+    [p * cos * cos + q * sin * sin, (p - q) * sin * cos, p * sin * sin + q * cos * cos]
 }
 
 /// hi − lo over the size of the flux: none, one that rounding swallows, near ones, far ones.

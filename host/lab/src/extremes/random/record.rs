@@ -24,7 +24,7 @@ pub struct Record {
     pub classes: BTreeMap<String, BTreeMap<String, usize>>,
     /// The largest ratios and the cases that they belong to.
     pub worst: BTreeMap<String, Worst>,
-    /// What became of each feature.
+    /// The bounds of the scenes with each feature.
     #[serde(default)]
     pub features: BTreeMap<String, Spread>,
     /// Everything that is wrong.

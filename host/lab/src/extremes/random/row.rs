@@ -11,7 +11,7 @@ use super::posed::Hold;
 use super::verdict::Broken;
 use crate::extremes::judge::{Outcome, ratio};
 use crate::record_file::{self, word};
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 use signorini_solve::ScalarKind;
 
 /// A line of `random.csv`.
@@ -19,7 +19,7 @@ use signorini_solve::ScalarKind;
 pub struct Row {
     /// Its number.
     pub case: u32,
-    /// What its data have.
+    /// The feature of its data.
     pub feature: Option<Feature>,
     /// Where its truth comes from.
     pub truth: Yardstick,

@@ -6,8 +6,8 @@ use signorini_certify::curved::followed;
 use signorini_problem::quadrature::gauss;
 use signorini_problem::search::{LocatedPoint, Search};
 use signorini_problem::{Problem, State};
-use signorini_scene::error::{Error, Result};
-use signorini_scene::mesh::refine::refined;
+use signorini_scene::mesh::adapted::adapted;
+use signorini_scene::{Error, Result};
 use signorini_solve::{Options, Solution, SolverKind, solve};
 
 use super::nested::{MeshSolution, Nesting, apart};
@@ -62,10 +62,7 @@ pub(super) fn finer(problem: &Problem, levels: u32) -> Result<Problem> {
     let Some(step) = &problem.loads.step else {
         return Err(Error::Check("no step in time".to_owned()));
     };
-    let mut mesh = (*problem.mesh).clone();
-    for _ in 0..levels {
-        mesh = refined(&mesh)?;
-    }
+    let mesh = adapted((*problem.mesh).clone(), None, levels)?;
     let mut finer = Problem::new(&problem.scene, mesh)?;
     finer.set_time(problem.time)?;
     let State { vertices, bubbles, .. } = &step.begin;
@@ -99,9 +96,8 @@ pub(super) fn finer(problem: &Problem, levels: u32) -> Result<Problem> {
 pub(super) mod tests {
     use std::path::Path;
 
-    use signorini_scene::mesh::Mesh;
     use signorini_scene::mesh::structured::{Cells, Trapezoids, grid, trapezoids};
-    use signorini_scene::scene::Scene;
+    use signorini_scene::{Mesh, Scene};
     use signorini_session::tick::{Budget, ScheduledTick, play};
     use signorini_solve::ScalarKind;
 

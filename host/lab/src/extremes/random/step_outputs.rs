@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use signorini_certify::cell::Cell;
-use signorini_intervals::{OutputBound, of_answer};
+use signorini_intervals::{Coverage, OutputBound, of_answer};
 use signorini_problem::Problem;
 use signorini_problem::field::CellField;
 use signorini_problem::functional::Functional;
 use signorini_problem::quadrature::gauss;
+use signorini_scene::mesh::Curve;
 use signorini_scene::mesh::structured::{Cells, Trapezoids, grid, trapezoids};
-use signorini_scene::mesh::{Curve, Mesh};
-use signorini_scene::scene::Scene;
+use signorini_scene::{Mesh, Scene};
 use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
 
 use super::step::finer;
@@ -91,9 +91,9 @@ fn check(scene: &Scene, mesh: Mesh, scalar: ScalarKind, sweeps: Option<u32>, of:
     let options = Options { solver: SolverKind::Factor, averages: true, ..Options::default() };
     let fine = finer(&problem, 2).unwrap();
     let truth = solve(&fine, &options).unwrap();
-    let its = of_answer(&fine, &(&truth).into());
+    let its = of_answer(&fine, &(&truth).into(), Coverage::Small);
     let mut ratios = Vec::new();
-    for (name, found) in of_answer(&problem, &(&answer).into()) {
+    for (name, found) in of_answer(&problem, &(&answer).into(), Coverage::Small) {
         let Ok(OutputBound { center, plus_minus, .. }) = found else {
             println!("  {of} {name}: {}", found.unwrap_err());
             continue;
@@ -174,8 +174,8 @@ fn intervals_of_long_steps_are_those_of_the_steady_problem() {
         steady.set_time(step.time).unwrap();
         let options = Options { solver: SolverKind::Factor, averages: true, ..Options::default() };
         let at_rest = solve(&steady, &options).unwrap();
-        let expected = of_answer(&steady, &(&at_rest).into());
-        for (name, found) in of_answer(&step, &(&answer).into()) {
+        let expected = of_answer(&steady, &(&at_rest).into(), Coverage::Small);
+        for (name, found) in of_answer(&step, &(&answer).into(), Coverage::Small) {
             let (found, expected) = match (found, expected[&name].clone()) {
                 (Ok(found), Ok(expected)) => (found, expected),
                 (found, expected) => {

@@ -13,10 +13,9 @@ use crate::extremes::measure::solve_directly;
 use signorini_certify::exact::distance;
 use signorini_problem::Problem;
 use signorini_problem::quadrature::gauss;
-use signorini_scene::mesh::Mesh;
-use signorini_scene::mesh::refine::refined;
+use signorini_scene::mesh::adapted::adapted;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_scene::scene::Scene;
+use signorini_scene::{Mesh, Scene};
 use signorini_solve::Solution;
 
 fn record_of(seed: u64, cases: RangeInclusive<u32>) -> Record {
@@ -104,9 +103,8 @@ fn solved(problem: &Problem) -> Solution {
 /// Of a scene on a mesh and on one `levels` finer: the distance, and both bounds.
 fn distance_to_finer(scene: &Scene, cells: Cells, levels: u32) -> (f64, [f64; 2]) {
     let coarse = Problem::new(scene, grid(2, cells)).unwrap();
-    let mut mesh = Mesh::clone(&coarse.mesh);
-    (0..levels).for_each(|_| mesh = refined(&mesh).unwrap());
-    let fine = Problem::new(scene, mesh).unwrap();
+    let fine = adapted(Mesh::clone(&coarse.mesh), None, levels).unwrap();
+    let fine = Problem::new(scene, fine).unwrap();
     let (one, other) = (solved(&coarse), solved(&fine));
     let bounds = [&one, &other].map(|of| of.bound.unwrap().total);
     let of = MeshSolution { problem: &coarse, admissible: one.certified.admissible(), u: &one.u };

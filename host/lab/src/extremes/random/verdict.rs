@@ -11,8 +11,8 @@ use crate::extremes::judge::{Ended, INTEGRATED};
 use crate::extremes::measure::{self, Reference};
 use signorini_kernel::solver::Status;
 use signorini_problem::Problem;
-use signorini_scene::error::Result;
-use signorini_solve::{Ending, ScalarKind};
+use signorini_scene::Result;
+use signorini_solve::{Ending, Ran, ScalarKind};
 
 /// Tolerance of a converged solve in f64, with what the check itself may be off.
 const CONVERGED: f64 = 1.01e-13;
@@ -95,8 +95,8 @@ fn status(case: &RandomCase, attempt: &Attempt) -> Option<Broken> {
         return None;
     }
     let found = residual(&attempt.problem, &attempt.answer.u).ok()?;
-    let by_tolerance =
-        attempt.answer.status == Ending::Solve(Status::Converged) && case.effort.way == Way::Sweeps;
+    let by_tolerance = attempt.answer.status == Ending::Solve(Status::Converged)
+        && attempt.answer.ran != Ran::Direct;
     let most = LIMIT * found.rounding + if by_tolerance { CONVERGED } else { 0.0 };
     if found.scaled <= most {
         return None;

@@ -3,14 +3,20 @@
 //! ```text
 //!   window² ≥ mean of G²,   G² = ‖A^½∇(u − s)‖² + ∫_R h(u − s)²,   weights e^{−2θλ(t_n − t)}
 //! ```
-//! with u replaced by the finer s, whose own window counts. A steady start stands for all time before it.
+//! with u replaced by the finer s, whose own window counts. A steady start stands for all time before it. Where the scene can be
+//! condensed, its condensed controller is judged by the same finer play.
 
+use std::path::Path;
+
+use signorini_certify::CertifiedFields;
 use signorini_certify::admissible::Admissible;
+use signorini_condense::stepped;
 use signorini_problem::quadrature::gauss;
 use signorini_problem::{Problem, State};
 use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh::refine::refined;
-use signorini_session::tick::{Budget, ScheduledTick, TickRecord, play};
+use signorini_scene::scene::Scene;
+use signorini_session::tick::{Budget, ScheduledTick, TickRecord, play, replay};
 use signorini_solve::{ScalarKind, Solution};
 
 use super::nested::{MeshSolution, Nesting, apart};
@@ -45,6 +51,8 @@ pub struct JudgedTrajectory {
     pub rate: Option<f64>,
     /// At each tick; empty where there is no bound over time.
     pub windows: Vec<JudgedWindow>,
+    /// At each tick of the condensed controller; empty where there is none.
+    pub condensed: Vec<JudgedWindow>,
     /// One of its steps.
     pub step: Option<JudgedStep>,
     /// Why the last tick has no bound.
@@ -73,11 +81,53 @@ pub fn judged(case: &Trajectory) -> Result<JudgedTrajectory> {
         (last.bound.is_some() && case.is_affine).then(|| own.step(case, ticks)).transpose()?;
     let dt = case.step;
     let rate = own.records[1].window.map(|[_, seconds]| dt * 0.5 / (0.1 * seconds));
-    let windows = match own.records[1].window {
-        Some([_, seconds]) => own.windows(case, &played(case, PARTS)?, seconds)?,
-        None => Vec::new(),
+    let (mut windows, mut of_condensed) = (Vec::new(), Vec::new());
+    if let Some([_, seconds]) = own.records[1].window {
+        let finer = played(case, PARTS)?;
+        windows = own.windows(case, &finer, seconds)?;
+        if let Some(own) = condensed(case)? {
+            of_condensed = own.windows(case, &finer, seconds)?;
+        }
+    }
+    Ok(JudgedTrajectory { rate, windows, condensed: of_condensed, step, no_bound })
+}
+
+/// The problem of a trajectory whose condensed model with a few states has a bound over time, and s at its start.
+fn posed(case: &Trajectory) -> Result<Option<(Problem, CertifiedFields)>> {
+    let memory = 2 + case.log.len() % 7;
+    let text = format!("{}[setting]\nmemory = {memory}\n", case.scene_text(1));
+    let problem = Problem::new(&Scene::parse(&text, Path::new("scene.toml"))?, case.mesh.clone())?;
+    // What a condensed model refuses is no matter of this judge.
+    let Ok((of, recovery)) = stepped(&problem, Some(memory)) else { return Ok(None) };
+    let start = of.evolution.as_ref().and_then(|_| of.s_at_start(&recovery, &problem));
+    Ok(start.map(|start| (problem, start)))
+}
+
+/// Whether a condensed controller plays this trajectory too.
+///
+/// # Errors
+/// A scene that is refused.
+pub fn may_be_condensed(case: &Trajectory) -> Result<bool> {
+    Ok(posed(case)?.is_some())
+}
+
+/// The same trajectory by its condensed controller; nothing where there is none.
+fn condensed(case: &Trajectory) -> Result<Option<Played>> {
+    let Some((problem, start)) = posed(case)? else { return Ok(None) };
+    let defaults: Vec<f64> = problem.scene.inputs.iter().map(|input| input.default).collect();
+    let moment = |tick: usize| ScheduledTick {
+        time: (tick + 1) as f64 * case.step,
+        inputs: case.inputs(tick, [1, 1], &defaults).into_iter().enumerate().collect(),
     };
-    Ok(JudgedTrajectory { rate, windows, step, no_bound })
+    let moments: Vec<_> = (0..case.log.len()).map(moment).collect();
+    let mut answers = Vec::new();
+    let (_, records) = replay(&problem, &moments, (Some(case.scalar), true), |_, solution| {
+        let answer = solution.ok_or_else(|| Error::Check("a tick was refused".to_owned()))?;
+        answers.push(answer.clone());
+        Ok(())
+    })?;
+    answers[0].certified = start;
+    Ok(Some(Played { problem, defaults, answers, records }))
 }
 
 fn played(case: &Trajectory, parts: u32) -> Result<Played> {

@@ -1,7 +1,8 @@
 //! Solutions solve their equations and keep the law of contact.
 
 use super::*;
-use signorini_scene::expression::{Expression, Variables};
+use signorini_scene::Expression;
+use signorini_scene::expression::Variables;
 use signorini_tolerances::lab::{CONTACT, DERIVATIVE, DERIVATIVE_SECOND, JUMP};
 
 const ENDS: [f64; 2] = [-0.5, 1.0];

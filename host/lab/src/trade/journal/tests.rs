@@ -4,10 +4,10 @@ use proptest::prelude::*;
 use tempfile::{TempDir, tempdir};
 
 use super::*;
-use crate::trade::record::Point;
-use crate::trade::record::PointError;
+use crate::trade::record::{Point, PointError};
 use crate::trade::tests as fixtures;
-use signorini_scene::setting::{Omega, Setting};
+use signorini_scene::Setting;
+use signorini_scene::setting::Omega;
 
 const OF: &str = "levee, its mesh";
 

@@ -6,10 +6,10 @@ use super::super::record::FunctionCost;
 use super::State;
 use signorini_bake::costs::Costs;
 use signorini_problem::{Assembled, EdgeKind, Problem};
-use signorini_scene::error::Result;
-use signorini_scene::expression::{Arithmetic, Elementary, Expression};
+use signorini_scene::expression::{Arithmetic, Elementary};
 use signorini_scene::scene::term::each_load;
-use signorini_scene::scene::{Field, Located, Scene};
+use signorini_scene::scene::{Field, Located};
+use signorini_scene::{Expression, Result, Scene};
 use signorini_solve::{Options, Solution, SolverKind, solve, unfit};
 
 const FIELDS: [Field; 4] = [Field::Value, Field::Gap, Field::Flux, Field::Ambient];

@@ -12,7 +12,7 @@ mod tests;
 use super::record::FunctionCost;
 use signorini_kernel::{Error as KernelError, flux};
 use signorini_problem::{Assembled, Problem};
-use signorini_scene::error::Error;
+use signorini_scene::Error;
 
 /// A row for every function that the loads of `problem` call, one for f32 alone where they call any, and
 /// those of the kernel's square root; at its time.

@@ -12,7 +12,7 @@ use super::super::record::FunctionCost;
 use super::State;
 use signorini_bake::costs::Costs;
 use signorini_problem::{Assembled, Parts, Problem};
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 use signorini_solve::unfit;
 
 const NAME: &str = "sqrt";

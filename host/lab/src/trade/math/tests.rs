@@ -3,9 +3,7 @@
 use super::{FunctionCost, of_scene};
 use crate::trade::tests::scene;
 use signorini_problem::Problem;
-use signorini_scene::error::Result;
-use signorini_scene::mesh;
-use signorini_scene::scene::Scene;
+use signorini_scene::{Result, Scene, mesh};
 
 fn rows(scene: &Scene) -> Result<Vec<FunctionCost>> {
     of_scene(&Problem::new(scene, mesh::read(&scene.mesh.value)?)?)

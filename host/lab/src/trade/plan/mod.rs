@@ -18,8 +18,12 @@ use std::collections::BTreeMap;
 
 use super::record::Skipped;
 use super::target::Target;
-use signorini_scene::goal::Goal;
-use signorini_scene::setting::{CellKind, MathKind, ModelKind, Precision, Setting, Start};
+use combination::Combination;
+use signorini_kernel::element::QuadElement;
+use signorini_scene::Goal;
+use signorini_scene::setting::{
+    CellKind, MathKind, Method, ModelKind, Omega, Precision, Setting, Start,
+};
 
 /// The most settings of one scene.
 pub const MOST: usize = 60;
@@ -32,34 +36,18 @@ pub const LARGEST_ON_BOARD: usize = 4500;
 /// Why a larger one is not.
 pub const TOO_LARGE: &str = "the full model of so fine a mesh is no model for a microcontroller";
 
-/// ω as a knob; what `Tuned` is has to be found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Factor {
-    Auto,
-    Tuned,
-    Unit,
-}
-
-/// When a tick ends.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Stop {
-    Share(f64),
-    Sweeps(u32),
-    /// With the solution: the exchanges of a condensed model, the factor of a full one.
-    Exact,
-}
-
-const STOPS: [Stop; 10] = [
-    Stop::Share(0.3),
-    Stop::Share(0.1),
-    Stop::Share(0.01),
-    Stop::Sweeps(5),
-    Stop::Sweeps(10),
-    Stop::Sweeps(12),
-    Stop::Sweeps(20),
-    Stop::Sweeps(40),
-    Stop::Sweeps(80),
-    Stop::Exact,
+/// When a tick ends: with a share of the bound, after so many sweeps, or, without either, with the solution.
+const STOPS: [(Option<f64>, Option<u32>); 10] = [
+    (Some(0.3), None),
+    (Some(0.1), None),
+    (Some(0.01), None),
+    (None, Some(5)),
+    (None, Some(10)),
+    (None, Some(12)),
+    (None, Some(20)),
+    (None, Some(40)),
+    (None, Some(80)),
+    (None, None),
 ];
 
 /// The facts of a scene that decide its plan.
@@ -92,29 +80,14 @@ pub struct Plan {
     pub skipped: Vec<Skipped>,
 }
 
-/// One combination of all knobs.
-#[derive(Debug, Clone, Copy)]
-struct Combination {
-    cells: Option<CellKind>,
-    level: u32,
-    error: Option<Goal>,
-    scalar: Precision,
-    math: MathKind,
-    model: ModelKind,
-    start: Start,
-    omega: Factor,
-    stop: Stop,
-    certificate: bool,
-}
-
 impl Plan {
     /// The plan for a scene.
     pub fn new(ground: &SceneFacts) -> Self {
         let mut settings = Vec::new();
         let mut skipped = BTreeMap::<&str, usize>::new();
-        for combination in combinations(ground) {
-            match combination.reason(ground) {
-                None if settings.len() < MOST => settings.push(combination.setting(ground)),
+        for setting in combinations(ground) {
+            match (Combination { setting, ground }).reason() {
+                None if settings.len() < MOST => settings.push(setting),
                 None => *skipped.entry("more than 60 points").or_default() += 1,
                 Some(reason) => *skipped.entry(reason).or_default() += 1,
             }
@@ -126,7 +99,7 @@ impl Plan {
 }
 
 /// The full product.
-fn combinations(ground: &SceneFacts) -> impl Iterator<Item = Combination> {
+fn combinations(ground: &SceneFacts) -> impl Iterator<Item = Setting> {
     let cells = [None, ground.other_cells];
     let cells = cells.into_iter().take(if ground.other_cells.is_some() { 2 } else { 1 });
     let finest = ground.finest;
@@ -140,19 +113,38 @@ fn combinations(ground: &SceneFacts) -> impl Iterator<Item = Combination> {
     let stops = formats.flat_map(|of| STOPS.map(|stop| (of, stop)));
     let maths = stops.flat_map(|of| [MathKind::Libm, MathKind::Micromath].map(|math| (of, math)));
     let starts = maths.flat_map(|of| [Start::Warm, Start::Cold].map(|start| (of, start)));
-    let factors =
-        starts.flat_map(|of| [Factor::Auto, Factor::Tuned, Factor::Unit].map(|omega| (of, omega)));
+    // Without a best ω contact alone holds the domain: no full model with a fixed one is measured there.
+    let tuned = ground.tuned.unwrap_or(f64::NAN);
+    let factors = [Omega::Auto, Omega::Fixed(tuned), Omega::Fixed(1.0)];
+    let factors = starts.flat_map(move |of| factors.map(|omega| (of, omega)));
     let all = factors.flat_map(|of| [true, false].map(|certificate| (of, certificate)));
     all.map(|(((((((mesh, model), scalar), stop), math), start), omega), certificate)| {
-        let (cells, level, error) = mesh;
-        Combination { cells, level, error, scalar, math, model, start, omega, stop, certificate }
+        let ((cells, refine, error), (share, sweeps)) = (mesh, stop);
+        let factored = model == ModelKind::Full && stop == (None, None);
+        let solver = factored.then_some(Method::Factor);
+        let (model, scalar, element) = (Some(model), Some(scalar), QuadElement::default());
+        Setting {
+            refine,
+            error,
+            cells,
+            element,
+            scalar,
+            math,
+            model,
+            solver,
+            start,
+            omega,
+            sweeps,
+            share,
+            certificate,
+            memory: None,
+        }
     })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use signorini_scene::setting::{Method, Omega};
 
     const GROUND: SceneFacts = SceneFacts {
         target: Target::Host,

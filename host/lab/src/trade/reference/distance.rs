@@ -16,7 +16,7 @@ use signorini_problem::Problem;
 use signorini_problem::field::CellField;
 use signorini_problem::quadrature::Point;
 use signorini_problem::search::LocatedPoint;
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 use signorini_solve::Solution;
 
 /// S and τ of an answer on one of its cells.

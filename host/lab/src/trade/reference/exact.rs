@@ -9,7 +9,7 @@ use signorini_certify::sampled::Sampled;
 use signorini_problem::pointwise::{POINTS, exact_at};
 use signorini_problem::quadrature::{gauss, on_panels};
 use signorini_problem::{Problem, Sum};
-use signorini_scene::error::Result;
+use signorini_scene::Result;
 use signorini_scene::scene::{Exact, Field};
 
 /// Panels on a contact edge, each with 8 points: 256 samples find where contact ends.

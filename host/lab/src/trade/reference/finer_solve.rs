@@ -21,9 +21,8 @@ use signorini_certify::deviation::Deviations;
 use signorini_problem::field::CellField;
 use signorini_problem::quadrature::gauss;
 use signorini_problem::{Problem, Sum};
-use signorini_scene::error::Result;
-use signorini_scene::mesh::Mesh;
-use signorini_scene::scene::{Field, Scene};
+use signorini_scene::scene::Field;
+use signorini_scene::{Mesh, Result, Scene};
 use signorini_solve::{Options, Solution, SolverKind, solve};
 
 const ON_EDGES: usize = 3;

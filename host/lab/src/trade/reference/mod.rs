@@ -25,11 +25,9 @@ use signorini_certify::curved::followed;
 use signorini_certify::deviation::Deviations;
 use signorini_certify::exact::Integrands;
 use signorini_problem::Problem;
-use signorini_scene::error::Result;
-use signorini_scene::mesh::Mesh;
-use signorini_scene::scene::{Exact, Scene};
-use signorini_solve::Solution;
-use signorini_solve::norms;
+use signorini_scene::scene::Exact;
+use signorini_scene::{Mesh, Result, Scene};
+use signorini_solve::{Solution, norms};
 
 /// How many refinements the reference is finer than the finest mesh that is measured.
 pub const FINER: u32 = 2;
@@ -53,7 +51,7 @@ pub struct Facts {
 #[derive(Debug)]
 pub struct ReferenceSolution {
     source: Source,
-    /// What a record states of it.
+    /// The facts that a record states of it.
     pub facts: Facts,
 }
 

@@ -2,7 +2,7 @@
 
 use signorini_problem::search::{LocatedPoint, Search};
 use signorini_problem::{EdgeKind, Problem};
-use signorini_scene::error::{InputError, Result};
+use signorini_scene::{InputError, Result};
 
 /// The places of all points of a reference in one mesh.
 #[derive(Debug, Default)]

@@ -8,9 +8,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use signorini_certify::deviation::Deviations;
 use signorini_certify::sampled::{Lifted, Solution, Table};
 use signorini_problem::Problem;
-use signorini_scene::error::Result;
-use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::Exact;
+use signorini_scene::{Mesh, Result};
 
 /// Meshes whose tables are kept, of some 60 MB each at 10 000 cells. A study finishes with a mesh before
 /// the next, but for the scene's own.

@@ -18,8 +18,7 @@ use signorini_problem::Problem;
 use signorini_problem::fixtures::{SMOOTH, on_grid, with_four_sides};
 use signorini_problem::pointwise::exact_at;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_scene::mesh::{self, Mesh};
-use signorini_scene::scene::Scene;
+use signorini_scene::{Mesh, Scene, mesh};
 use signorini_solve::norms::of_solution;
 use signorini_solve::{Options, Solution, SolverKind, solve};
 

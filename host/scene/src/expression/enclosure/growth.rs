@@ -34,7 +34,7 @@ pub struct Growth {
     pub sign: f64,
     /// The exponent.
     pub exponent: f64,
-    /// What ρ is the distance to; `None` where the exponent is 0.
+    /// The place that ρ is the distance to; `None` where the exponent is 0.
     pub place: Option<Place>,
 }
 

@@ -77,7 +77,7 @@ impl Expression {
         self.disc(region, rho, t).modulus()
     }
 
-    /// The same less some function that is linear in the reference coordinates.
+    /// The largest modulus of that continuation less some function that is linear in the reference coordinates.
     pub fn bend(&self, region: &Region, rho: f64, t: f64) -> f64 {
         self.disc(region, rho, t).rest
     }

@@ -9,8 +9,8 @@
 use super::forest::Edges;
 use super::stage::Places;
 use crate::mesh::Mesh;
-use crate::mesh::refine::mean;
 use crate::mesh::shape::direction;
+use crate::mesh::shape::mean;
 
 /// For every part of the new mesh the part of the old one that it came from.
 #[derive(Debug, Clone, PartialEq)]

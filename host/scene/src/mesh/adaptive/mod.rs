@@ -20,7 +20,8 @@ mod stage;
 
 use self::carried::Before;
 pub use self::carried::{Carried, CarriedEdge};
-use self::stage::Stage;
+use self::red::Grown;
+use self::stage::{Stage, curves_of};
 use super::Mesh;
 use crate::error::{InputError, Result};
 
@@ -31,6 +32,20 @@ use crate::error::{InputError, Result};
 pub struct Hierarchy {
     base: Mesh,
     now: Stage,
+}
+
+/// `mesh` with every cell refined: vertices stay, then come the midpoints of edges in their order, then the centres of quads.
+pub(super) fn uniformly(mesh: &Mesh) -> Result<Mesh> {
+    let (forest, curves) = Stage::forest(mesh)?;
+    let Grown { vertices, forest, parents } = red::all(&mesh.vertices, &forest);
+    let curves: Vec<_> = curves.iter().map(|of| forest.edges.halved(of)).collect();
+    Ok(Mesh {
+        triangles: forest.triangles.iter().map(|cell| cell.corners).collect(),
+        quads: forest.quads.iter().map(|cell| cell.corners).collect(),
+        surfaces: mesh.inherited(&parents),
+        curves: curves_of(mesh, &forest, &curves),
+        vertices,
+    })
 }
 
 impl Hierarchy {

@@ -11,7 +11,7 @@
 //! square under the map of the whole, so that no Jacobian of theirs is less than a quarter of its least.
 
 use super::forest::{Cell, Edges, Forest, NONE};
-use crate::mesh::refine::mean;
+use crate::mesh::shape::mean;
 
 /// Vertices and edges while cells are refined.
 struct Growth {
@@ -27,16 +27,18 @@ pub(super) struct Grown {
     pub(super) parents: Vec<u32>,
 }
 
+/// The forest with all of its cells refined; midpoints are numbered as the edges are.
+pub(super) fn all(vertices: &[[f64; 2]], forest: &Forest) -> Grown {
+    let mut growth = Growth::new(vertices, forest);
+    for edge in 0..forest.edges.len() as u32 {
+        growth.midpoint(edge);
+    }
+    growth.of(forest, &vec![true; forest.cells()])
+}
+
 /// The forest with some of its cells refined; children stand where their parent stood.
 pub(super) fn grown(vertices: &[[f64; 2]], forest: &Forest, refined: &[bool]) -> Grown {
-    let mut growth = Growth { vertices: vertices.to_vec(), edges: forest.edges.clone() };
-    let (of_triangles, of_quads) = refined.split_at(forest.triangles.len());
-    let (mut parents, triangles) =
-        replaced(&forest.triangles, of_triangles, |cell| growth.triangle(cell));
-    let (of_quads, quads) = replaced(&forest.quads, of_quads, |cell| growth.quad(cell));
-    parents.extend(of_quads.into_iter().map(|quad| forest.triangles.len() as u32 + quad));
-    let Growth { vertices, edges } = growth;
-    Grown { vertices, forest: Forest { edges, triangles, quads }, parents }
+    Growth::new(vertices, forest).of(forest, refined)
 }
 
 /// Cells with the refined ones replaced by their children, and the parent of each.
@@ -57,6 +59,20 @@ fn replaced<const N: usize>(
 }
 
 impl Growth {
+    fn new(vertices: &[[f64; 2]], forest: &Forest) -> Self {
+        Self { vertices: vertices.to_vec(), edges: forest.edges.clone() }
+    }
+
+    fn of(mut self, forest: &Forest, refined: &[bool]) -> Grown {
+        let (of_triangles, of_quads) = refined.split_at(forest.triangles.len());
+        let (mut parents, triangles) =
+            replaced(&forest.triangles, of_triangles, |cell| self.triangle(cell));
+        let (of_quads, quads) = replaced(&forest.quads, of_quads, |cell| self.quad(cell));
+        parents.extend(of_quads.into_iter().map(|quad| forest.triangles.len() as u32 + quad));
+        let Self { vertices, edges } = self;
+        Grown { vertices, forest: Forest { edges, triangles, quads }, parents }
+    }
+
     fn triangle(&mut self, cell: &Cell<3>) -> [Cell<3>; 4] {
         let Cell { corners: [a, b, c], sides, root } = *cell;
         let [l, m, n] = sides.map(|side| self.midpoint(side));

@@ -5,8 +5,9 @@ use super::closure::Pieces;
 use super::forest::{Cell, Edges, Forest, NONE};
 use super::red::Grown;
 use crate::error::{InputError, Result};
+use crate::mesh::check::check_count;
 use crate::mesh::check::{edge_number, numbered_edges};
-use crate::mesh::refine::{check_count, mean};
+use crate::mesh::shape::mean;
 use crate::mesh::shape::{Orientation, orientation};
 use crate::mesh::{Curve, Mesh};
 
@@ -25,18 +26,23 @@ pub(super) struct Stage {
 impl Stage {
     /// The base mesh, where each cell is its own root.
     pub(super) fn first(base: &Mesh) -> Result<Self> {
-        let edges = numbered_edges(base)?;
-        let on_edges = |curve: &Curve| {
-            curve.edges.iter().map(|&ends| edge_number(&edges, curve, ends)).collect()
-        };
-        let curves = base.curves.iter().map(on_edges).collect::<Result<Vec<_>>>()?;
-        let triangles = roots(&edges, &base.triangles, 0);
-        let quads = roots(&edges, &base.quads, base.triangles.len() as u32);
-        let forest = Forest { edges: Edges::of(&edges), triangles, quads };
+        let (forest, curves) = Self::forest(base)?;
         let alone = |(_, cells): &(u32, [u32; 2])| cells[1] == NONE;
         let boundary = (0..).zip(forest.sharing()).filter(alone).map(|(edge, _)| edge).collect();
         let (.., places) = closed(&base.vertices, &forest);
         Ok(Self { forest, curves, boundary, mesh: base.clone(), places })
+    }
+
+    /// The forest of a mesh, and the edges of each curve.
+    pub(super) fn forest(base: &Mesh) -> Result<(Forest, Vec<Vec<u32>>)> {
+        let edges = numbered_edges(base)?;
+        let on_edges = |curve: &Curve| {
+            curve.edges.iter().map(|&ends| edge_number(&edges, curve, ends)).collect()
+        };
+        let curves = base.curves.iter().map(on_edges).collect::<Result<_>>()?;
+        let triangles = roots(&edges, &base.triangles, 0);
+        let quads = roots(&edges, &base.quads, base.triangles.len() as u32);
+        Ok((Forest { edges: Edges::of(&edges), triangles, quads }, curves))
     }
 
     /// The next stage, and for each of its mesh's cells the cell of this forest that it lies in.
@@ -45,13 +51,8 @@ impl Stage {
         let (triangles, quads, places) = closed(&vertices, &forest);
         let curves: Vec<_> = self.curves.iter().map(|curve| forest.edges.halved(curve)).collect();
         let boundary = forest.edges.halved(&self.boundary);
-        let of_curve = |(curve, edges): (&Curve, &Vec<u32>)| {
-            let mut edges: Vec<_> = edges.iter().map(|&edge| forest.edges.ends(edge)).collect();
-            edges.sort_unstable();
-            Curve { name: curve.name.clone(), edges }
-        };
         let mesh = Mesh {
-            curves: base.curves.iter().zip(&curves).map(of_curve).collect(),
+            curves: curves_of(base, &forest, &curves),
             vertices,
             triangles,
             quads,
@@ -79,6 +80,16 @@ impl Stage {
         }
         of_mesh
     }
+}
+
+/// The curves of the base mesh with these edges.
+pub(super) fn curves_of(base: &Mesh, forest: &Forest, edges: &[Vec<u32>]) -> Vec<Curve> {
+    let of_curve = |(curve, edges): (&Curve, &Vec<u32>)| {
+        let mut edges: Vec<_> = edges.iter().map(|&edge| forest.edges.ends(edge)).collect();
+        edges.sort_unstable();
+        Curve { name: curve.name.clone(), edges }
+    };
+    base.curves.iter().zip(edges).map(of_curve).collect()
 }
 
 /// Cells of the base mesh on its edges, numbered from `first`.

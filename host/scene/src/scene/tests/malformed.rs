@@ -2,7 +2,7 @@
 
 use super::{LEVEE, parse};
 
-/// What is replaced, by what, and the message after `FILE:`.
+/// The text that is replaced, by what, and the message after `FILE:`.
 #[rustfmt::skip] // A table.
 const CHANGES: &[(&str, &str, &str)] = &[
     // Keys and tables

@@ -38,11 +38,14 @@ fn every_key_is_read_and_what_is_left_out_is_the_default() {
         sweeps: None,
         share: Some(0.25),
         certificate: true,
+        memory: None,
     };
     assert_eq!(setting(all), Some(expected));
     let omega = |line| setting(line).map(|setting| setting.omega);
     assert_eq!(omega("omega = 1"), Some(Omega::Fixed(1.0)));
     assert_eq!(omega("omega = 'auto'"), Some(Omega::Auto));
+    let memory = setting("memory = 24").and_then(|setting| setting.memory);
+    assert_eq!(memory, Some(24));
 }
 
 #[test]
@@ -97,6 +100,7 @@ const WRONG: &[(&str, &str)] = &[
     ("math = 'std'", "6: setting.math: `std` is not one of: libm, micromath"),
     ("model = 'half'", "6: setting.model: `half` is not one of: full, condensed"),
     ("solver = 'direct'", "6: setting.solver: `direct` is not one of: auto, sweeps, factor, exact"),
+    ("solver = 'multigrid'", "6: setting.solver: `multigrid` is a solver of the desk, no device has it"),
     ("model = 'condensed'\nsolver = 'factor'", "7: setting.solver: a factor is for the full model"),
     ("model = 'full'\nsolver = 'exact'", "7: setting.solver: the exact method is for the condensed model"),
     ("solver = 'exact'\nsweeps = 9", "7: setting.sweeps: the exact method takes no number of sweeps"),

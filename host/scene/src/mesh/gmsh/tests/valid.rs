@@ -57,7 +57,7 @@ fn ascii41() -> String {
     String::from_utf8(model().v41(Coding::Ascii)).unwrap()
 }
 
-/// What Notepad and its like put before a text; who saves a binary file so has changed nothing else.
+/// The mark that Notepad and its like put before a text; who saves a binary file so has changed nothing else.
 #[test]
 fn a_byte_order_mark_is_passed_over() {
     for coding in CODINGS {

@@ -14,8 +14,7 @@
 //! multiplied, added to and rooted once: it loses 2ε of itself at most in a step, and 16ε of γ. Both are added, and the constants are
 //! rounded up. Where 2θλdt is not far above that, in f32 below λdt of 1e−5, B grows by it.
 
-use super::stored::Residual;
-use signorini_kernel::Real;
+use crate::Real;
 
 /// How fast the past fades, in parts of λ: θ.
 pub const THETA: f64 = 0.1;
@@ -67,33 +66,34 @@ pub struct StepTerms<R> {
 }
 
 impl<R: Real> StepTerms<R> {
-    /// Of squared distances for s at the beginning, in the middle and at the end, and of terms of contact at both ends.
+    /// Of squared distances for s at the beginning, in the middle and at the end, of terms of contact at both ends, and of Σ‖R̄‖²/k,
+    /// Σ‖R′‖²/k and Σ‖R′‖²/(π²α/h²).
     pub fn new(
         length: R,
-        (residual, oscillation): (&Residual<R>, R),
+        ([mean, rest, loose], oscillation): ([R; 3], R),
         distance: [R; 3],
         contact: [R; 2],
     ) -> Self {
         let root = |square: R| square.or_larger(R::ZERO).rounded_sqrt();
         let [begin, middle, end] = distance.map(|square| square.or_larger(R::ZERO));
         // The square of an affine function of time: Simpson's rule is exact.
-        let mean = (begin + R::from_count(4) * middle + end) / R::from_count(6);
+        let of_step = (begin + R::from_count(4) * middle + end) / R::from_count(6);
         let of_time = root(length);
         Self {
             length,
-            distance: [begin, mean, end],
+            distance: [begin, of_step, end],
             contact: contact.map(|term| R::HALF * term),
             oscillation,
-            inside: root(residual.loose),
-            residual: [residual.mean, residual.rest].map(|square| root(square) / of_time),
+            inside: root(loose),
+            residual: [mean, rest].map(|square| root(square) / of_time),
         }
     }
 }
 
 impl<R: Real> Rates<R> {
     /// What is carried on from a step, by the best of the ways to balance it. ∞ from a step without terms on.
-    pub fn advance(&self, carried: Carried<R>, terms: &[StepTerms<R>]) -> Carried<R> {
-        let bounds = terms.iter().map(|terms| self.after(carried.bound, terms));
+    pub fn advance(&self, carried: Carried<R>, terms: &[Option<StepTerms<R>>]) -> Carried<R> {
+        let bounds = terms.iter().flatten().map(|terms| self.after(carried.bound, terms));
         let before = self.fading * carried.before * (R::ONE + R::TWO * R::EPSILON);
         Carried {
             bound: bounds.fold(R::INFINITY, R::or_smaller),
@@ -201,8 +201,8 @@ mod tests {
             let mut found = Carried { bound: 0.0_f32, before: 1.0 };
             for at in 0..5000 {
                 let terms = terms(at, length as f32);
-                known = exact.advance(known, &terms.each_ref().map(wide));
-                found = short.advance(found, &terms);
+                known = exact.advance(known, &terms.each_ref().map(|of| Some(wide(of))));
+                found = short.advance(found, &terms.map(Some));
                 let [bound, energy] = [found.bound, short.energy(found)].map(f64::from);
                 assert!(
                     bound >= known.bound && bound <= near * known.bound,
@@ -220,7 +220,7 @@ mod tests {
         let of = rates(2.0, 0.5);
         let quiet = StepTerms { length: 0.5, ..StepTerms::default() };
         let first = Carried { bound: 3.0, before: 0.0 };
-        let next = of.advance(first, &[quiet]);
+        let next = of.advance(first, &[Some(quiet)]);
         assert!((next.bound - 3.0 * (-0.1_f64).exp()).abs() < 1e-14, "{next:?}");
         assert_eq!(of.advance(first, &[]).bound, f64::INFINITY);
     }

@@ -1,0 +1,149 @@
+//! The bound of a condensed step as one form, over its terms, its openings and corrections.
+//!
+//! s is the best conforming function for u after the step, a sum of those of static shapes, states and corrections, and s_old the same sum of what
+//! the last tick has left. With R = f̄ − k(s − s_old) + ∇·τ, all of which counts in the norm of the storage,
+//! ```text
+//!   |F (t, x, d)|² = ‖A^½∇s − A^{−½}τ‖² + ∫R²/k + Robin        t = (p, p⁻, x⁻, y⁻, d⁻)
+//! ```
+//! takes the place of the form of a steady problem: what contact adds, what mends r, and what data vary by in a cell are as there, and the sum
+//! bounds the error of the step that begins at s_old. That is never less than the mesh's certificate, which may take R′ out of the storage.
+//! So d⁻, by which s was corrected at contact vertices, is handed on too.
+
+use std::collections::BTreeSet;
+
+use super::super::best::{Table, complete};
+use super::super::block::{Block, Functions};
+use super::super::chain::Chain;
+use super::super::elimination::failed;
+use super::super::form::{Admissibles, Assembly, FormData, Found, fix_unused, table};
+use super::super::residual::{blocks, of_means};
+use super::super::{Columns, Pieces};
+use super::rows::storage;
+use signorini_scene::error::Result;
+
+/// What s of a step is a sum of.
+pub(in super::super) struct StepShapes {
+    /// Means of a unit of each input with the constant, each scaled opening, and each state.
+    pub means: [Vec<Vec<f64>>; 3],
+    /// ω of the states.
+    pub fading: Vec<f64>,
+    /// What changes of inputs without the constant, then of openings, take from each state.
+    pub changes: Vec<Vec<f64>>,
+    /// Contact vertices at which s is corrected.
+    pub corrections: usize,
+}
+
+/// Why there is no bound of steps of this problem, if so.
+fn obstacle(pieces: &Pieces) -> Option<&'static str> {
+    let is_curved = pieces.patterns.iter().any(|pattern| !pattern.curved.is_empty());
+    let quads = pieces.problem.mesh.triangles.len()..pieces.problem.cells();
+    let is_oblique = |cell| !signorini_certify::cell::Cell::of(pieces.problem, cell).is_affine();
+    match () {
+        () if is_curved => {
+            Some("a gap or a value that is not linear along an edge has none in condensed steps")
+        }
+        () if quads.into_iter().any(is_oblique) => {
+            Some("quads that are no parallelograms have none in condensed steps")
+        }
+        () => None,
+    }
+}
+
+/// How many contact vertices s is corrected at, for openings in these units, and where s − ψ comes from at the ends of each unknown's edge;
+/// none where s cannot be fixed.
+pub(super) fn corrections(pieces: &Pieces, openings: &[f64]) -> (usize, Vec<[usize; 2]>) {
+    if obstacle(pieces).is_some() || pieces.patterns.iter().any(|of| of.no_bound.is_some()) {
+        return (0, Vec::new());
+    }
+    let chain =
+        Chain::new(pieces.problem, &pieces.patterns, &pieces.edges, openings, &BTreeSet::new());
+    chain.map_or((0, Vec::new()), |chain| (chain.contact.len(), chain.ends))
+}
+
+impl StepShapes {
+    /// s after the step in its first half of rows, and s_old in the second, by the columns of t, x and d.
+    fn table(&self, own: &Table) -> Table {
+        let [m, n, r] = self.means.each_ref().map(Vec::len);
+        let (v, count) = (self.corrections, own.values.len() / own.columns);
+        let terms = 2 * m - 1 + n + r + v;
+        let mut all = Table::new(2 * count, terms + n + v);
+        for place in 0..count {
+            let (of_inputs, rest) = own.row(place).split_at(m);
+            let (of_openings, rest) = rest.split_at(n);
+            let (of_corrections, of_states) = rest.split_at(v);
+            // What a change of each input and each opening takes from s by the states.
+            let taken = |at: usize| -> f64 {
+                of_states.iter().zip(&self.changes).map(|(phi, row)| phi * row[at]).sum()
+            };
+            let now = all.row_mut(place);
+            now[..m].copy_from_slice(of_inputs);
+            for at in 0..m - 1 {
+                now[1 + at] -= taken(at);
+                now[m + at] = taken(at);
+            }
+            for at in 0..n {
+                now[2 * m - 1 + at] = taken(m - 1 + at);
+                now[terms + at] = of_openings[at] - taken(m - 1 + at);
+            }
+            for (at, (phi, fading)) in of_states.iter().zip(&self.fading).enumerate() {
+                now[2 * m - 1 + n + at] = fading * phi;
+            }
+            now[terms + n..].copy_from_slice(of_corrections);
+            let old = all.row_mut(count + place);
+            old[0] = of_inputs[0];
+            old[m..2 * m - 1].copy_from_slice(&of_inputs[1..]);
+            old[2 * m - 1..][..n].copy_from_slice(of_openings);
+            old[2 * m - 1 + n..][..r].copy_from_slice(of_states);
+            old[2 * m - 1 + n + r..terms].copy_from_slice(of_corrections);
+        }
+        all
+    }
+}
+
+impl FormData<'_> {
+    /// The form of a step with U = 1.
+    ///
+    /// # Errors
+    /// As for [`FormData::form`].
+    pub fn of_step(&self, of: &StepShapes) -> Result<Found> {
+        let Columns { pieces, fields, openings } = self.columns;
+        let Pieces { problem, patterns, edges, .. } = pieces;
+        let (none, edge_count) = (&BTreeSet::new(), problem.ends.len());
+        if let Some(reason) = obstacle(pieces) {
+            return Ok(Err(reason.to_owned()));
+        }
+        let chain = match Chain::new(problem, patterns, edges, openings, none) {
+            Ok(chain) => chain,
+            Err(reason) => return Ok(Err(reason)),
+        };
+        let functions = Functions::of(problem);
+        let by_means = of_means(problem, patterns, &functions, none)?;
+        let [inputs, of_openings, states] = &of.means;
+        let zeros = vec![vec![0.0; edge_count]; of.corrections];
+        let all: Vec<&[f64]> = inputs
+            .iter()
+            .chain(of_openings)
+            .chain(&zeros)
+            .chain(states)
+            .map(Vec::as_slice)
+            .collect();
+        let mut own = self.boundary_values(&chain, &functions, [inputs.len(), states.len()]);
+        let mut fixed = vec![false; functions.count()];
+        chain.fixed().iter().for_each(|&vertex| fixed[vertex as usize] = true);
+        fix_unused(&by_means, &mut fixed);
+        complete(&by_means, &fixed, &table(edge_count, &all), &mut own)
+            .map_err(failed(&problem.scene))?;
+        let s = of.table(&own);
+        let own = blocks(problem, patterns, &functions, None, none)?;
+        let blocks: Vec<Block> =
+            own.into_iter().chain(storage(problem, patterns, &functions)).collect();
+        let means: Vec<&[f64]> = fields.iter().map(|field| &field.u[..]).collect();
+        let jump = Some((by_means, table(edge_count, &means)));
+        let found = self.assembled(chain, &blocks, &s, jump)?;
+        let admissible = |(form, contact)| {
+            let fluxes = self.fluxes(fields);
+            (form, Admissibles { s, fluxes, functions, contact, released: Vec::new() })
+        };
+        Ok(found.map(|found: Assembly| admissible(found)))
+    }
+}

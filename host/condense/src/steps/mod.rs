@@ -1,0 +1,291 @@
+//! A condensed model that steps in time: what cells store is carried by the inputs, the openings and a few states.
+//!
+//! With D and C held, u is a static shape and what it deviates from that, u = Θp + Ψx + w. So the u that a step begins from is
+//! ```text
+//!   u_old = Θp⁻ + Ψx⁻ + Φμ^{−½}W y⁻        p⁻, x⁻ those of the last tick, y⁻ its r states
+//! ```
+//! and one step is the condensed model of K + M whose inputs have p⁻, x⁻ and y⁻ beside them: their loads are M times these shapes.
+//! Static shapes are all there, so that a steady state is exact whatever r is, and so is what answers at once. After the tick
+//! ```text
+//!   y = ω∘y⁻ − C_x (x − x⁻) − C_p (p − p⁻),        C_x the loads of the states: load += C_xᵀ y⁻
+//! ```
+//! With as many states as modes this is the step of the full model.
+
+mod bound;
+mod choice;
+mod evolution;
+mod gramian;
+mod memory;
+mod modes;
+mod rows;
+mod shapes;
+
+use std::cell::LazyCell;
+
+use super::elimination::{columns, fields};
+use super::evaluate::dot;
+use super::{CondensedModel, Measure, Pieces, Recovery};
+pub(super) use bound::StepShapes;
+use choice::Trial;
+pub use evolution::EvolutionForms;
+use gramian::{Gramian, Subspace};
+pub use memory::Memory;
+use modes::Deviations;
+use shapes::Shapes;
+use signorini_certify::TermData;
+use signorini_problem::{Approach, Problem, State};
+use signorini_scene::error::Result;
+use signorini_solve::decay::decay_rate;
+use signorini_solve::step_of;
+
+/// A condensed model with what one of its ticks hands on to the next.
+#[derive(Debug, Clone)]
+pub struct SteppedModel {
+    /// The model of one step. Its inputs are those of the scene, then p⁻ without the constant, x⁻ and y⁻, and with a bound
+    /// the corrections d⁻, by default those at the start.
+    pub model: CondensedModel,
+    /// m, the number of its inputs that are those of the scene with the constant 1.
+    pub inputs: usize,
+    /// ω of every state: the part of it that is left after a step without changes.
+    pub fading: Vec<f64>,
+    /// C_p, m − 1 numbers a state.
+    pub of_inputs: Vec<Vec<f64>>,
+    /// How many states the full model has: its modes.
+    pub modes: usize,
+    /// How many corrections the bound hands on.
+    pub corrections: usize,
+    /// Forms of the bound of the evolution; nothing where there is none.
+    pub evolution: Option<EvolutionForms>,
+    /// Means of u on contact edges by a unit of each input without the constant, x being held: gaps, in the unit of x.
+    pub gaps: Vec<Vec<f64>>,
+    /// The memory of the full model: all of its modes.
+    pub full: Memory,
+}
+
+impl SteppedModel {
+    /// C_x, n numbers a state: the columns of loads that are those of the states.
+    pub fn of_contact(&self) -> &[Vec<f64>] {
+        let first = 2 * self.inputs - 1 + self.model.contact;
+        &self.model.load[first..][..self.fading.len()]
+    }
+
+    /// The states as the memory that they are.
+    pub fn memory(&self) -> Memory {
+        let begin = &self.start()[self.inputs - 1 + self.model.contact..][..self.fading.len()];
+        Memory::new(&self.fading, [self.of_contact(), &self.of_inputs], begin)
+    }
+
+    /// What the last tick has left, at the start: p⁻, x⁻ and y⁻.
+    pub fn start(&self) -> &[f64] {
+        &self.model.defaults[self.inputs..]
+    }
+
+    /// The terms of a step that begins at the start and leaves the inputs there.
+    pub(super) fn at_start(&self) -> Vec<f64> {
+        let given = &self.start()[..self.inputs - 1];
+        [&self.model.defaults[..1], given, self.start()].concat()
+    }
+
+    /// `past` after the tick with inputs `p`, the constant 1 first, and the answer `x`.
+    pub fn advance(&self, past: &mut [f64], p: &[f64], x: &[f64]) {
+        let minus = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>();
+        let terms: Vec<f64> = p.iter().chain(&*past).copied().collect();
+        let corrections = self.model.corrections(&terms, x);
+        let (given, rest) = past.split_at_mut(self.inputs - 1);
+        let (openings, rest) = rest.split_at_mut(x.len());
+        let (states, of_s) = rest.split_at_mut(self.fading.len());
+        of_s.iter_mut().zip(corrections).for_each(|(to, d)| *to = d);
+        let (of_p, of_x) = (minus(&p[1..], given), minus(x, openings));
+        let rows = self.fading.iter().zip(self.of_contact()).zip(&self.of_inputs);
+        for (y, ((fading, of_contact), of_inputs)) in states.iter_mut().zip(rows) {
+            *y = fading * *y - dot(of_contact, &of_x) - dot(of_inputs, &of_p);
+        }
+        given.copy_from_slice(&p[1..]);
+        openings.copy_from_slice(x);
+    }
+}
+
+/// Condenses the steps of `problem`, the steady one, with at most `memory` states, or as many as its bound needs.
+///
+/// # Errors
+/// What [`Approach::Stepped`] cannot treat; a scene that does not say how long a step is; no steady state, where the start is one.
+pub fn stepped(problem: &Problem, memory: Option<usize>) -> Result<(SteppedModel, Recovery)> {
+    Approach::Stepped.check(problem)?;
+    let length = step_of(&problem.scene)?;
+    let statics = Pieces::new(problem)?;
+    let shapes = Shapes::new(&statics)?;
+    let in_step = &problem.stepping(length, State::zero(problem))?;
+    let mut pieces = statics.in_step(in_step, length, &shapes.inputs[0])?;
+    let openings = pieces.openings(in_step)?;
+    let deviations = Deviations::new(in_step)?;
+    let start = shapes.start(problem, length, &openings)?;
+    let columns = shapes.columns(&openings);
+    let sizes = shapes.sizes(&openings);
+    let left = start.deviation(&shapes, &deviations);
+    let coordinates: Vec<_> = columns.iter().map(|u| deviations.coordinates(u)).collect();
+    let gramian = LazyCell::new(|| Gramian::new(&deviations.fading, (&coordinates, &sizes), &left));
+    let dominant = |memory: usize| match memory < deviations.count() {
+        true => gramian.dominant(memory),
+        false => Subspace::all(&deviations),
+    };
+    let m = pieces.patterns.len();
+    let silent = TermData::silent(in_step)?;
+    pieces.begin_from(&columns, (&silent, length))?;
+    let memory = match memory {
+        Some(memory) => memory,
+        None => {
+            let trial = Trial {
+                model: &pieces.without_form(&mut pieces.fields(Vec::new())?)?.0,
+                steady: &shapes.steady,
+                begin: [&start.inputs, &start.openings],
+                sizes: &sizes[..m - 1],
+                deviations: &deviations,
+                columns: &coordinates,
+                start: &left,
+                pace: [length, decay_rate(problem)?],
+            };
+            trial.least(dominant)
+        }
+    };
+    let kept = dominant(memory);
+    let states = kept.shapes(&deviations, in_step)?;
+    pieces.begin_from(&states, (&silent, length))?;
+    let (corrections, ends) = bound::corrections(&pieces, &openings);
+    pieces.patterns.resize(pieces.patterns.len() + corrections, silent);
+    let of_states = kept.inner(&left);
+    pieces.beyond = [&start.inputs[1..], &start.openings, &of_states].concat();
+    let of_columns = kept.changes(&deviations.fading, &coordinates);
+    let means = [shapes.inputs.clone(), columns[m - 1..].to_vec(), states];
+    let (fading, modes) = (kept.fading, deviations.count());
+    pieces.step = Some(StepShapes {
+        means,
+        fading: fading.clone(),
+        changes: of_columns.clone(),
+        corrections,
+    });
+    let fields = pieces.fields(Vec::new())?;
+    let (mut model, mut recovery) = pieces.model(fields)?;
+    let unit = model.energy_unit;
+    let own = 2 * m - 1..model.inputs;
+    model.scale_inputs(own.clone(), unit);
+    recovery.scale_inputs(own.clone(), unit);
+    model.defaults[own].iter_mut().for_each(|x| *x /= unit);
+    let of_inputs = of_columns.iter().map(|row| over(&row[..m - 1], unit)).collect();
+    let full = full_memory(&deviations, (&coordinates, m - 1), &left, unit);
+    let gaps = shapes.gaps(in_step, &model.opening);
+    let mut of = SteppedModel {
+        model,
+        inputs: m,
+        fading,
+        of_inputs,
+        modes,
+        corrections,
+        evolution: None,
+        gaps,
+        full,
+    };
+    of.correct_start();
+    let stated = problem.scene.time.as_ref().and_then(|time| time.initial.as_ref());
+    let begun = (problem, length, stated);
+    of.evolution = EvolutionForms::new(&of, (&pieces, &recovery), begun, ends)?;
+    Ok((of, recovery))
+}
+
+/// The memory of all modes, for columns of which so many first ones are those of inputs.
+fn full_memory(
+    deviations: &Deviations,
+    (columns, inputs): (&[Vec<f64>], usize),
+    begin: &[f64],
+    unit: f64,
+) -> Memory {
+    let all = Subspace::all(deviations);
+    let changes = all.changes(&deviations.fading, columns);
+    let rows = changes.iter().map(|row| row.split_at(inputs));
+    let (of_p, of_x): (Vec<_>, Vec<_>) = rows.map(|(p, x)| (over(p, unit), x.to_vec())).unzip();
+    Memory::new(&all.fading, [&of_x, &of_p], &over(begin, unit))
+}
+
+fn over(row: &[f64], unit: f64) -> Vec<f64> {
+    row.iter().map(|entry| entry / unit).collect()
+}
+
+impl SteppedModel {
+    /// Corrects s at the start as after a tick.
+    fn correct_start(&mut self) {
+        let terms = self.at_start();
+        let Self { model, inputs, corrections, .. } = self;
+        let first = model.inputs - *corrections;
+        let x = &model.defaults[2 * *inputs - 1..][..model.contact];
+        let found = model.corrections(&terms, x);
+        model.defaults.iter_mut().skip(first).zip(found).for_each(|(to, d)| *to = d);
+    }
+
+    /// The same model without a bound, and without what that hands on.
+    #[must_use]
+    pub fn without_bound(&self) -> Self {
+        let mut of = Self { corrections: 0, evolution: None, ..self.clone() };
+        let model = &mut of.model;
+        model.inputs -= self.corrections;
+        model.load.truncate(model.inputs);
+        model.spans.truncate(model.inputs);
+        model.defaults.truncate(model.inputs);
+        model.ranges.truncate(model.inputs);
+        for measure in &mut model.outputs {
+            if let Measure::Linear { of_inputs, .. } | Measure::Flux { of_inputs, .. } = measure {
+                of_inputs.truncate(model.inputs);
+            }
+        }
+        model.certificate = Err("certificate = false leaves it out".to_owned());
+        of
+    }
+}
+
+impl<'p> Pieces<'p> {
+    /// Adds inputs: factors of these shapes in what a step of this length begins from.
+    fn begin_from(
+        &mut self,
+        shapes: &[Vec<f64>],
+        (silent, length): (&TermData, f64),
+    ) -> Result<()> {
+        for shape in shapes {
+            let begin = State { u: shape.clone(), ..State::zero(self.problem) };
+            let problem = silent.problem.stepping(length, begin)?;
+            self.patterns.push(TermData { problem, ..silent.clone() });
+        }
+        Ok(())
+    }
+
+    /// These pieces in a step of `problem`, with the shape of the `constant` in what it begins from.
+    fn in_step<'q>(
+        &self,
+        problem: &'q Problem,
+        length: f64,
+        constant: &[f64],
+    ) -> Result<Pieces<'q>> {
+        let zero = State::zero(problem);
+        let in_step = |(at, pattern): (usize, &TermData)| {
+            // The constant's shape is there from the beginning.
+            let begin =
+                if at == 0 { State { u: constant.to_vec(), ..zero.clone() } } else { zero.clone() };
+            Ok(TermData { problem: pattern.problem.stepping(length, begin)?, ..pattern.clone() })
+        };
+        Ok(Pieces {
+            problem,
+            parts: self.parts.clone(),
+            patterns: self.patterns.iter().enumerate().map(in_step).collect::<Result<_>>()?,
+            spans: self.spans.clone(),
+            edges: self.edges.clone(),
+            held_by_contact: Vec::new(),
+            alone: None,
+            laws: None,
+            beyond: Vec::new(),
+            step: None,
+        })
+    }
+
+    /// d_i for U = 1.
+    fn openings(&self, problem: &Problem) -> Result<Vec<f64>> {
+        let mut fields = fields(problem, &columns(problem, &[], &self.edges, None))?;
+        self.scaled(&mut fields)
+    }
+}

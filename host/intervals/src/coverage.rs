@@ -1,0 +1,36 @@
+//! The meshes on which intervals are worked out.
+
+use signorini_problem::Problem;
+
+/// Up to so many unknowns intervals need not be asked for.
+pub const MOST_UNKNOWNS: usize = 200_000;
+
+/// The meshes on which intervals are worked out: each takes some solutions of a linear problem.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Coverage {
+    /// On meshes of up to [`MOST_UNKNOWNS`] unknowns.
+    #[default]
+    Small,
+    /// On every mesh.
+    All,
+    /// On none.
+    None,
+}
+
+impl Coverage {
+    /// Whether this problem is among them.
+    pub fn takes(self, problem: &Problem) -> bool {
+        match self {
+            Self::Small => problem.topology.counts.unknowns() <= MOST_UNKNOWNS,
+            Self::All => true,
+            Self::None => false,
+        }
+    }
+}
+
+/// Why a large mesh has none.
+pub(crate) fn too_many() -> String {
+    format!(
+        "the mesh has more than {MOST_UNKNOWNS} unknowns, and nobody asked for intervals (--intervals)"
+    )
+}
