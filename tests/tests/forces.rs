@@ -93,7 +93,8 @@ fn solves_that_are_cut_off() {
         let kinds = [(ScalarKind::F64, FORCE_OF_EDGES), (ScalarKind::F32, FORCE_OF_EDGES_NARROW)];
         for (scalar, allowed) in kinds {
             for max_sweeps in stops(&mut random) {
-                let options = Options { scalar, max_sweeps, ..Options::default() };
+                let options =
+                    Options { scalar, max_sweeps: Some(max_sweeps), ..Options::default() };
                 let found = solve(&problem, &options).expect("an answer");
                 let table = table_of(&problem, &found);
                 let what = format!("{name}, {scalar:?}, {max_sweeps} sweeps");

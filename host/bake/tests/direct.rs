@@ -12,7 +12,7 @@ use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_session::tick::{Budget, ScheduledTick, TickRecord, play};
 use signorini_solve::outputs::outputs;
-use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
+use signorini_solve::{MOST_SWEEPS, Options, ScalarKind, Solution, SolverKind, solve};
 use signorini_tolerances::Tolerance;
 
 /// A heated face below keeps 2 with at most 6 per length, less towards its ends, and may cool by 1; u ≤ 3 on the right, air
@@ -121,10 +121,9 @@ pub fn played(problem: &Problem, steps: &[Vec<f64>]) -> Result<Vec<TickRecord>> 
     let inputs = |values: &Vec<f64>| values.iter().copied().enumerate().collect();
     let moment = |(at, values)| ScheduledTick { time: at as f64, inputs: inputs(values) };
     let moments: Vec<_> = steps.iter().enumerate().map(moment).collect();
-    let sweeps = Options::default().max_sweeps;
     let budget = Budget {
         scalar: ScalarKind::F64,
-        sweeps,
+        sweeps: MOST_SWEEPS,
         error: 0.0,
         tolerance: None,
         intervals: false,

@@ -12,11 +12,18 @@ pub struct Row {
     pub factor: f64,
     pub level: u32,
     pub size: Size,
+    /// Which solvers were to be timed.
+    pub asked: [bool; 4],
     /// Of each solver; `None` where it was not timed.
     pub seconds: [Option<f64>; 4],
 }
 
 impl Row {
+    /// Whether each solver that was asked was timed: a part of a row is no record.
+    fn is_whole(&self) -> bool {
+        self.asked.iter().zip(self.seconds).all(|(asked, seconds)| !asked || seconds.is_some())
+    }
+
     pub fn quickest(&self) -> f64 {
         self.seconds.into_iter().flatten().fold(f64::INFINITY, f64::min)
     }
@@ -51,12 +58,13 @@ pub struct Record {
 impl Record {
     /// Writes the record, with the rows that were timed in the place of those that were.
     pub fn renew(&self) {
-        if std::env::args().any(|word| word == "--test") {
+        let is_asked = |option: &str| std::env::args().any(|word| word == option);
+        if !is_asked("--bench") || is_asked("--test") {
             return;
         }
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/solvers/record.csv");
         let before = fs::read_to_string(&path).unwrap_or_default();
-        let line = |row: &Row| match row.quickest().is_finite() {
+        let line = |row: &Row| match row.is_whole() && row.quickest().is_finite() {
             true => row.line(),
             false => {
                 let known = before.lines().find(|line| line.starts_with(&row.key()));

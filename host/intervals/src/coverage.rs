@@ -1,14 +1,12 @@
 //! The meshes on which intervals are worked out.
 
 use signorini_problem::Problem;
-
-/// Up to so many unknowns intervals need not be asked for.
-pub const MOST_UNKNOWNS: usize = 200_000;
+use signorini_solve::MOST_FACTORED;
 
 /// The meshes on which intervals are worked out: each takes some solutions of a linear problem.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Coverage {
-    /// On meshes of up to [`MOST_UNKNOWNS`] unknowns.
+    /// On meshes of up to [`MOST_FACTORED`] unknowns: one factor serves all outputs.
     #[default]
     Small,
     /// On every mesh.
@@ -21,7 +19,7 @@ impl Coverage {
     /// Whether this problem is among them.
     pub fn takes(self, problem: &Problem) -> bool {
         match self {
-            Self::Small => problem.topology.counts.unknowns() <= MOST_UNKNOWNS,
+            Self::Small => problem.topology.counts.unknowns() <= MOST_FACTORED,
             Self::All => true,
             Self::None => false,
         }
@@ -30,7 +28,5 @@ impl Coverage {
 
 /// Why a large mesh has none.
 pub(crate) fn too_many() -> String {
-    format!(
-        "the mesh has more than {MOST_UNKNOWNS} unknowns, and nobody asked for intervals (--intervals)"
-    )
+    format!("the mesh has more than {MOST_FACTORED} unknowns; `solve --intervals` works them out")
 }

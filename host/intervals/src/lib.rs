@@ -55,7 +55,7 @@ use std::sync::Mutex;
 
 pub use answer::{Answered, Found, OutputBound, zero_rounding};
 use contact::contact_edges;
-pub use coverage::{Coverage, MOST_UNKNOWNS};
+pub use coverage::Coverage;
 use dual::Weights;
 pub use estimate::estimate;
 pub use evolved::over_time;

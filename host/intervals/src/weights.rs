@@ -12,7 +12,6 @@
 //! between quads, where s is that of a mesh: that of a condensed model is the best one, whatever its means. On triangles with A constant in each, u_h is of the same mean error as σ_h:
 //! ∫ζ·∇_h u_h = ∫ζ·A⁻¹σ_h, since σ_h − A∇_h u_h has no mean. In all other cases of_u bounds it.
 
-use super::MOST_UNKNOWNS;
 use super::answer::Answered;
 use super::contact::ContactEdge;
 use super::dual::{self, Dual};
@@ -31,7 +30,7 @@ use signorini_problem::{EdgeKind, Parts, Problem, Sum};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Field, Input, Output, Quantity};
 use signorini_solve::energy_norm::nonconformity;
-use signorini_solve::{ScalarKind, SharedSolver};
+use signorini_solve::{MOST_FACTORED, ScalarKind, SharedSolver};
 
 /// Why an output needs no weights.
 const GIVEN: &str = "the data give it, up to their quadrature";
@@ -111,8 +110,8 @@ impl<'p> Weighing<'p> {
         answers: &'p Answers<'p>,
     ) -> Result<std::result::Result<Self, String>> {
         let none = |why: &str| Ok(Err(why.to_owned()));
-        if problem.topology.counts.unknowns() > MOST_UNKNOWNS {
-            return none(&format!("the mesh has more than {MOST_UNKNOWNS} unknowns"));
+        if problem.topology.counts.unknowns() > MOST_FACTORED {
+            return none(&format!("the mesh has more than {MOST_FACTORED} unknowns"));
         }
         if Parts::whatever_inputs(problem)?.counts.contact > 0 {
             return none(

@@ -53,6 +53,11 @@ impl Scalar for f32 {
     }
 }
 
+/// Numbers in f64, exact.
+pub fn widened<R: Scalar>(numbers: &[R]) -> Vec<f64> {
+    numbers.iter().map(|x| x.wide()).collect()
+}
+
 /// A tensor in another scalar.
 pub fn narrowed<R: Scalar>(a: &Tensor<f64>) -> Tensor<R> {
     Tensor { xx: R::narrow(a.xx), xy: R::narrow(a.xy), yy: R::narrow(a.yy) }

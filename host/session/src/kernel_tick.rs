@@ -7,7 +7,7 @@ use signorini_device::tick::{
 use signorini_kernel::relaxation::{KeptSearch, Relaxation};
 use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::{Error as KernelError, Libm, contact};
-use signorini_problem::scalar::Scalar;
+use signorini_problem::scalar::{Scalar, widened};
 use signorini_problem::{Assembled, Parts, Problem};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::units::Units;
@@ -15,7 +15,7 @@ use signorini_solve::{Solution, unfit};
 
 use crate::Session;
 use crate::on_mesh::{self, Arrays};
-use crate::saved::{SavedSession, check_length, narrowed, widened};
+use crate::saved::{SavedSession, check_length, narrowed};
 
 struct KernelTick<'p, R: Scalar, const WIDTH: usize> {
     least: &'p Problem,

@@ -56,7 +56,7 @@ impl SolveRequest {
             scalar,
             solver: self.solver(),
             tolerance: self.tolerance,
-            max_sweeps: self.max_sweeps.unwrap_or(Options::default().max_sweeps),
+            max_sweeps: self.max_sweeps,
             ..Options::default()
         }
     }

@@ -51,11 +51,6 @@ impl SavedSession {
     }
 }
 
-/// Widens numbers; [`narrowed`] restores their bits.
-pub(crate) fn widened<R: Scalar>(numbers: &[R]) -> Vec<f64> {
-    numbers.iter().map(|x| x.wide()).collect()
-}
-
 /// The numbers of a state, `length` of them, in the scalar that they were widened from.
 ///
 /// # Errors

@@ -12,13 +12,13 @@ use signorini_certify::{
 };
 use signorini_kernel::relaxation::{Relaxation, Search};
 use signorini_kernel::solver::{Outcome, Settings, Status};
-use signorini_problem::scalar::Scalar;
+use signorini_problem::scalar::{Scalar, widened};
 use signorini_problem::{Assembled, Parts, Problem};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::setting::{Omega, Precision, Setting};
 use signorini_solve::{Mixed, Options, Solution, read_off, unfit};
 
-use crate::saved::{SavedSession, narrowed, widened};
+use crate::saved::{SavedSession, narrowed};
 use crate::{Session, scalar_kind};
 use sweeps::{Refused, Sweeps};
 
@@ -95,12 +95,12 @@ fn swept<'p, R: Scalar>(
 
 /// The tolerance of `solve`, and the ω and sweeps of the setting.
 fn settings<R: Scalar>(setting: &Setting) -> Settings<R> {
-    let max_sweeps = setting.sweeps.unwrap_or(1_000_000);
     let relaxation = match setting.omega {
         Omega::Auto => Relaxation::Adaptive(R::ONE),
         Omega::Fixed(omega) => Relaxation::Fixed(R::narrow(omega)),
     };
-    let options = Options { scalar: scalar_kind::<R>(), max_sweeps, ..Options::default() };
+    let options =
+        Options { scalar: scalar_kind::<R>(), max_sweeps: setting.sweeps, ..Options::default() };
     Settings { relaxation, ..options.settings() }
 }
 

@@ -1,8 +1,9 @@
 //! The solver that one would choose for the size of a problem, by an estimate of the time ([`super::cost`]).
 //!
 //! The factor is the kernel's, in the scalar asked for: its answers have a low part in f32, and parts that contact alone holds are
-//! no exception. In f64 the host's own solvers are ahead of it on large meshes. Where one has no answer the next is asked: multigrid,
-//! the factor, the direct solver (which takes what nothing holds), and at last sweeps, which say why there is none.
+//! no exception. In f64 the host's own solvers are ahead of it on large meshes. Where one has no answer the next is asked:
+//! multigrid, then the direct solver (which takes what nothing holds) and the factor, the quicker of these two first. At last
+//! sweeps say why there is none.
 
 use signorini_kernel::solver::Status;
 
@@ -27,32 +28,31 @@ pub(super) fn chosen<R: Scalar>(
         SolverKind::Factor => Ran::Factor,
         _ => Size::of(problem).quickest(is_double),
     };
-    if quickest == Ran::Sweeps {
-        return by_kernel::<R>(problem, parts, options, start);
-    }
-    if quickest == Ran::Multigrid
-        && let Ok(found) = multigrid::attempted::<R>(problem, parts, options, start)?
-    {
-        return Ok(found);
-    }
-    let direct = || {
-        let found = is_double.then(|| direct::directly(problem, parts, options));
-        let is_answer = |of: &Solution| of.status == Ending::Solve(Status::Converged);
-        found.and_then(Result::ok).filter(is_answer)
+    let order: &[Ran] = match quickest {
+        Ran::Multigrid => &[Ran::Multigrid, Ran::Direct, Ran::Factor],
+        Ran::Direct => &[Ran::Direct, Ran::Factor],
+        Ran::Factor => &[Ran::Factor, Ran::Direct],
+        _ => &[],
     };
-    if quickest != Ran::Factor
-        && let Some(found) = direct()
-    {
-        return Ok(found);
-    }
-    if let Some(found) = by_factor::<R>(problem, parts, options, start, None)? {
-        return Ok(found);
+    for solver in order {
+        let found = match solver {
+            Ran::Multigrid => multigrid::attempted::<R>(problem, parts, options, start)?.ok(),
+            Ran::Direct if is_double => {
+                direct::directly(problem, parts, options).ok().filter(is_converged)
+            }
+            Ran::Factor => by_factor::<R>(problem, parts, options, start, None)?,
+            _ => None,
+        };
+        if let Some(found) = found {
+            return Ok(found);
+        }
     }
     // Who has no answer leaves it to the kernel to say why.
-    match direct().filter(|_| quickest == Ran::Factor) {
-        Some(found) => Ok(found),
-        None => by_kernel::<R>(problem, parts, options, start),
-    }
+    by_kernel::<R>(problem, parts, options, start)
+}
+
+fn is_converged(found: &Solution) -> bool {
+    found.status == Ending::Solve(Status::Converged)
 }
 
 /// The answer of the kernel's factor alone, of the one that is known or else of a new one. Nothing where it cannot treat the

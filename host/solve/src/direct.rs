@@ -8,7 +8,7 @@ use signorini_kernel::solver::{Outcome, Status};
 
 use super::{Attempt, Factored, Options, Ran, Solution, Solved, unfit};
 use signorini_problem::progress::stage;
-use signorini_problem::scalar::Scalar;
+use signorini_problem::scalar::{Scalar, widened};
 use signorini_problem::{Assembled, Parts, Problem};
 use signorini_reference::{Factor, ReferenceError};
 use signorini_scene::error::{InputError, Result};
@@ -40,11 +40,6 @@ pub(super) fn directly(problem: &Problem, parts: &Parts, options: &Options) -> R
     let (exchanges, rounds) = (found.steps as u32, found.passes as u32);
     let factored = Some(Factored { entries: factor.entries(), exchanges, rounds });
     attempt.conclude(Solved { outcome, ran: Ran::Direct, factored, u, low: Vec::new() })
-}
-
-/// Numbers of a scalar in f64.
-pub(super) fn widened<R: Scalar>(numbers: &[R]) -> Vec<f64> {
-    numbers.iter().map(|x| x.wide()).collect()
 }
 
 /// K and b with the Dirichlet columns moved to the right: what the reference takes.

@@ -41,9 +41,8 @@ pub use factored::Factored;
 pub use level::{FreeLevel, free_levels};
 pub use mixed::{Corrected, Mixed, mixed};
 pub use multigrid::Multigrid;
-use options::MOST_SWEEPS;
-pub use options::{Options, ScalarKind, SolverKind};
-pub use shared::SharedSolver;
+pub use options::{MOST_SWEEPS, Options, ScalarKind, SolverKind};
+pub use shared::{MOST_FACTORED, SharedSolver};
 pub use solution::{Seconds, Solution};
 pub use start::{Start, own_defaults, step_of, warnings};
 pub use tuned::{Trials, tuned_omega};
@@ -208,17 +207,18 @@ fn iterate<R: Scalar, const WIDTH: usize>(
         )
     };
     if may_factor
-        && options.max_sweeps == MOST_SWEEPS
+        && options.max_sweeps.is_none()
         && cost::sweeps(counts.unknowns()) > f64::from(refinement::PLAIN)
         && let Some((found, factored)) = factored::solve(system, diagonal, &settings, u, low, None)?
     {
         return Ok((found, Some(factored)));
     }
-    let patience = Settings { max_sweeps: options.max_sweeps.min(refinement::PLAIN), ..settings };
+    let most = settings.max_sweeps;
+    let patience = Settings { max_sweeps: most.min(refinement::PLAIN), ..settings };
     stage(&format!("at most {} sweeps", patience.max_sweeps));
     let swept = sweep(patience, u, low)?;
     let ended = !matches!(swept.status, Status::OutOfSweeps | Status::Stalled);
-    if ended || swept.sweeps >= options.max_sweeps {
+    if ended || swept.sweeps >= most {
         return Ok((swept, None));
     }
     if may_factor
@@ -226,7 +226,7 @@ fn iterate<R: Scalar, const WIDTH: usize>(
     {
         return Ok((Outcome { sweeps: swept.sweeps, ..found }, Some(factored)));
     }
-    let left = options.max_sweeps - swept.sweeps;
+    let left = most - swept.sweeps;
     stage(&format!("at most {left} more sweeps, as no factor solves it"));
     let mut found = sweep(Settings { max_sweeps: left, ..settings }, u, low)?;
     found.sweeps = found.sweeps.saturating_add(swept.sweeps);

@@ -5,10 +5,10 @@ use signorini_kernel::solver::{Outcome, Status};
 use signorini_kernel::system::Residual;
 use signorini_multigrid::{self as multigrid, Settings};
 
-use super::direct::{directly, widened};
+use super::direct::directly;
 use super::{Attempt, Options, Ran, Reduced, ScalarKind, Solution, Solved, by_kernel, unfit};
 use signorini_problem::progress::stage;
-use signorini_problem::scalar::Scalar;
+use signorini_problem::scalar::{Scalar, widened};
 use signorini_problem::{Parts, Problem};
 use signorini_scene::error::Result;
 
@@ -41,7 +41,7 @@ pub(super) fn by_multigrid<R: Scalar>(
     };
     let (solver, solution) = match ScalarKind::of::<R>() {
         ScalarKind::F64 => ("direct solver", directly(problem, parts, options)?),
-        ScalarKind::F32 => ("kernel's own", by_kernel::<R>(problem, parts, options, start)?),
+        ScalarKind::F32 => ("kernel", by_kernel::<R>(problem, parts, options, start)?),
     };
     let given_up = Some(format!("multigrid gave up, the {solver} took over: {why}"));
     Ok(Solution { given_up, ..solution })

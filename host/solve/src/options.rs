@@ -75,8 +75,9 @@ pub struct Options {
     pub tolerance: Option<f64>,
     /// Whether to go on until rounding ends it, whatever the tolerance.
     pub to_the_floor: bool,
-    /// Most sweeps allowed, where there are sweeps.
-    pub max_sweeps: u32,
+    /// Most sweeps allowed, where there are sweeps; `None`: a million, and a factor at once where more sweeps are expected than it
+    /// takes.
+    pub max_sweeps: Option<u32>,
     /// Whether s is the average of u_h, as a board has it, even where a better one is worth a few sweeps over the vertices.
     pub averages: bool,
 }
@@ -88,7 +89,7 @@ impl Default for Options {
             solver: SolverKind::Kernel,
             tolerance: None,
             to_the_floor: false,
-            max_sweeps: MOST_SWEEPS,
+            max_sweeps: None,
             averages: false,
         }
     }
@@ -116,7 +117,7 @@ impl Options {
             tolerance: R::narrow(tolerance),
             accuracy: R::narrow(accuracy),
             scale: R::ZERO,
-            max_sweeps: self.max_sweeps,
+            max_sweeps: self.max_sweeps.unwrap_or(MOST_SWEEPS),
         }
     }
 }

@@ -6,7 +6,7 @@ use super::{Ldlt, Options, Result, Solution, unfit};
 use signorini_problem::{Assembled, Parts, Problem};
 
 /// Beyond so many unknowns a factor takes longer, and more memory, than some solutions without.
-const MOST_FACTORED: usize = 200_000;
+pub const MOST_FACTORED: usize = 200_000;
 
 /// Whatever solves all problems on a matrix.
 #[derive(Debug)]

@@ -104,6 +104,7 @@ impl Arguments {
     fn on_its_mesh(&self, scene: &Scene) -> Result<Told> {
         let mut problem = problem_of(scene)?;
         problem.warnings.extend(at_rest_warning(scene));
+        problem.warnings.extend(self.long_intervals(&problem));
         warn(&problem.warnings);
         let unknowns = problem.topology.counts.unknowns();
         let solution =
@@ -132,6 +133,16 @@ impl Arguments {
             self.intervals(),
             Some(stop),
         )
+    }
+
+    /// A warning of intervals that take longer than the solution.
+    fn long_intervals(&self, problem: &Problem) -> Option<String> {
+        let is_long =
+            self.intervals && !Coverage::Small.takes(problem) && !problem.scene.outputs.is_empty();
+        is_long.then(|| {
+            let unknowns = problem.topology.counts.unknowns();
+            format!("--intervals: on {unknowns} unknowns each output takes some solutions more")
+        })
     }
 
     /// Whether outputs get intervals.

@@ -21,7 +21,7 @@ pub(super) fn answer(scene: &Scene, mesh: Mesh, way: u8) {
         Ok(problem) => problem,
         Err(error) => return refused(&error),
     };
-    let kernel = Options { max_sweeps: SWEEPS, ..Options::default() };
+    let kernel = Options { max_sweeps: Some(SWEEPS), ..Options::default() };
     let solved = |options| {
         judge(solve(&problem, &options), |solution| judged(&problem, &solution));
     };

@@ -31,8 +31,7 @@ pub struct Certified {
 
 /// In `scalar`, after at most `sweeps` sweeps.
 pub fn options(scalar: ScalarKind, sweeps: Option<u32>) -> Options {
-    let max_sweeps = sweeps.unwrap_or(Options::default().max_sweeps);
-    Options { scalar, max_sweeps, ..Options::default() }
+    Options { scalar, max_sweeps: sweeps, ..Options::default() }
 }
 
 /// A scene on its mesh.

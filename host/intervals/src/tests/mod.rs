@@ -16,7 +16,7 @@ use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{self, adapted};
 use signorini_scene::scene::{Output, Scene};
 use signorini_solve::outputs::outputs;
-use signorini_solve::{Options, SolverKind, solve};
+use signorini_solve::{MOST_FACTORED, Options, SolverKind, solve};
 use signorini_tolerances::solve::SHARED_SOLVER;
 
 fn options() -> Options {
@@ -137,7 +137,7 @@ fn they_are_worked_out_where_they_are_asked_for() -> Result<()> {
         |asked| of_outputs(&problem, &solution, asked).values().filter(|of| of.is_ok()).count();
     assert_eq!(count(Coverage::All), count(Coverage::Small));
     let large = on_grid(signorini_problem::fixtures::SMOOTH, grid(200, Cells::Triangles))?.1;
-    assert!(large.topology.counts.unknowns() > MOST_UNKNOWNS);
+    assert!(large.topology.counts.unknowns() > MOST_FACTORED);
     assert!(Coverage::All.takes(&large) && !Coverage::Small.takes(&large));
     Ok(())
 }

@@ -40,7 +40,7 @@ pub fn attempt(case: &ExtremeCase, folder: &Path) -> Result<Attempt> {
         return ticks(case, problem);
     }
     let options =
-        Options { scalar: case.scalar, max_sweeps: case.most_sweeps(), ..Options::default() };
+        Options { scalar: case.scalar, max_sweeps: Some(case.most_sweeps()), ..Options::default() };
     let answer = match case.effort.omega {
         None => solve(&problem, &options)?,
         Some(_) => signorini_session::solve(&problem)?,

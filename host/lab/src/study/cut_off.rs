@@ -53,7 +53,7 @@ fn stopped(name: &str, scene: &Scene) -> Result<CutOff> {
     let energy = converged.energy(&problem);
     let (mut stops, mut checks) = (Vec::new(), Vec::new());
     for max_sweeps in STOPS {
-        let options = Options { max_sweeps, ..Options::default() };
+        let options = Options { max_sweeps: Some(max_sweeps), ..Options::default() };
         let stop = Certified::new(&problem, &solve(&problem, &options)?)?;
         let subject = format!("{name} after {} sweeps", stop.sweeps);
         checks.extend(stop.when_cut_off(&subject, energy));

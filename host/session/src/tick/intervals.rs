@@ -2,7 +2,7 @@
 
 use super::record::TickInterval;
 use crate::{Module, Session};
-use signorini_intervals::{Answered, Lasting, of_next, over_time};
+use signorini_intervals::{Answered, Coverage, Lasting, of_next, over_time};
 use signorini_problem::Problem;
 use signorini_scene::error::Result;
 use signorini_solve::Solution;
@@ -33,7 +33,9 @@ impl Intervals<'_> {
         match self {
             Self::Unasked => Ok(Vec::new()),
             Self::Anew(lasting) => {
-                lasting.renew(problem)?;
+                if Coverage::Small.takes(problem) {
+                    lasting.renew(problem)?;
+                }
                 let Solution { certified, scalar, .. } = solution;
                 let answered = Answered { certified, bound, scalar: *scalar };
                 let mut all = of_next(problem, &answered, lasting);

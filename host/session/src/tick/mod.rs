@@ -37,7 +37,7 @@ use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::Precision;
-use signorini_solve::{Options, ScalarKind, Solution, Start};
+use signorini_solve::{MOST_SWEEPS, Options, ScalarKind, Solution, Start};
 
 use crate::with_module;
 use intervals::Intervals;
@@ -82,7 +82,7 @@ impl Budget {
         let single = scene.setting.and_then(|setting| setting.scalar) == Some(Precision::F32);
         Self {
             scalar: if single { ScalarKind::F32 } else { ScalarKind::F64 },
-            sweeps: Options::default().max_sweeps,
+            sweeps: MOST_SWEEPS,
             error: 0.0,
             tolerance: None,
             intervals: true,
@@ -92,12 +92,12 @@ impl Budget {
 
     /// Whether the number of sweeps is open.
     fn is_open(&self) -> bool {
-        self.sweeps == Options::default().max_sweeps
+        self.sweeps == MOST_SWEEPS
     }
 
     fn settings<R: Scalar>(&self) -> Settings<R> {
-        let Self { scalar, tolerance, sweeps: max_sweeps, .. } = *self;
-        Options { scalar, tolerance, max_sweeps, ..Options::default() }.settings()
+        let Self { scalar, tolerance, sweeps, .. } = *self;
+        Options { scalar, tolerance, max_sweeps: Some(sweeps), ..Options::default() }.settings()
     }
 
     fn limits<R: Scalar>(&self) -> Limits<R> {

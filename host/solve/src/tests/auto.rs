@@ -20,7 +20,7 @@ const AUTO: Options = Options {
     solver: SolverKind::Auto,
     tolerance: None,
     to_the_floor: false,
-    max_sweeps: 1_000_000,
+    max_sweeps: None,
     averages: false,
 };
 
@@ -89,6 +89,16 @@ fn small_meshes_are_swept_and_large_ones_factored() -> Result<()> {
         let of_u = if scalar == ScalarKind::F64 { AGREEMENT } else { FACTOR_NARROW };
         same("large", &large, &kernel, [of_u, BOUND_OF_FACTOR_NARROW]);
     }
+    Ok(())
+}
+
+#[test]
+fn the_kernel_does_not_begin_what_it_would_not_end() -> Result<()> {
+    let (_, problem) = on_grid(SMOOTH, grid(140, Cells::Triangles))?;
+    let found = solve(&problem, &Options::default())?;
+    assert_eq!((found.ran, found.sweeps), (Ran::Factor, 0));
+    let told = solve(&problem, &Options { max_sweeps: Some(3), ..Options::default() })?;
+    assert_eq!((told.ran, told.sweeps, told.converged()), (Ran::Sweeps, 3, false));
     Ok(())
 }
 

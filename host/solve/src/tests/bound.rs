@@ -41,7 +41,7 @@ fn bound(text: &str, cells: Cells, height: f64, options: Options) -> Result<[f64
 fn holds(text: &str, height: f64, scalar: ScalarKind) -> Result<()> {
     for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
         for max_sweeps in [20, 100_000] {
-            let options = Options { scalar, max_sweeps, ..Options::default() };
+            let options = Options { scalar, max_sweeps: Some(max_sweeps), ..Options::default() };
             let [total, combined] = bound(text, cells, height, options)?;
             GUARANTEE.check_at_most(format_args!("{height} {max_sweeps}"), combined, total);
         }

@@ -44,7 +44,7 @@ fn the_factor_takes_over_where_sweeps_do_not_end() -> Result<()> {
 fn where_sweeps_end_there_is_no_factor() -> Result<()> {
     let (_, problem) = read(&meshes("catalogue").join("t-h-tri.toml"))?;
     assert_eq!(solve(&problem, &Options::default())?.factored, None);
-    let few = Options { max_sweeps: 20, ..Options::default() };
+    let few = Options { max_sweeps: Some(20), ..Options::default() };
     let cut = solve(&problem, &few)?;
     assert!(!cut.converged() && cut.sweeps == 20 && cut.factored.is_none());
     Ok(())

@@ -107,7 +107,7 @@ fn iterations_stay_where_they_are() -> Result<()> {
         (meshes("catalogue/h-tri.toml"), 20),
         (meshes("catalogue/h-quad.toml"), 20),
         (meshes("scenes/levee.toml"), 25),
-        (firmware.join("dam.toml"), 60),
+        (firmware.join("dam.toml"), 45),
     ] {
         let (_, mut problem) = read(&path)?;
         for _ in 0..2 {

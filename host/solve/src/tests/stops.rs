@@ -90,7 +90,8 @@ fn holds(what: &str, text: &str, mesh: Mesh, stops: &[u32], is_identity: bool) -
     for (at, scalar) in [ScalarKind::F64, ScalarKind::F32].into_iter().enumerate() {
         for &max_sweeps in stops {
             let solver = SolverKind::Kernel;
-            let options = Options { solver, scalar, max_sweeps, ..Options::default() };
+            let options =
+                Options { solver, scalar, max_sweeps: Some(max_sweeps), ..Options::default() };
             let found = solve(&problem, &options)?;
             let what = format!("{what}, {scalar:?} after {max_sweeps}");
             // Where hi − lo varies along an edge by more than half there is none, and the reason says so.

@@ -46,7 +46,12 @@ fn options(case: &RandomCase, problem: &Problem) -> Options {
         _ => SolverKind::Kernel,
     };
     let max_sweeps = case.effort.sweeps.unwrap_or(updates.clamp(1.0, 1e6) as u32);
-    Options { scalar: case.effort.scalar, solver, max_sweeps, ..Options::default() }
+    Options {
+        scalar: case.effort.scalar,
+        solver,
+        max_sweeps: Some(max_sweeps),
+        ..Options::default()
+    }
 }
 
 /// The earlier ticks, whatever they say, and then the one that is judged.
