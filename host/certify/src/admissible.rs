@@ -40,8 +40,9 @@ impl Default for Following {
 
 /// S on one cell, without what ψ and u_D add to it.
 pub struct Chordal {
-    vertices: Vec<f64>,
-    bubbles: Vec<f64>,
+    vertices: [f64; 4],
+    bubbles: [f64; 4],
+    is_quad: bool,
 }
 
 /// S on one cell.
@@ -65,15 +66,16 @@ impl Admissible<'_> {
     /// S − L on cell `at`, triangles first: its part that the numbers give.
     pub fn chordal(&self, problem: &Problem, at: usize) -> Chordal {
         let is_quad = at >= problem.mesh.triangles.len();
-        let edges = if is_quad { problem.topology.edges_of(at) } else { &[] };
-        Chordal {
-            vertices: problem
-                .vertices_of(at)
-                .iter()
-                .map(|&vertex| self.vertices[vertex as usize])
-                .collect(),
-            bubbles: edges.iter().map(|&edge| self.bubbles[edge as usize]).collect(),
+        let mut here = Chordal { vertices: [0.0; 4], bubbles: [0.0; 4], is_quad };
+        for (to, &vertex) in here.vertices.iter_mut().zip(problem.vertices_of(at)) {
+            *to = self.vertices[vertex as usize];
         }
+        if is_quad {
+            for (to, &edge) in here.bubbles.iter_mut().zip(problem.topology.edges_of(at)) {
+                *to = self.bubbles[edge as usize];
+            }
+        }
+        here
     }
 
     /// S on an edge, t running in the edge's direction.
@@ -94,11 +96,13 @@ impl Chordal {
     /// S − L and its gradient at a point of the cell.
     pub fn at(&self, local: &Local) -> Jet {
         let mut sum = Jet::default();
-        for (&value, &function) in self.vertices.iter().zip(&local.vertices) {
+        for (value, function) in self.vertices.into_iter().zip(local.vertices) {
             sum.add(value, function);
         }
-        for (&bubble, side) in self.bubbles.iter().zip(&local.sides) {
-            sum.add(bubble, side.bubble());
+        if self.is_quad {
+            for (bubble, side) in self.bubbles.into_iter().zip(&local.sides) {
+                sum.add(bubble, side.bubble());
+            }
         }
         sum
     }

@@ -189,7 +189,7 @@ impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
             let local = cell.local(point.reference);
             let mut s = chordal.at(&local);
             s.add(1.0, lift);
-            let (a, tau) = (conductivity.at(point.x), tau.sample(point).flux);
+            let (a, tau) = (conductivity.at(point.x), tau.flux(point));
             add(CellPoint {
                 x: point.x,
                 weight: point.weight,

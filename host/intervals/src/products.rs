@@ -11,7 +11,7 @@ use super::goal::Goal;
 use super::squares::Products;
 use super::stored::Stored;
 use signorini_certify::admissible::Admissible;
-use signorini_certify::cell::Cell;
+use signorini_certify::cell::{Cell, Local};
 use signorini_certify::conductivity::{Conductivity, apply, dot, inverse};
 use signorini_certify::curved;
 use signorini_certify::deviation::{Deviation, Deviations};
@@ -161,13 +161,13 @@ impl<'p> Residual<'p> {
         let z_here = z.chordal(problem, at);
         let [tau, zeta] = [self.s.tau, z.tau].map(|flux| CellField::new(problem, at, flux, flux));
         let mut own = Products::default();
-        let mut add = |of: &PiecePoint, along_s: [f64; 2]| {
-            let (point, a, local) = (&of.point, &of.below, cell.local(of.point.reference));
-            let (tau, along_z) = (tau.sample(point).flux, z_here.at(&local).gradient);
+        let mut add = |of: &PiecePoint, local: &Local, along_s: [f64; 2]| {
+            let (point, a) = (&of.point, &of.below);
+            let (tau, along_z) = (tau.flux(point), z_here.at(local).gradient);
             let flux = apply(a, along_s);
             let here = Fluxes {
                 residual: [tau[0] - flux[0], tau[1] - flux[1]],
-                zeta: zeta.sample(point).flux,
+                zeta: zeta.flux(point),
                 gradient: apply(a, along_z),
             };
             let inverse = inverse(a);
@@ -177,11 +177,14 @@ impl<'p> Residual<'p> {
             own = own.and(seen.times(point.weight));
         };
         if let Some(lifted) = self.lifted.get(&at) {
-            lifted.iter().for_each(|(point, along_s)| add(point, *along_s));
+            for (of, along_s) in lifted {
+                add(of, &cell.local(of.point.reference), *along_s);
+            }
         } else {
             let s = self.s.chordal(problem, at);
             for of in conductivity.points(&cell, &gauss(points(&cell, &conductivity))) {
-                add(&of, s.at(&cell.local(of.point.reference)).gradient);
+                let local = cell.local(of.point.reference);
+                add(&of, &local, s.at(&local).gradient);
             }
         }
         let [missed, _] = conductivity.missed(cell);

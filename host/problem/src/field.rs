@@ -52,19 +52,31 @@ impl CellField {
     /// Values at a point given by its place and its reference coordinates.
     pub fn sample(&self, point: &crate::quadrature::Point) -> Sample {
         match *self {
-            Self::Triangle(corners, means, fluxes) => {
+            Self::Triangle(corners, means, _) => {
                 let basis = crouzeix_raviart::basis(point.reference);
                 let gradient = crouzeix_raviart::gradient(corners, means);
-                let flux = crouzeix_raviart::raviart_thomas(corners, fluxes, point.x);
-                Sample { u: dot(basis, means), gradient: gradient.into(), flux: flux.into() }
+                Sample { u: dot(basis, means), gradient: gradient.into(), flux: self.flux(point) }
             }
-            Self::Quad(corners, means, fluxes, element) => {
+            Self::Quad(corners, means, _, element) => {
                 let [x, y, _] = point.reference;
                 Sample {
                     u: dot(element.basis(corners, [x, y]), means),
                     gradient: element.gradient(corners, [x, y], means).into(),
-                    flux: rannacher_turek::place(corners, [x, y]).raviart_thomas(fluxes).into(),
+                    flux: self.flux(point),
                 }
+            }
+        }
+    }
+
+    /// The Raviart–Thomas field at a point.
+    pub fn flux(&self, point: &crate::quadrature::Point) -> [f64; 2] {
+        match *self {
+            Self::Triangle(corners, _, fluxes) => {
+                crouzeix_raviart::raviart_thomas(corners, fluxes, point.x).into()
+            }
+            Self::Quad(corners, _, fluxes, _) => {
+                let [x, y, _] = point.reference;
+                rannacher_turek::place(corners, [x, y]).raviart_thomas(fluxes).into()
             }
         }
     }

@@ -103,7 +103,7 @@ impl Functions {
             CellField::Triangle(_, _, fluxes) => fluxes[side] = 1.0,
             CellField::Quad(_, _, fluxes, _) => fluxes[side] = 1.0,
         }
-        field.sample(&at.point).flux
+        field.flux(&at.point)
     }
 }
 
