@@ -8,6 +8,7 @@ use super::answer::Told;
 use super::levels;
 use super::scene_arguments::{SceneArguments, problem_of};
 use signorini_intervals::Coverage;
+use signorini_problem::Problem;
 use signorini_problem::progress::{say, waiting, warn};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::goal::Goal;
