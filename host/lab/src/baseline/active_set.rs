@@ -9,7 +9,6 @@ use super::series::{InitialGuess, Run, TimedSolver, counted};
 use signorini_reference::Factor;
 use signorini_scene::Result;
 
-/// The solver on its problem.
 pub(super) struct ActiveSet<'q> {
     quadratic: &'q Quadratic,
     factor: Option<Factor>,

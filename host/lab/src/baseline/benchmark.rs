@@ -12,14 +12,13 @@ use super::clarabel::Clarabel;
 use super::condensed::condensed;
 use super::contest::{Entrant, Outcome};
 use super::full::{Full, quadratic};
-use super::load_case::LoadCase;
 use super::osqp::{Manner, Osqp};
 use super::pivots::Pivots;
 use super::psor::Psor;
 use super::quadratic::Quadratic;
 use super::series::{Baseline, Task};
 use signorini_problem::scalar::Scalar;
-use signorini_problem::{Parts, Problem};
+use signorini_problem::{Loads, Parts, Problem};
 use signorini_scene::Result;
 
 pub(super) const PSOR: &str = "kernel PSOR f64";
@@ -33,10 +32,9 @@ const MANNERS: [(&str, Manner); 4] = [
 /// A scene, its ticks, and what the solvers are asked for.
 pub(super) struct Benchmark<'a> {
     pub problem: &'a Problem,
-    pub moments: &'a [LoadCase],
+    pub moments: &'a [Loads],
     /// The energy distance to the discrete solution that is small enough.
     pub target: f64,
-    /// OSQP's program.
     pub osqp: Option<&'a Path>,
     /// Coarser grids of triangles that this one is a refinement of, the coarsest first.
     pub coarser: &'a [Problem],
@@ -56,7 +54,7 @@ impl Benchmark<'_> {
         let task = Task { problem: "full", quadratic: &full, target: self.target };
         self.sweeps::<f64>(&task, &parts, moments, &mut take);
         self.sweeps::<f32>(&task, &parts, moments, &mut take);
-        self.cascade(&task, moments)?.into_iter().for_each(&mut take);
+        self.cascade(&task)?.into_iter().for_each(&mut take);
         take(task.alone(Entrant::new("faer active set", Ok(ActiveSet::new(&full)))));
         let kept = ActiveSet::with_factor(&full);
         take(task.alone(Entrant::new("faer active set, factor kept", kept)));
@@ -100,7 +98,7 @@ impl Benchmark<'_> {
         &self,
         task: &Task,
         parts: &Parts,
-        moments: &[LoadCase],
+        moments: &[Loads],
         take: &mut impl FnMut(Outcome),
     ) {
         let name = format!("kernel PSOR {}", R::NAME);
@@ -114,17 +112,22 @@ impl Benchmark<'_> {
     }
 
     /// Sweeps from coarse to fine, where there are coarser grids.
-    fn cascade(&self, task: &Task, moments: &[LoadCase]) -> Result<Option<Outcome>> {
+    fn cascade(&self, task: &Task) -> Result<Option<Outcome>> {
         if self.coarser.is_empty() {
             return Ok(None);
         }
         let problems = self.coarser.iter().chain([self.problem]);
-        let full = |problem| Full::new(problem, &Parts::examine(problem)?, &moments[..1]);
-        let grids: Vec<Full<f64>> = problems.clone().map(full).collect::<Result<_>>()?;
+        let grids: Vec<Full<f64>> = problems.clone().map(at_first).collect::<Result<_>>()?;
         let grids: Vec<_> = problems.zip(&grids).collect();
         let name = "kernel PSOR f64, coarse to fine";
         Ok(Some(task.alone(Entrant::new(name, Cascade::new(&grids)))))
     }
+}
+
+/// The problem as the first tick has it.
+fn at_first(problem: &Problem) -> Result<Full<'_, f64>> {
+    let loads = Loads::at_time(problem, problem.time)?;
+    Full::new(problem, &Parts::examine(problem)?, &[loads])
 }
 
 fn sweep<R: Scalar, const WIDTH: usize>(

@@ -19,7 +19,6 @@ use signorini_problem::Problem;
 use signorini_scene::Result;
 use signorini_session::coarse;
 
-/// One grid.
 struct Level<'a> {
     system: System<'a, f64, u32>,
     given: &'a TickLoads<f64>,

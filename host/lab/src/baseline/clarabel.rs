@@ -15,7 +15,6 @@ use super::quadratic::{Matrix, Quadratic};
 use super::series::{InitialGuess, Run, TimedSolver, counted};
 use signorini_scene::Result;
 
-/// The solver on its problem.
 pub(super) struct Clarabel<'q> {
     quadratic: &'q Quadratic,
     program: Program,
@@ -26,9 +25,6 @@ pub(super) struct Clarabel<'q> {
 
 impl<'q> Clarabel<'q> {
     /// Takes the problem over.
-    ///
-    /// # Errors
-    /// As for [`Program::new`].
     pub fn new(quadratic: &'q Quadratic) -> Result<Self> {
         let program = Program::new(quadratic)?;
         let columns = |rows, sign: f64, of: &Matrix| {

@@ -3,11 +3,10 @@
 use signorini_kernel::system::System;
 
 use super::failed;
-use super::load_case::LoadCase;
 use super::psor::TickLoads;
 use super::quadratic::{Matrix, Quadratic, QuadraticLoads};
 use signorini_problem::scalar::Scalar;
-use signorini_problem::{Assembled, Parts, Problem};
+use signorini_problem::{Assembled, Loads, Parts, Problem};
 use signorini_reference::Factor;
 use signorini_scene::Result;
 use signorini_solve::Reduced;
@@ -20,12 +19,12 @@ pub(super) struct Full<'p, R: Scalar> {
 
 impl<'p, R: Scalar> Full<'p, R> {
     /// Assembles the matrix once and the load of every moment.
-    pub fn new(problem: &'p Problem, parts: &Parts, moments: &[LoadCase]) -> Result<Self> {
+    pub fn new(problem: &'p Problem, parts: &Parts, moments: &[Loads]) -> Result<Self> {
         let mut assembled = Assembled::new(problem).map_err(failed)?;
         assembled.set_parts(parts);
         let mut ticks = Vec::new();
         for moment in moments {
-            assembled.set_loads(&moment.integrate(problem)?).map_err(failed)?;
+            assembled.set_loads(moment).map_err(failed)?;
             let system = assembled.system().map_err(failed)?;
             ticks.push(TickLoads {
                 load: system.load().to_vec(),
@@ -48,12 +47,12 @@ impl<'p, R: Scalar> Full<'p, R> {
 pub(super) fn quadratic(
     problem: &Problem,
     parts: &Parts,
-    moments: &[LoadCase],
+    moments: &[Loads],
 ) -> Result<(Quadratic, Factor)> {
     let mut assembled = Assembled::<f64>::new(problem).map_err(failed)?;
     let (mut matrix, mut floating, mut ticks) = (Matrix::new(), Vec::new(), Vec::new());
     for moment in moments {
-        assembled.set_loads(&moment.integrate(problem)?).map_err(failed)?;
+        assembled.set_loads(moment).map_err(failed)?;
         let reduced = Reduced::new(problem, parts, &assembled, &assembled.start());
         let Reduced { row_ptr, col_idx, values, load, floating: held } = reduced.map_err(failed)?;
         let law = assembled.law();

@@ -21,7 +21,7 @@ mod program;
 mod psor;
 mod quadratic;
 mod series;
-pub mod sizes;
+mod sizes;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -29,7 +29,7 @@ mod tests;
 use std::fmt::Display;
 
 use benchmark::Benchmark;
-use load_case::LoadCase;
+use load_case::load_cases;
 pub use series::Baseline;
 use signorini_problem::{Approach, Problem};
 use signorini_scene::{Error, InputError, Result};
@@ -58,7 +58,7 @@ pub fn of_scene(problem: &Problem) -> Result<(Vec<Baseline>, Vec<String>)> {
     let mut notes = Vec::new();
     let program = osqp::program();
     notes.extend(program.err().map(str::to_owned));
-    let moments = LoadCase::drawn(problem, TICKS);
+    let moments = load_cases(problem, TICKS)?;
     let error = discretisation_error(problem, &mut notes)?;
     let ring = Benchmark {
         problem,

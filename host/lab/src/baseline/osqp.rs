@@ -121,7 +121,6 @@ impl Osqp {
     }
 }
 
-/// A line of JSON.
 fn say(to: &mut impl Write, what: &impl Serialize) -> Result<()> {
     serde_json::to_writer(&mut *to, what).map_err(failed)?;
     writeln!(to).and_then(|()| to.flush()).map_err(failed)
@@ -190,7 +189,7 @@ mod tests {
     use std::os::unix::fs::PermissionsExt;
 
     use super::super::full::quadratic;
-    use super::super::load_case::LoadCase;
+    use super::super::load_case::load_cases;
     use super::*;
     use crate::trade::tests::scene;
     use signorini_problem::{Parts, Problem};
@@ -205,7 +204,7 @@ mod tests {
         let scene = scene("catalogue/moving-tri");
         let problem = Problem::new(&scene, grid(16, Cells::Triangles)).unwrap();
         let parts = Parts::examine(&problem).unwrap();
-        let (full, _) = quadratic(&problem, &parts, &LoadCase::drawn(&problem, 1)).unwrap();
+        let (full, _) = quadratic(&problem, &parts, &load_cases(&problem, 1).unwrap()).unwrap();
         let run = Osqp::with_limit(&program, &full, Manner::Watched, limit)
             .and_then(|mut osqp| osqp.run(0, InitialGuess::Cold, 1e-3));
         run.unwrap_err().to_string()

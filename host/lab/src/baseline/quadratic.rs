@@ -35,7 +35,6 @@ pub(super) struct Matrix {
     pub values: Vec<f64>,
 }
 
-/// The data of one tick.
 #[derive(Debug, Clone)]
 pub(super) struct QuadraticLoads {
     pub load: Vec<f64>,
@@ -65,7 +64,6 @@ impl QuadraticLoads {
 }
 
 impl Matrix {
-    /// No rows yet.
     pub fn new() -> Self {
         Self { row_ptr: vec![0], ..Self::default() }
     }
@@ -74,7 +72,6 @@ impl Matrix {
         self.row_ptr.len() - 1
     }
 
-    /// Adds a row, or a column.
     pub fn push(&mut self, entries: impl IntoIterator<Item = (usize, f64)>) {
         for (column, value) in entries {
             self.col_idx.push(column as u32);

@@ -17,7 +17,6 @@ pub struct Baseline {
     pub solver: String,
     /// `full`, `condensed`.
     pub problem: String,
-    /// Unknowns of that problem.
     pub unknowns: usize,
     /// `cold`, `warm`.
     pub start: String,
@@ -104,7 +103,6 @@ pub(super) struct Pass {
 pub(super) struct Series {
     exponent: i32,
     passes: Vec<Pass>,
-    /// Seconds.
     spent: f64,
 }
 
@@ -123,8 +121,7 @@ impl Task<'_> {
         &self,
         solver: &mut dyn TimedSolver,
         start: InitialGuess,
-        series: &mut Series,
-    ) -> Result<()> {
+    ) -> Result<Series> {
         let begin = Instant::now();
         let mut exponent = -1;
         let mut trial = self.pass(solver, start, exponent)?;
@@ -133,11 +130,10 @@ impl Task<'_> {
             trial = self.pass(solver, start, exponent)?;
         }
         let spent = begin.elapsed().as_secs_f64();
-        *series = match spent < LONG {
+        Ok(match spent < LONG {
             true => Series { exponent, ..Series::default() },
             false => Series { exponent, passes: vec![trial], spent },
-        };
-        Ok(())
+        })
     }
 
     /// One more: as many passes as time allows, the fastest of them with the largest distance of any.

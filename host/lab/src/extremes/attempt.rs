@@ -12,10 +12,8 @@ use signorini_session::tick::{Budget, ScheduledTick, TickRecord, play};
 use signorini_solve::adaptive::mesh_of_scene;
 use signorini_solve::{Ending, Options, Solution, solve};
 
-/// An answer of the solver.
 #[derive(Debug, Clone)]
 pub struct Attempt {
-    /// The mesh as read.
     pub mesh: Arc<Mesh>,
     /// Edges not on D.
     pub unknowns: usize,
@@ -26,9 +24,6 @@ pub struct Attempt {
 }
 
 /// Writes the files of the case into `folder` and solves what they say.
-///
-/// # Errors
-/// Input that is refused; files that cannot be written.
 pub fn attempt(case: &ExtremeCase, folder: &Path) -> Result<Attempt> {
     let (path, mesh) = (folder.join("scene.toml"), folder.join("mesh.msh"));
     let write = |path: &Path, text: String| std::fs::write(path, text).map_err(Error::io(path));

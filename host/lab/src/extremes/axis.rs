@@ -9,7 +9,6 @@ use signorini_scene::mesh::structured::Cells;
 /// A number that is pushed.
 #[derive(Debug, Clone, Copy)]
 pub struct Axis {
-    /// Name in the files.
     pub name: &'static str,
     /// A remark beyond the name; may be empty.
     pub remark: &'static str,

@@ -8,15 +8,11 @@ use signorini_solve::ScalarKind;
 /// A problem, with the scalar and the effort that it is solved with.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExtremeCase {
-    /// The axis.
     pub axis: String,
-    /// The place on it.
     pub value: f64,
     /// The axis that it is crossed with, and the place on that.
     pub across: Option<(String, f64)>,
-    /// Scalar type of the kernel.
     pub scalar: ScalarKind,
-    /// The problem.
     pub posed: Posed,
     /// Wishes beyond the solver's defaults.
     pub effort: Effort,

@@ -49,7 +49,6 @@ impl Outcome {
     /// All, the best first.
     pub const ALL: [Self; 4] = [Self::Correct, Self::CertifiedPoor, Self::TypedError, Self::Wrong];
 
-    /// Its name in the files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Correct => "correct",
@@ -63,21 +62,16 @@ impl Outcome {
 /// How a case ended.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ended {
-    /// The input was refused.
     Refused(String),
     /// The input was refused after sweeps had been spent on it.
     RefusedLate(String),
     /// Something else failed.
     Failed(String),
-    /// A panic.
     Panicked,
-    /// No end in time.
     TimedOut,
-    /// There is an answer.
     Answered {
         /// Whether the solver claims success.
         success: bool,
-        /// The status it gives.
         status: &'static str,
         /// How wrong it is.
         measured: Measured,

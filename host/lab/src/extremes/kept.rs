@@ -1,5 +1,6 @@
 //! The cases that are finished, kept from the moment they are: the same command goes on where it was interrupted.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
@@ -10,6 +11,17 @@ use serde::{Deserialize, Serialize};
 use crate::trade::journal::{Journal, program};
 use crate::trade::shard::Shard;
 use signorini_scene::{Error, Result};
+
+/// The findings of a run, for its folder and for the terminal.
+#[derive(Debug)]
+pub struct Findings {
+    /// Files by their names.
+    pub files: Vec<(&'static str, Vec<u8>)>,
+    /// Words for the terminal.
+    pub text: String,
+    /// Numbers of the cases that are wrong.
+    pub wrong: BTreeSet<u32>,
+}
 
 /// A finished case, and the seconds that all runs together had taken by then.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -40,9 +52,6 @@ impl Kept {
     }
 
     /// The row that is known of the case `key`, or what `work` finds.
-    ///
-    /// # Errors
-    /// Those of `work`; a file that cannot be written.
     pub(super) fn row<T: Serialize + DeserializeOwned + PartialEq>(
         &self,
         key: &str,
@@ -63,14 +72,11 @@ impl Kept {
     }
 
     /// Seconds of all runs.
-    pub fn seconds(&self) -> f64 {
+    pub(super) fn seconds(&self) -> f64 {
         *held(&self.before) + self.start.elapsed().as_secs_f64()
     }
 
     /// Deletes what only an interrupted run needs.
-    ///
-    /// # Errors
-    /// A file that cannot be deleted.
     pub fn close(self) -> Result<()> {
         self.journal.into_inner().unwrap_or_else(PoisonError::into_inner).close()?;
         // It stays where somebody else keeps something in it.

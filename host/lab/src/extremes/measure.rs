@@ -23,7 +23,6 @@ use signorini_solve::{Options, Solution, SolverKind, solve};
 /// An answer beside the truth, in energy norms at scale 1.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Measured {
-    /// The answer's bound.
     pub bound: Option<f64>,
     /// The true error that it bounds; without a bound, ‖A^½∇_h(u − u_h)‖.
     pub error: f64,
@@ -33,7 +32,6 @@ pub struct Measured {
     pub reference: Option<Reference>,
     /// |u − u_h|₁ and ‖σ − σ_h‖ on trapezoids, where they fall at different rates.
     pub of_fields: Option<[f64; 2]>,
-    /// Whether every number of the answer is finite.
     pub finite: bool,
 }
 
@@ -54,9 +52,6 @@ const FINEST: u32 = 64;
 const LARGE: u32 = 128;
 
 /// The distances of `attempt`.
-///
-/// # Errors
-/// A problem at scale 1 that cannot be posed.
 pub fn measure(case: &ExtremeCase, attempt: &Attempt) -> Result<Measured> {
     let posed = case.posed.at_scale_one();
     let mesh = case.posed.scales.unplaced(&attempt.mesh);
@@ -106,9 +101,6 @@ pub fn measure(case: &ExtremeCase, attempt: &Attempt) -> Result<Measured> {
 }
 
 /// Of the ticks the one whose bound is worst kept, against the exact discrete solution of its time.
-///
-/// # Errors
-/// As for [`measure`].
 pub fn of_ticks(case: &ExtremeCase, attempt: &Attempt) -> Result<Measured> {
     let mut problem = at_scale_one(&case.posed, attempt.mesh.clone())?;
     let mut worst = Measured { finite: true, ..Measured::default() };
@@ -142,7 +134,6 @@ fn at_scale_one(posed: &Posed, mesh: impl Into<Arc<Mesh>>) -> Result<Problem> {
     Problem::new(&Scene::parse(&posed.scene(), Path::new("scale-1.toml"))?, mesh)
 }
 
-/// The exact discrete solution.
 pub(super) fn solve_directly(problem: &Problem) -> Result<Solution> {
     let options = Options { solver: SolverKind::Direct, ..Options::default() };
     solve(problem, &options)

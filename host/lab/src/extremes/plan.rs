@@ -12,9 +12,7 @@ use signorini_solve::ScalarKind;
 /// An axis or a pair of them, with the problem whose numbers they push.
 #[derive(Debug, Clone, Copy)]
 pub struct AxisStudy {
-    /// The axis.
     pub axis: Axis,
-    /// The axis that it is crossed with.
     pub across: Option<Axis>,
     solution: Solution,
     /// Which of several studies along one axis; empty where it is the only one.
@@ -113,13 +111,11 @@ pub const STUDIES: [AxisStudy; 62] = [
 ];
 
 impl AxisStudy {
-    /// The name of its axis in the files.
     pub fn name(&self) -> String {
         let name = self.axis.name;
         if self.of.is_empty() { name.to_owned() } else { format!("{name}: {}", self.of) }
     }
 
-    /// Its cases.
     pub fn cases(&self) -> Vec<ExtremeCase> {
         let mut cases = Vec::new();
         for scalar in [ScalarKind::F64, ScalarKind::F32] {

@@ -88,7 +88,6 @@ pub struct Split {
     pub of: &'static str,
     /// The position of the edges that stay.
     pub edges: [usize; 2],
-    /// The condition on the rest.
     pub rest: Hold,
 }
 
@@ -99,9 +98,7 @@ pub struct Posed {
     pub solution: Solution,
     /// The map that turns it oblique.
     pub shear: Shear,
-    /// The mesh at scale 1.
     pub grid: Grid,
-    /// The scale.
     pub scales: Scales,
     /// Conditions on bottom, right, top and left.
     pub sides: [Hold; 4],
@@ -122,7 +119,6 @@ impl Posed {
         Self { scales: Scales::ONE, ..self }
     }
 
-    /// Its mesh.
     pub fn mesh(&self) -> Mesh {
         let mut mesh = self.scales.placed(self.grid.mesh());
         if let Some(split) = self.split {

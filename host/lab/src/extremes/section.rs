@@ -5,7 +5,6 @@ use super::plan::remark;
 use super::record::{Record, Row, place};
 use signorini_draw::{Column, Extremes, ExtremesStudy, OutcomeMap, Square, Table, plain};
 
-/// Everything of the section.
 pub fn section(record: &Record) -> Extremes {
     let studies = record.studies();
     let legend = record.definitions.iter();

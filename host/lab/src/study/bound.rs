@@ -28,7 +28,6 @@ const ROUNDING: f64 = 1e-5;
 /// The bound of one iterate, and how wrong it is.
 #[derive(Debug, Clone, Copy, Default, Serialize)]
 pub struct Certified {
-    /// Sweeps it took.
     pub sweeps: u32,
     /// `None`: contact alone holds a part, and cannot take its surplus.
     pub bound: Option<ErrorBound>,

@@ -17,7 +17,6 @@ const SAMPLES: usize = 9;
 /// How far the kernel is from the reference.
 const FROM_FAER: &str = "largest distance of u to faer’s, over the range of u";
 
-/// Collects the picture of one scene.
 pub fn panel(problem: &Problem, solution: &Solution, case: &KnownScene) -> ScenePanel {
     let cells = 0..problem.mesh.triangles.len() + problem.mesh.quads.len();
     let flux = |cell| CellField::new(problem, cell, &solution.u, &solution.flux).middle_flux();

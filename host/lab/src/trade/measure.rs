@@ -31,9 +31,6 @@ struct Timing {
 }
 
 /// Measures `problem` as its setting says; level and cells are told by the setting.
-///
-/// # Errors
-/// A setting that the scene does not allow for.
 pub fn measure(problem: &Problem, truth: &ReferenceSolution) -> Result<Point> {
     let mut setting = completed(&problem.scene);
     // Where nothing changes from tick to tick, and where no tick goes, every solve begins anew.

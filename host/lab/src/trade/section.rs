@@ -14,7 +14,6 @@ use crate::baseline;
 use crate::baseline::Baseline;
 use signorini_draw::{Column, Table, TradePanel, TradeStudy, Tradeoff, plain};
 
-/// Everything of the section.
 pub fn section(records: &Records) -> Tradeoff {
     let all = || records.host.iter().chain(&records.m4f);
     let mut findings = sentences(&knob_values(all()));

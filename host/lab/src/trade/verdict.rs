@@ -42,7 +42,6 @@ pub struct KnobValue {
     pub target: Target,
     /// The knob: `scalar`, `level`, …
     pub knob: &'static str,
-    /// Its value.
     pub value: String,
     /// Studies in which it could be chosen.
     pub studies: usize,

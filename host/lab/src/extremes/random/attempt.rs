@@ -21,9 +21,6 @@ pub struct Attempt {
 const UPDATES: f64 = 1e9;
 
 /// Solves `case`.
-///
-/// # Errors
-/// Input that is refused.
 pub fn attempt(case: &RandomCase) -> Result<Attempt> {
     let scene = Scene::parse(&case.scene, Path::new("scene.toml"))?;
     let problem = Problem::new(&scene, case.mesh.clone())?;
@@ -81,7 +78,6 @@ fn ticks(case: &RandomCase, problem: Problem) -> Result<Attempt> {
 }
 
 impl Attempt {
-    /// Whether every number is finite.
     pub fn is_finite(&self) -> bool {
         let Solution { u, flux, contact_force, bound, certified, .. } = &self.answer;
         let parts = [u, flux, &certified.vertices, &certified.bubbles, &certified.tau];

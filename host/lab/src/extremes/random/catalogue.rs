@@ -8,7 +8,6 @@ use crate::extremes::solution::{Shear, Solution};
 use signorini_problem::random::Random;
 use signorini_scene::mesh::structured::Cells;
 
-/// Draws one.
 pub(super) fn draw(random: &mut Random, plan: &MeshPlan) -> Posed {
     let solution = match random.below(12) {
         0..3 => Solution::Jump(random.log(1e-10, 1e10)),
@@ -26,7 +25,6 @@ pub(super) fn draw(random: &mut Random, plan: &MeshPlan) -> Posed {
     posed(random, plan, solution)
 }
 
-/// Draws how one is posed.
 pub(super) fn posed(random: &mut Random, plan: &MeshPlan, solution: Solution) -> Posed {
     let sides = sides(random, solution);
     let known = Known {

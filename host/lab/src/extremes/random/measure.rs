@@ -9,9 +9,10 @@
 use super::attempt::Attempt;
 use super::case::{RandomCase, Way, Yardstick};
 use super::cut::cut_along;
-use super::nested::{Apart, MeshSolution, Nesting, apart};
+use super::nested::{Apart, Nesting, apart};
 use super::outputs::{Asked, Intervals};
 use crate::extremes::measure::solve_directly;
+use crate::mesh_solution::MeshSolution;
 use signorini_certify::ErrorBound;
 use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::Conductivity;
@@ -32,7 +33,6 @@ use signorini_solve::{Solution, choose_units, times};
 /// An answer beside the truth, in units in which its numbers are near 1.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Measured {
-    /// Its bound.
     pub bound: ErrorBound,
     /// The distance of s and τ from the truth; without a bound NaN.
     pub combined: f64,
@@ -55,7 +55,6 @@ pub struct Measured {
     pub energy: f64,
     /// The bound of the exact discrete solution on the same mesh.
     pub best: Option<f64>,
-    /// Intervals of outputs.
     pub intervals: Intervals,
 }
 
@@ -104,9 +103,6 @@ const RESOLVED: f64 = 1e-4;
 const CORNERS: f64 = 1e-9;
 
 /// Measures; `None` where there is no truth to measure by.
-///
-/// # Errors
-/// A scene that cannot be stated in its own units.
 pub fn measure(case: &RandomCase, attempt: &Attempt) -> Result<Option<Measured>> {
     let (problem, answer) = match attempt.answer.in_its_units() {
         Some((problem, own)) => (problem.clone(), own.clone()),
@@ -155,13 +151,8 @@ impl Held<'_> {
         }
     }
 
-    fn side(&self) -> MeshSolution<'_> {
-        let Solution { u, certified, .. } = self.answer;
-        MeshSolution { problem: self.problem, admissible: certified.admissible(), u }
-    }
-
     fn by_exact(&self) -> Result<Measured> {
-        let (problem, own) = (self.problem, self.side());
+        let (problem, own) = (self.problem, MeshSolution::of(self.problem, self.answer)?);
         let within = apart(&own, &own, &Nesting::default(), &gauss(POINTS))?;
         let mut found = Measured {
             bound: self.bound,
@@ -185,7 +176,7 @@ impl Held<'_> {
                 }
             }
             found.combined = distance.combined;
-            found.of_u = errors(exact, problem, own.u, &self.answer.flux)?.energy;
+            found.of_u = errors(exact, problem, &self.answer.u, &self.answer.flux)?.energy;
             let rounding = |error: f64| distance.rounding / error.max(distance.rounding.sqrt());
             found.uncertain = [found.combined, found.of_u].map(rounding);
             // The identity has the oscillation of f, g and q in it, with its sign, but not that of u_ext.
@@ -239,15 +230,14 @@ impl Held<'_> {
     }
 
     fn by_finer(&self) -> Result<Option<Measured>> {
-        let (problem, own) = (self.problem, self.side());
+        let (problem, own) = (self.problem, MeshSolution::of(self.problem, self.answer)?);
         let (mesh, nesting) = self.finer()?;
         let mut finer = Problem::new(&problem.scene, mesh)?;
         finer.set_time(problem.time)?;
         let Ok(solution) = solve_directly(&finer) else { return Ok(None) };
         let Some(its) = solution.bound else { return Ok(None) };
-        let Solution { u, certified, .. } = &solution;
         let intervals = self.asked().by_finer((&finer, &solution));
-        let fine = MeshSolution { problem: &finer, admissible: certified.admissible(), u };
+        let fine = MeshSolution::of(&finer, &solution)?;
         let most = [self.bound.total + its.total, self.bound.of_u + its.total];
         let is_above = |of: &Apart| of.combined > most[0] || of.of_u > most[1];
         let (mut found, mut uncertain) = (Apart::default(), [0.0; 2]);

@@ -10,7 +10,7 @@ mod case;
 mod catalogue;
 mod cut;
 mod data;
-pub mod feature;
+mod feature;
 mod function;
 pub mod in_time;
 mod made;
@@ -19,18 +19,16 @@ mod mesh;
 mod nested;
 mod outputs;
 mod posed;
-pub mod record;
+mod record;
 mod residual;
-pub mod row;
+mod row;
 mod spot;
-pub mod step;
-#[cfg(test)]
-mod step_outputs;
+mod step;
 #[cfg(test)]
 mod tests;
-pub mod trajectory;
+mod trajectory;
 mod verdict;
-pub mod window;
+mod window;
 
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -39,12 +37,14 @@ use std::time::{Duration, Instant};
 use attempt::{Attempt, attempt};
 use case::RandomCase;
 use measure::measure;
+use record::Record;
 use row::Row;
 use verdict::{broken_by, ended};
 
 use super::judge::{Ended, Outcome, judge};
-use super::kept::Kept;
+use super::kept::{Findings, Kept};
 use super::watch::watched;
+use crate::record_file::{csv, indented};
 use signorini_files::atomic::write_atomically;
 use signorini_problem::threads::on_two_threads;
 use signorini_scene::mesh::gmsh::write as msh;
@@ -55,25 +55,33 @@ const LIMIT: Duration = Duration::from_secs(1800);
 
 /// Draws these cases of a seed and runs in two threads those that are not yet `kept`; calls `done` after each. A case that breaks a
 /// promise is never kept, but run again.
-///
-/// # Errors
-/// Finished cases cannot be kept.
 pub fn run(
+    seed: u64,
+    cases: RangeInclusive<u32>,
+    kept: &Kept,
+    done: impl Fn() + Sync,
+) -> Result<Findings> {
+    let rows = rows(seed, cases, kept, done)?;
+    let record = Record::new(seed, kept.seconds(), &rows);
+    let files = vec![
+        ("random.json", indented(&record).into_bytes()),
+        ("random.csv", csv("random.csv", &rows)?),
+    ];
+    let wrong = record.violations.iter().map(|violation| violation.case).collect();
+    Ok(Findings { files, text: record.text(), wrong })
+}
+
+fn rows(
     seed: u64,
     cases: RangeInclusive<u32>,
     kept: &Kept,
     done: impl Fn() + Sync,
 ) -> Result<Vec<Row>> {
     let work = |&number: &u32| kept.row(&format!("{number} of {seed}"), || Ok(row(seed, number)));
-    let mut rows = on_two_threads(&cases.collect::<Vec<_>>(), work, done)?;
-    rows.sort_by_key(|row| row.case);
-    Ok(rows)
+    on_two_threads(&cases.collect::<Vec<_>>(), work, done)
 }
 
 /// Writes the scene and the mesh of a case into `folder`.
-///
-/// # Errors
-/// Files that cannot be written.
 pub fn write(seed: u64, number: u32, folder: &Path) -> Result<()> {
     let case = RandomCase::draw(seed, number);
     std::fs::create_dir_all(folder).map_err(Error::io(folder))?;

@@ -24,22 +24,17 @@ const ROUNDINGS: f64 = 16.0;
 /// The intervals of a case.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Intervals {
-    /// How many there are.
     pub found: usize,
     /// The largest distance of the middle to what is known of the value, over the half-width; with a finer answer over both.
     pub worst: f64,
-    /// The output of the worst.
     pub name: String,
 }
 
 /// An answer of which outputs are asked.
 #[derive(Debug, Clone, Copy)]
 pub struct Asked<'a> {
-    /// The number of its case.
     pub number: u32,
-    /// How many outputs it is asked for.
     pub most: usize,
-    /// Its problem.
     pub problem: &'a Problem,
     /// s, τ and the bound.
     pub answer: Answered<'a>,

@@ -12,11 +12,8 @@ use crate::record_file::word;
 /// A run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Record {
-    /// Its seed.
     pub seed: u64,
-    /// How many scenes it drew.
     pub cases: usize,
-    /// Wall-clock seconds.
     pub seconds: f64,
     /// How many cases ended in which way.
     pub outcomes: BTreeMap<String, usize>,
@@ -24,17 +21,14 @@ pub struct Record {
     pub classes: BTreeMap<String, BTreeMap<String, usize>>,
     /// The largest ratios and the cases that they belong to.
     pub worst: BTreeMap<String, Worst>,
-    /// The bounds of the scenes with each feature.
     #[serde(default)]
     pub features: BTreeMap<String, Spread>,
-    /// Everything that is wrong.
     pub violations: Vec<Violation>,
 }
 
 /// The largest of a ratio.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Worst {
-    /// The ratio.
     pub ratio: f64,
     /// Which case it is of.
     pub case: u32,
@@ -43,13 +37,10 @@ pub struct Worst {
 /// The bounds of all scenes with one feature.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Spread {
-    /// How many there are.
     pub scenes: usize,
-    /// How many have a bound.
     pub with_bound: usize,
     /// The bound over the distance to the truth, where there is one to measure by: at 50, 90, 99 and 100 % of them.
     pub over_error: Vec<f64>,
-    /// How many were measured.
     pub measured: usize,
 }
 
@@ -71,7 +62,6 @@ impl Spread {
 /// A promise that was broken: `signorini extremes --random 1 --seed SEED --case CASE` shows it again.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Violation {
-    /// The case.
     pub case: u32,
     /// The classes of the case.
     pub class: String,
@@ -82,7 +72,6 @@ pub struct Violation {
 }
 
 impl Record {
-    /// Sums up `rows`.
     pub fn new(seed: u64, seconds: f64, rows: &[Row]) -> Self {
         let mut record = Self { seed, cases: rows.len(), seconds, ..Self::default() };
         for row in rows {
@@ -124,17 +113,6 @@ impl Record {
         }
     }
 
-    /// How many cases are wrong, or break a promise.
-    pub fn broken(&self) -> usize {
-        self.violations.len()
-    }
-
-    /// The text of `random.json`.
-    pub fn json(&self) -> String {
-        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
-    }
-
-    /// The text for the terminal.
     pub fn text(&self) -> String {
         let counts = Outcome::ALL.map(|outcome| {
             let name = outcome.name();

@@ -10,36 +10,24 @@ use super::mesh::Kind;
 use super::posed::Hold;
 use super::verdict::Broken;
 use crate::extremes::judge::{Outcome, ratio};
-use crate::record_file::{self, word};
-use signorini_scene::Result;
+use crate::record_file::word;
 use signorini_solve::ScalarKind;
 
 /// A line of `random.csv`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Row {
-    /// Its number.
     pub case: u32,
-    /// The feature of its data.
     pub feature: Option<Feature>,
-    /// Where its truth comes from.
     pub truth: Yardstick,
-    /// The condition that holds it.
     pub hold: Hold,
-    /// Its cells.
     pub cells: Kind,
-    /// Its scalar.
     pub scalar: ScalarKind,
-    /// The solver.
     pub way: Way,
-    /// A limit on the sweeps.
     pub limit: Option<u32>,
-    /// The worth of the answer.
     pub outcome: Outcome,
     /// Edges not on D.
     pub unknowns: Option<usize>,
-    /// How it ended.
     pub status: Option<String>,
-    /// Sweeps spent.
     pub sweeps: Option<u32>,
     /// The true distance of s and τ over the bounds; as far as it is known where it seems above them.
     pub error_over_bound: Option<f64>,
@@ -51,7 +39,6 @@ pub struct Row {
     pub output_over_interval: Option<f64>,
     /// The bound over ‖A^½∇s‖.
     pub relative_bound: Option<f64>,
-    /// Whether it has a bound.
     pub has_bound: bool,
     /// That over the true distance of s and τ, or their distance from those of a finer solve.
     pub bound_over_error: Option<f64>,
@@ -59,22 +46,18 @@ pub struct Row {
     pub seconds: f64,
     /// See `seconds`.
     pub seconds_in_all: f64,
-    /// Why it is not correct.
     pub note: String,
-    /// The promises that it breaks.
     #[serde(skip)]
     pub broken: Vec<Broken>,
 }
 
 impl Row {
-    /// The row of a case before it is solved.
     pub fn of(case: &RandomCase) -> Self {
         let Effort { scalar, way, sweeps: limit, .. } = case.effort;
         let RandomCase { number, feature, truth, hold, kind: cells, .. } = *case;
         Self { case: number, feature, truth, hold, cells, scalar, way, limit, ..Self::default() }
     }
 
-    /// With the numbers of its answer.
     #[must_use]
     pub fn with(self, case: &RandomCase, attempt: &Attempt, measured: Option<&Measured>) -> Self {
         let of_f64 = case.effort.scalar == ScalarKind::F64;
@@ -97,7 +80,6 @@ impl Row {
         }
     }
 
-    /// The classes that it counts in.
     pub fn classes(&self) -> Vec<String> {
         let cut = if self.limit.is_some() { "with a limit" } else { "to the end" };
         let how = [word(&self.cells), word(&self.scalar), word(&self.way), cut.to_owned()];
@@ -129,12 +111,4 @@ impl Row {
         ];
         all.into_iter().flatten().collect()
     }
-}
-
-/// The text of `random.csv`.
-///
-/// # Errors
-/// Never for plain data.
-pub fn csv(rows: &[Row]) -> Result<Vec<u8>> {
-    record_file::csv("random.csv", rows)
 }

@@ -5,11 +5,11 @@ use std::path::Path;
 
 use super::cut::{Line, cut_along};
 use super::feature::Feature;
-use super::nested::{MeshSolution, Nesting, apart};
-use super::record::Record;
+use super::nested::{Nesting, apart};
 use super::residual::residual;
 use super::*;
 use crate::extremes::measure::solve_directly;
+use crate::mesh_solution::MeshSolution;
 use signorini_certify::exact::distance;
 use signorini_problem::Problem;
 use signorini_problem::quadrature::gauss;
@@ -20,7 +20,7 @@ use signorini_solve::Solution;
 
 fn record_of(seed: u64, cases: RangeInclusive<u32>) -> Record {
     let folder = tempfile::tempdir().unwrap();
-    let rows = run(seed, cases, &Kept::open(folder.path()).unwrap(), || {}).unwrap();
+    let rows = rows(seed, cases, &Kept::open(folder.path()).unwrap(), || {}).unwrap();
     Record::new(seed, 0.0, &rows)
 }
 
@@ -107,9 +107,8 @@ fn distance_to_finer(scene: &Scene, cells: Cells, levels: u32) -> (f64, [f64; 2]
     let fine = Problem::new(scene, fine).unwrap();
     let (one, other) = (solved(&coarse), solved(&fine));
     let bounds = [&one, &other].map(|of| of.bound.unwrap().total);
-    let of = MeshSolution { problem: &coarse, admissible: one.certified.admissible(), u: &one.u };
-    let its =
-        MeshSolution { problem: &fine, admissible: other.certified.admissible(), u: &other.u };
+    let [of, its] =
+        [(&coarse, &one), (&fine, &other)].map(|(of, by)| MeshSolution::of(of, by).unwrap());
     (apart(&of, &its, &Nesting { levels, cut: None }, &gauss(4)).unwrap().combined, bounds)
 }
 
@@ -138,10 +137,9 @@ fn an_answer_is_no_distance_from_itself_and_a_wrong_one_leaves_a_residual() {
     let scene = scene("x");
     let problem = Problem::new(&scene, grid(3, Cells::Mixed)).unwrap();
     let own = solved(&problem);
-    let side =
-        || MeshSolution { problem: &problem, admissible: own.certified.admissible(), u: &own.u };
-    RESIDUAL
-        .check("itself", apart(&side(), &side(), &Nesting::default(), &gauss(4)).unwrap().combined);
+    let side = MeshSolution::of(&problem, &own).unwrap();
+    let itself = apart(&side, &side, &Nesting::default(), &gauss(4)).unwrap();
+    RESIDUAL.check("itself", itself.combined);
     let found = residual(&problem, &own.u).unwrap();
     RESIDUAL.check("scaled", found.scaled);
     RESIDUAL.check("rounding", found.rounding);

@@ -6,9 +6,9 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use super::function::{Frame, Function, Rough};
+use super::function::{Function, Rough};
 use super::mesh::{self, Kind, MeshPlan, Outline, Regions};
-use super::posed::{Ends, Hold};
+use super::posed::{Ends, Hold, turned};
 use signorini_problem::random::Random;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
@@ -18,23 +18,15 @@ use signorini_solve::ScalarKind;
 /// A scene over time.
 #[derive(Debug, Clone)]
 pub struct Trajectory {
-    /// The condition that holds it.
     pub hold: Hold,
-    /// The kind of its cells.
     pub kind: Kind,
-    /// In which scalar it is played.
     pub scalar: ScalarKind,
-    /// A limit on the sweeps of each step.
     pub sweeps: Option<u32>,
-    /// The scene without `[time]`.
     pub text: String,
-    /// dt
     pub step: f64,
     /// u at the start; nothing for a steady one.
     pub initial: Option<String>,
-    /// The mesh.
     pub mesh: Mesh,
-    /// Values of the inputs at each tick.
     pub log: Vec<Vec<f64>>,
     /// Whether gaps and values are linear along edges.
     pub is_affine: bool,
@@ -49,17 +41,16 @@ impl Trajectory {
         let kind = random.pick(&[Kind::Triangles, Kind::Quads, Kind::Both]);
         let plan = plan(&mut random, kind);
         let drawn = mesh::draw(&mut random, &plan);
-        let frame = Frame { centre: [0.0; 2], length: 1.0 };
         let (text, on_line) = (String::new(), Vec::new());
         let is_affine = random.chance(0.5);
-        let mut drawing = Drawing { random, frame, is_affine, text, on_line };
+        let mut drawing = Drawing { random, is_affine, text, on_line };
         let time = drawing.materials(&drawn.mesh);
         let names: Vec<&str> = drawn.mesh.curves.iter().map(|curve| curve.name.as_str()).collect();
         let hold = drawing.boundaries(&names);
         let Drawing { mut random, text, on_line, .. } = drawing;
         let is_stated = hold == Hold::Contact || random.chance(0.5);
         let initial = is_stated
-            .then(|| Function::draw(&mut random, frame, Rough::Kinked, 3.0).times(0.3).value());
+            .then(|| Function::draw(&mut random, 1.0, Rough::Kinked, 3.0).times(0.3).value());
         Self {
             hold,
             kind,
@@ -76,14 +67,10 @@ impl Trajectory {
     }
 
     /// The scene by steps of dt over `parts`.
-    ///
-    /// # Errors
-    /// Never for one that was drawn.
     pub fn scene(&self, parts: u32) -> Result<Scene> {
         Scene::parse(&self.scene_text(parts), Path::new("scene.toml"))
     }
 
-    /// Its text.
     pub fn scene_text(&self, parts: u32) -> String {
         let initial = self.initial.as_ref().map(|of| format!("initial = \"{of}\"\n"));
         let step = self.step / f64::from(parts);
@@ -136,7 +123,6 @@ fn log(random: &mut Random, inputs: usize) -> Vec<Vec<f64>> {
 
 struct Drawing {
     random: Random,
-    frame: Frame,
     is_affine: bool,
     text: String,
     on_line: Vec<bool>,
@@ -152,10 +138,8 @@ impl Drawing {
         for (at, surface) in mesh.surfaces.iter().enumerate() {
             let size = random.log(1.0 / contrast, contrast.max(1.000_001));
             let ratio: f64 = if random.chance(0.3) { random.log(1.0, 30.0) } else { 1.0 };
-            let (sin, cos) = random.between(0.0, 3.0).sin_cos();
-            let [p, q] = [size * ratio.sqrt(), size / ratio.sqrt()];
-            let [xx, xy, yy] =
-                [p * cos * cos + q * sin * sin, (p - q) * sin * cos, p * sin * sin + q * cos * cos];
+            let along = random.between(0.0, 3.0).sin_cos();
+            let [xx, xy, yy] = turned([size * ratio.sqrt(), size / ratio.sqrt()], along);
             let own = random.log(1.0 / contrast, contrast.max(1.000_001));
             let capacity = if rare && at > 0 { 0.0 } else { own };
             time = time.max(capacity / size);
@@ -182,7 +166,7 @@ impl Drawing {
     fn input(&mut self, of: &str, field: &str, size: f64, rough: Rough) {
         let [a, b] = [0.2; 2].map(|most| size * self.random.between(-most, most));
         let pattern = match self.random.chance(0.4) {
-            true => Function::draw(&mut self.random, self.frame, rough, 5.0).times(size).value(),
+            true => Function::draw(&mut self.random, 1.0, rough, 5.0).times(size).value(),
             false => format!("{:e}+{a:e}*x+{b:e}*y", 0.6 * size),
         };
         self.input_of(of, field, &pattern);

@@ -3,7 +3,6 @@
 //! The patterns of inputs have no t and are tables on a device; their functions are not counted.
 
 use super::super::record::FunctionCost;
-use super::State;
 use signorini_bake::costs::Costs;
 use signorini_problem::{Assembled, EdgeKind, Problem};
 use signorini_scene::expression::{Arithmetic, Elementary};
@@ -31,7 +30,7 @@ pub(super) fn rows(problem: &Problem) -> Result<Vec<FunctionCost>> {
     );
     let unfit = unfit::<f64>(&problem.scene);
     let assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
-    let before = State::from(solved(problem)?);
+    let before = solved(problem)?;
     let costs = Costs::measured();
     let row = |used: Use| -> Result<FunctionCost> {
         let row = FunctionCost {
@@ -42,7 +41,7 @@ pub(super) fn rows(problem: &Problem) -> Result<Vec<FunctionCost>> {
             ..FunctionCost::default()
         };
         match replaced(problem, used.arithmetic) {
-            Ok(solution) => row.changed(&assembled, &before, &solution.into()).map_err(&unfit),
+            Ok(solution) => row.changed(&assembled, &before, &solution).map_err(&unfit),
             Err(error) => Ok(FunctionCost { note: Some(error.reason()), ..row }),
         }
     };
@@ -99,11 +98,4 @@ fn replaced(problem: &Problem, arithmetic: Arithmetic) -> Result<Solution> {
 
 fn solved(problem: &Problem) -> Result<Solution> {
     solve(problem, &Options { solver: SolverKind::Direct, ..Options::default() })
-}
-
-impl From<Solution> for State {
-    fn from(solution: Solution) -> Self {
-        let Solution { u, contact_force: force, contact_length: length, .. } = solution;
-        Self { u, force, length }
-    }
 }
