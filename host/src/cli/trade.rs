@@ -144,9 +144,9 @@ impl Arguments {
         let scene = Scene::read(path)?;
         let bar = steps(2 * self.promise.len());
         bar.set_message(scene.title.clone());
-        let taken = promised::of_scene(&scene, &self.promise, &mut || bar.inc(1));
+        let table = promised::table(&scene, &self.promise, &mut || bar.inc(1));
         bar.finish_and_clear();
-        let table = promised::text(&scene.title, &taken?);
+        let table = table?;
         say(&table);
         Ok(table)
     }

@@ -12,7 +12,6 @@ use signorini_scene::Result;
 pub(super) struct ActiveSet<'q> {
     quadratic: &'q Quadratic,
     factor: Option<Factor>,
-    /// Whether a cold start may keep the factor.
     keeps: bool,
     active: Vec<bool>,
 }

@@ -24,7 +24,6 @@ pub(super) struct Clarabel<'q> {
 }
 
 impl<'q> Clarabel<'q> {
-    /// Takes the problem over.
     pub fn new(quadratic: &'q Quadratic) -> Result<Self> {
         let program = Program::new(quadratic)?;
         let columns = |rows, sign: f64, of: &Matrix| {

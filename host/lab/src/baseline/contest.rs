@@ -66,7 +66,6 @@ impl<'e> Entrant<'e> {
 }
 
 impl Task<'_> {
-    /// Measures one solver by itself.
     pub fn alone(&self, entrant: Entrant) -> Outcome {
         let mut one = [entrant];
         self.hold(&mut one, REPEATS[0], 1);
@@ -74,7 +73,6 @@ impl Task<'_> {
         one.outcome()
     }
 
-    /// Measures several solvers, which take turns.
     pub fn in_turns(&self, mut all: Vec<Entrant>) -> Vec<Outcome> {
         self.hold(&mut all, REPEATS[1], ROWS);
         all.into_iter().map(Entrant::outcome).collect()

@@ -58,7 +58,6 @@ fn build() -> std::result::Result<PathBuf, String> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Manner {
-    /// Its own defaults.
     Defaults,
     /// With the loosest tolerance that will do, looked at every 5 iterations.
     Watched,

@@ -31,7 +31,6 @@ struct HeldEdge {
     contact: usize,
     /// 1 for u_i ≥ ψ_i, −1 for −u_i ≥ −ψ_i.
     sign: f64,
-    /// Whether there is an s_i.
     is_soft: bool,
 }
 

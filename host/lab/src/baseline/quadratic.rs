@@ -57,7 +57,6 @@ impl QuadraticLoads {
         Self { load, lower, spans }
     }
 
-    /// m of a contact unknown.
     pub fn span(&self, contact: usize) -> f64 {
         self.spans.get(contact).copied().unwrap_or(f64::INFINITY)
     }

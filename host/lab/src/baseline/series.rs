@@ -36,7 +36,6 @@ pub struct Baseline {
     pub algebraic_error: f64,
     /// Largest `algebraic_error` that will do: 1 % of the discretisation error.
     pub target: f64,
-    /// Sweeps or iterations.
     pub iterations: u32,
 }
 
@@ -49,7 +48,6 @@ pub(super) enum InitialGuess {
     Warm,
 }
 
-/// One solve.
 #[derive(Debug, Clone)]
 pub(super) struct Run {
     pub cycles: f64,
@@ -57,12 +55,10 @@ pub(super) struct Run {
     pub u: Vec<f64>,
 }
 
-/// A solver with its problem.
 pub(super) trait TimedSolver {
     /// Solves a tick and counts its own cycles: copies of data and of the answer are not part of it.
     fn run(&mut self, tick: usize, start: InitialGuess, tolerance: f64) -> Result<Run>;
 
-    /// The starts that the solver has.
     fn starts(&self) -> &'static [InitialGuess] {
         &[InitialGuess::Cold, InitialGuess::Warm]
     }

@@ -24,7 +24,6 @@ pub enum Shape {
     /// Every other row has a height of about 1/(n · aspect), and its upper line is moved by half a cell: angles near
     /// 180° in triangles, oblique needles as quads.
     Slivers {
-        /// Width over height of these cells.
         aspect: f64,
     },
     /// Every other vertical side of the lines inside moves towards the next, until a width of t/n is left: a

@@ -38,9 +38,7 @@ pub enum Outcome {
     Correct,
     /// Guaranteed, or without a bound and saying so, but not as good as it could be.
     CertifiedPoor,
-    /// Refused, with a message.
     TypedError,
-    /// Anything else.
     #[default]
     Wrong,
 }
@@ -65,15 +63,12 @@ pub enum Ended {
     Refused(String),
     /// The input was refused after sweeps had been spent on it.
     RefusedLate(String),
-    /// Something else failed.
     Failed(String),
     Panicked,
     TimedOut,
     Answered {
-        /// Whether the solver claims success.
         success: bool,
         status: &'static str,
-        /// How wrong it is.
         measured: Measured,
     },
 }
@@ -176,10 +171,7 @@ fn uncertified(
 }
 
 fn digits(scalar: ScalarKind) -> f64 {
-    match scalar {
-        ScalarKind::F64 => DIGITS[0],
-        ScalarKind::F32 => DIGITS[1],
-    }
+    DIGITS[usize::from(scalar == ScalarKind::F32)]
 }
 
 #[cfg(test)]

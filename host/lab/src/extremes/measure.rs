@@ -51,7 +51,6 @@ const FINEST: u32 = 64;
 /// Grids with more rows are integrated with fewer points: solutions that are polynomials in each cell need no more.
 const LARGE: u32 = 128;
 
-/// The distances of `attempt`.
 pub fn measure(case: &ExtremeCase, attempt: &Attempt) -> Result<Measured> {
     let posed = case.posed.at_scale_one();
     let mesh = case.posed.scales.unplaced(&attempt.mesh);

@@ -7,7 +7,7 @@
 //! ```
 //! Every case is a scene file and a mesh file that go through the reader, the checks and the default
 //! options of [`signorini_solve`], on a thread of its own that may panic or be left alone after its limit of time. The
-//! outcomes are defined in [`mod@judge`].
+//! outcomes are defined in `judge`.
 
 mod attempt;
 mod axis;
@@ -85,7 +85,6 @@ pub fn run(cases: &[ExtremeCase], kept: &Kept, done: impl Fn() + Sync) -> Result
 /// Remains of a case: the answer, how wrong it is, and how long it took.
 type Left = (Result<(Attempt, Measured)>, f64);
 
-/// Solves, measures and judges one case.
 fn row(case: &ExtremeCase) -> Result<Row> {
     let folder = tempfile::tempdir().map_err(Error::io(&std::env::temp_dir()))?;
     let (place, own) = (folder.path().to_owned(), case.clone());

@@ -45,7 +45,6 @@ impl Scales {
         (x - self.length * self.shift) / self.length
     }
 
-    /// The mesh of the problem as posed.
     pub fn placed(&self, mesh: Mesh) -> Mesh {
         let vertices = mesh.vertices.iter().map(|point| point.map(|x| self.place(x))).collect();
         Mesh { vertices, ..mesh }
@@ -81,14 +80,13 @@ pub enum Hold {
     Pressed,
 }
 
-/// Which edges of a curve are a curve of their own, named `held` or `open`: from the first one on.
+/// A curve of which some edges stay; σ·n is given on the rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Split {
     /// The curve: `bottom`, `right`, `top`, `left`.
     pub of: &'static str,
     /// The position of the edges that stay.
     pub edges: [usize; 2],
-    pub rest: Hold,
 }
 
 /// A problem with a known solution, at a scale.
@@ -113,7 +111,6 @@ const SIDES: [(&str, [f64; 2]); 4] =
     [("bottom", [0.0, -1.0]), ("right", [1.0, 0.0]), ("top", [0.0, 1.0]), ("left", [-1.0, 0.0])];
 
 impl Posed {
-    /// The problem at scale 1.
     #[must_use]
     pub fn at_scale_one(self) -> Self {
         Self { scales: Scales::ONE, ..self }
@@ -154,7 +151,7 @@ impl Posed {
         }
         if let (Some(split), true) = (self.split, named("rest")) {
             let normal = SIDES.iter().find(|side| side.0 == split.of).map_or([0.0; 2], |s| s.1);
-            text += &self.boundary("rest", normal, split.rest, &texts);
+            text += &self.boundary("rest", normal, Hold::Neumann, &texts);
         }
         let [ux, uy] = texts.gradient.each_ref().map(|slope| times(s / c, slope));
         let u = times(s, &texts.u);

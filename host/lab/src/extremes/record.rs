@@ -18,18 +18,15 @@ pub const RECORD: &str = "host/benches/extremes/extremes.json";
 pub struct Record {
     pub definitions: Vec<Definition>,
     pub seconds: f64,
-    /// Every case, study by study.
     pub cases: Vec<Row>,
 }
 
-/// The meaning of an outcome.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Definition {
     pub outcome: Outcome,
     pub means: String,
 }
 
-/// A case.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Row {
     /// The axis, and which of several studies along it.

@@ -14,7 +14,6 @@ use signorini_scene::{Result, Scene};
 use signorini_solve::adaptive::mesh_of_scene;
 use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
 
-/// The findings on a scene.
 #[derive(Debug, Clone, Serialize)]
 pub struct KnownScene {
     pub name: String,
@@ -44,7 +43,6 @@ pub struct Run {
     pub distance: f64,
     /// Cycles per unknown for the whole solve.
     pub solve_cycles: f64,
-    /// Cycles of a sweep.
     pub cost: Cost,
 }
 

@@ -62,11 +62,9 @@ static TRAPEZOIDS: [Grid; 4] = [
 /// One scene on one kind of cells, refined.
 #[derive(Debug, Clone, Serialize)]
 pub struct ConvergenceStudy {
-    /// Scene and cells.
     pub name: String,
     /// Squares over the height of the domain.
     pub n: Vec<u32>,
-    /// Errors on each grid.
     pub errors: Vec<Errors>,
     /// ∫λ on each grid.
     pub force: Vec<f64>,
@@ -97,7 +95,6 @@ pub fn run(plans: &[Plan], done: impl Fn() + Sync) -> Result<Vec<ConvergenceStud
 }
 
 impl Grid {
-    /// Checks of the rates.
     fn checks(&self, name: &str, [h1, l2, flux]: [f64; 3]) -> Vec<Check> {
         let claim = "the mean-square error of the flux ‖σ − σ_h‖ falls with rate 1";
         let flux = Check::at_least(name, claim, flux, 0.97);
@@ -163,7 +160,6 @@ const QUANTITIES: [(&str, Pick); 3] = [
     ("Mean-square error of the flux (L²): ‖σ − σ_h‖", |errors| errors.flux),
 ];
 
-/// The mesh widths, from coarse to fine.
 fn widths() -> Vec<f64> {
     LEVELS.iter().map(|&n| 1.0 / f64::from(n)).collect()
 }

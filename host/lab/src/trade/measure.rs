@@ -22,7 +22,6 @@ const TICKS: usize = 100;
 /// Runs of all warm ticks.
 const RUNS: usize = 3;
 
-/// Time and sweeps of a tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Timing {
     cycles: f64,

@@ -2,17 +2,18 @@
 
 use std::path::{Path, PathBuf};
 
-use super::board;
 use super::journal::{Journal, digest, program};
 use super::meshes::Meshes;
 use super::shard::Shard;
 use super::target::Target;
 use crate::checkout::root;
 use signorini_bake::module_api::ModuleApi;
+use signorini_image::board::M4F;
+use signorini_image::tools;
 use signorini_problem::Problem;
 use signorini_scene::scene::term::at_rest_warning;
 use signorini_scene::setting::Precision;
-use signorini_scene::{Result, Scene};
+use signorini_scene::{Error, Result, Scene};
 
 /// A study: a scene, whose cost decides, where it goes, and which cases are this process's.
 #[derive(Debug, Clone)]
@@ -28,12 +29,11 @@ pub struct Study {
 }
 
 impl Study {
-    /// Opens the scene at `path`.
     pub fn open(path: &Path, target: Target, folder: PathBuf, with_peers: bool) -> Result<Self> {
         if target.board().is_some() {
             // A board without the sources is no reason to leave a setting out, but all of them.
             root()?;
-            board::ready()?;
+            tools::ensure(&[M4F.triple]).map_err(Error::Check)?;
         }
         let read = Scene::read(path)?;
         let at_rest = at_rest_warning(&read);

@@ -45,9 +45,7 @@ pub struct KnobValue {
     pub value: String,
     /// Studies in which it could be chosen.
     pub studies: usize,
-    /// Points measured with it there.
     pub points: usize,
-    /// How many of them are on a front.
     pub on_front: usize,
 }
 

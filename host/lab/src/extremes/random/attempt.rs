@@ -20,7 +20,6 @@ pub struct Attempt {
 /// Updates of unknowns that a solve may take.
 const UPDATES: f64 = 1e9;
 
-/// Solves `case`.
 pub fn attempt(case: &RandomCase) -> Result<Attempt> {
     let scene = Scene::parse(&case.scene, Path::new("scene.toml"))?;
     let problem = Problem::new(&scene, case.mesh.clone())?;

@@ -55,7 +55,6 @@ pub struct Effort {
 
 #[derive(Debug, Clone)]
 pub struct RandomCase {
-    /// Its number in the run.
     pub number: u32,
     /// The feature of its data, in every other case.
     pub feature: Option<Feature>,
@@ -102,7 +101,6 @@ impl RandomCase {
     }
 }
 
-/// Whether it is a tick.
 fn ticks(way: Way) -> bool {
     matches!(way, Way::Full | Way::Condensed)
 }

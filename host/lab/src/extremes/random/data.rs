@@ -89,7 +89,6 @@ impl Scene<'_> {
         Function::draw(self.random, self.length, rough, steepest).times(size).value()
     }
 
-    /// The load and the conditions.
     fn boundaries(&mut self, names: &[&str], stiffness: f64) -> Hold {
         let wanted = match self.random.below(10) {
             0..6 => Hold::Dirichlet,

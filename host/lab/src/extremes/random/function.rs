@@ -153,7 +153,6 @@ impl Function {
         self.sum(1, |term| term.wave[axis] / self.length)
     }
 
-    /// A second derivative.
     pub fn second(&self, axes: [usize; 2]) -> String {
         self.sum(2, |term| term.wave[axes[0]] / self.length * (term.wave[axes[1]] / self.length))
     }

@@ -107,7 +107,6 @@ fn halves(random: &mut Random, steepest: f64) -> Chosen {
     }
 }
 
-/// A condition for every curve.
 fn boundaries(
     random: &mut Random,
     drawn: &Drawn,

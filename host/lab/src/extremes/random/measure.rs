@@ -128,7 +128,6 @@ pub fn measure(case: &RandomCase, attempt: &Attempt) -> Result<Option<Measured>>
     Ok(found)
 }
 
-/// An answer in its units.
 struct Held<'a> {
     case: &'a RandomCase,
     problem: &'a Problem,

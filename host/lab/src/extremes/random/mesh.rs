@@ -21,7 +21,6 @@ pub enum Kind {
     #[default]
     Triangles,
     Quads,
-    /// Either, cell by cell.
     Both,
 }
 
@@ -57,7 +56,6 @@ pub struct MeshPlan {
     pub moved: f64,
     /// Whether lines lie closer together on one side.
     pub graded: bool,
-    /// Whether sides consist of two curves.
     pub split: bool,
     /// The image of a place: (axx x + axy y, ayx x + ayy y).
     pub map: [[f64; 2]; 2],
@@ -67,7 +65,6 @@ pub struct MeshPlan {
 #[derive(Debug, Clone)]
 pub struct Drawn {
     pub mesh: Mesh,
-    /// n of each curve.
     pub normals: Vec<[f64; 2]>,
 }
 

@@ -3,7 +3,7 @@
 //! ```text
 //!   mesh, function ─► catalogue, made, data, feature ─► Case ─► attempt ─► measure (exact, or nested) ─► verdict ─► row ─► record
 //! ```
-//! Case k of a seed depends on nothing but k and the seed, so that each can be had alone. Every odd one has a [`feature`].
+//! Case k of a seed depends on nothing but k and the seed, so that each can be had alone. Every odd one has a `feature`.
 
 mod attempt;
 mod case;
@@ -94,7 +94,6 @@ pub fn write(seed: u64, number: u32, folder: &Path) -> Result<()> {
     write_atomically(&folder.join("mesh.msh"), msh::text(&case.mesh).as_bytes())
 }
 
-/// Draws, solves, measures and judges one case.
 fn row(seed: u64, number: u32) -> Row {
     let start = Instant::now();
     let left = watched(LIMIT, move || {

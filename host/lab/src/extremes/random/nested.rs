@@ -36,7 +36,6 @@ pub struct Nesting {
     pub cut: Option<Vec<u32>>,
 }
 
-/// Both answers.
 struct NestedPair<'a> {
     coarse: &'a MeshSolution<'a>,
     fine: &'a MeshSolution<'a>,

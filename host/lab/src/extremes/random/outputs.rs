@@ -21,7 +21,6 @@ const ROUNDED: f64 = 1e-6;
 /// Roundings that a sum over inputs may be off.
 const ROUNDINGS: f64 = 16.0;
 
-/// The intervals of a case.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Intervals {
     pub found: usize,
@@ -36,7 +35,6 @@ pub struct Asked<'a> {
     pub number: u32,
     pub most: usize,
     pub problem: &'a Problem,
-    /// s, τ and the bound.
     pub answer: Answered<'a>,
     /// The fields that its outputs are read off.
     pub reading: Reading<'a>,

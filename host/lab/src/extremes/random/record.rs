@@ -26,11 +26,9 @@ pub struct Record {
     pub violations: Vec<Violation>,
 }
 
-/// The largest of a ratio.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Worst {
     pub ratio: f64,
-    /// Which case it is of.
     pub case: u32,
 }
 
@@ -63,11 +61,8 @@ impl Spread {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Violation {
     pub case: u32,
-    /// The classes of the case.
     pub class: String,
-    /// The promise.
     pub what: String,
-    /// With its numbers.
     pub words: String,
 }
 

@@ -15,7 +15,6 @@ use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::Scene;
 use signorini_solve::ScalarKind;
 
-/// A scene over time.
 #[derive(Debug, Clone)]
 pub struct Trajectory {
     pub hold: Hold,
@@ -181,7 +180,6 @@ impl Drawing {
         self.on_line.push(matches!(field, "value" | "gap"));
     }
 
-    /// The load and the conditions.
     fn boundaries(&mut self, names: &[&str]) -> Hold {
         let hold = match self.random.below(10) {
             0..6 => Hold::Dirichlet,

@@ -27,9 +27,7 @@ const JUMP: f64 = 1.0 / (1_u64 << 38) as f64;
 /// Something that was promised and is not so.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Broken {
-    /// In one word.
     pub what: &'static str,
-    /// With its numbers.
     pub words: String,
 }
 
@@ -37,7 +35,6 @@ fn broken(what: &'static str, words: String) -> Option<Broken> {
     Some(Broken { what, words })
 }
 
-/// All that `attempt` breaks.
 pub fn broken_by(case: &RandomCase, attempt: &Attempt, measured: Option<&Measured>) -> Vec<Broken> {
     let by_measure = measured.map(|found| {
         let Measured { bound, combined, of_u, .. } = found;

@@ -49,7 +49,6 @@ struct Played {
     records: Vec<TickRecord>,
 }
 
-/// Plays and judges.
 pub fn judged(case: &Trajectory) -> Result<JudgedTrajectory> {
     let own = played(case, 1)?;
     let ticks = case.log.len();

@@ -67,7 +67,6 @@ impl<'s> Use<'s> {
     }
 }
 
-/// The places of all uses, each once.
 fn all<'s>(uses: &[Use<'s>]) -> Vec<&'s str> {
     let mut keys: Vec<_> = uses.iter().flat_map(|used| &used.keys).copied().collect();
     keys.sort_unstable();

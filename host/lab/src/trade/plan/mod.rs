@@ -56,9 +56,7 @@ pub struct SceneFacts {
     /// The cells that the scene's mesh can be brought to beside its own.
     pub other_cells: Option<CellKind>,
     pub finest: u32,
-    /// Whether inputs change from tick to tick.
     pub has_inputs: bool,
-    /// Whether the data change with t.
     pub uses_time: bool,
     /// Whether contact alone or nothing holds a part.
     pub is_loose: bool,
