@@ -12,7 +12,7 @@ use super::clarabel::Clarabel;
 use super::condensed::condensed;
 use super::contest::{Entrant, Outcome};
 use super::full::{Full, quadratic};
-use super::osqp::{Manner, Osqp};
+use super::osqp::{LIMIT, Manner, Osqp};
 use super::pivots::Pivots;
 use super::psor::Psor;
 use super::quadratic::Quadratic;
@@ -21,6 +21,8 @@ use signorini_problem::scalar::Scalar;
 use signorini_problem::{Loads, Parts, Problem};
 use signorini_scene::Result;
 
+/// The share of the discretisation error that a solver may leave.
+const SHARE: f64 = 0.01;
 pub(super) const PSOR: &str = "kernel PSOR f64";
 const MANNERS: [(&str, Manner); 4] = [
     ("OSQP", Manner::Watched),
@@ -40,7 +42,12 @@ pub(super) struct Benchmark<'a> {
     pub coarser: &'a [Problem],
 }
 
-impl Benchmark<'_> {
+impl<'a> Benchmark<'a> {
+    /// Without OSQP and coarser grids, for this error of the discrete solution.
+    pub fn new(problem: &'a Problem, moments: &'a [Loads], error: f64) -> Self {
+        Self { problem, moments, target: SHARE * error, osqp: None, coarser: &[] }
+    }
+
     /// All solvers, one after the other; those that fail are named in `notes`.
     pub fn hold(&self, notes: &mut Vec<String>) -> Result<Vec<Baseline>> {
         let parts = Parts::examine(self.problem)?;
@@ -88,7 +95,7 @@ impl Benchmark<'_> {
         let clarabel = once_with(move || Entrant::new("Clarabel", Clarabel::new(quadratic)));
         clarabel.chain(self.osqp.into_iter().flat_map(move |program| {
             MANNERS.into_iter().map(move |(name, manner)| {
-                Entrant::new(name, Osqp::new(program, quadratic, manner))
+                Entrant::new(name, Osqp::new(program, quadratic, manner, LIMIT))
             })
         }))
     }

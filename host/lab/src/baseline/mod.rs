@@ -39,8 +39,6 @@ pub use table::{findings, table};
 
 /// Warm ticks of a scene.
 const TICKS: usize = 20;
-/// The share of the discretisation error that a solver may leave.
-const SHARE: f64 = 0.01;
 
 /// All solvers on the problem of a scene and on its condensed problem, with remarks: solvers that could not run and
 /// why, and how long condensing takes.
@@ -60,13 +58,7 @@ pub fn of_scene(problem: &Problem) -> Result<(Vec<Baseline>, Vec<String>)> {
     notes.extend(program.err().map(str::to_owned));
     let moments = load_cases(problem, TICKS)?;
     let error = discretisation_error(problem, &mut notes)?;
-    let ring = Benchmark {
-        problem,
-        moments: &moments,
-        target: SHARE * error,
-        osqp: program.ok(),
-        coarser: &[],
-    };
+    let ring = Benchmark { osqp: program.ok(), ..Benchmark::new(problem, &moments, error) };
     Ok((ring.hold(&mut notes)?, notes))
 }
 

@@ -76,7 +76,7 @@ struct OsqpAnswer {
 }
 
 /// Longer than any answer takes by a factor of thousands (the longest in the record is 0.06 s): a program silent that long hangs.
-const LIMIT: Duration = Duration::from_secs(300);
+pub(super) const LIMIT: Duration = Duration::from_secs(300);
 
 /// The solver on its problem, until it is dropped.
 pub(super) struct Osqp {
@@ -90,12 +90,8 @@ pub(super) struct Osqp {
 }
 
 impl Osqp {
-    pub fn new(program: &Path, quadratic: &Quadratic, manner: Manner) -> Result<Self> {
-        Self::with_limit(program, quadratic, manner, LIMIT)
-    }
-
     /// Starts the program with a limit for the time that a problem or an answer may take.
-    pub fn with_limit(
+    pub fn new(
         program: &Path,
         quadratic: &Quadratic,
         manner: Manner,
@@ -204,7 +200,7 @@ mod tests {
         let problem = Problem::new(&scene, grid(16, Cells::Triangles)).unwrap();
         let parts = Parts::examine(&problem).unwrap();
         let (full, _) = quadratic(&problem, &parts, &load_cases(&problem, 1).unwrap()).unwrap();
-        let run = Osqp::with_limit(&program, &full, Manner::Watched, limit)
+        let run = Osqp::new(&program, &full, Manner::Watched, limit)
             .and_then(|mut osqp| osqp.run(0, InitialGuess::Cold, 1e-3));
         run.unwrap_err().to_string()
     }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::benchmark::Benchmark;
 use super::series::Baseline;
-use super::{SHARE, discretisation_error, osqp};
+use super::{discretisation_error, osqp};
 use crate::checkout::root;
 use crate::cycles::{NARROW, REGISTERS};
 use signorini_problem::{Loads, Problem};
@@ -81,18 +81,13 @@ pub(super) fn size(
     let moments: Vec<_> = (0..=ticks).map(at).collect::<Result<_>>()?;
     let mut remarks = Vec::new();
     let discretisation_error = discretisation_error(&problem, &mut remarks)?;
-    let target = SHARE * discretisation_error;
-    let ring = Benchmark {
-        problem: &problem,
-        moments: &moments,
-        target,
-        osqp: program,
-        coarser: &coarser,
-    };
+    let own = Benchmark::new(&problem, &moments, discretisation_error);
+    let ring = Benchmark { osqp: program, coarser: &coarser, ..own };
     let baselines = ring.hold(&mut remarks)?;
     notes.extend(remarks.into_iter().map(|remark| format!("n = {n}: {remark}")));
     let counts = problem.topology.counts;
     let (unknowns, contact) = (counts.unknowns(), counts.contact);
+    let target = ring.target;
     Ok(Size { n, unknowns, contact, discretisation_error, target, baselines })
 }
 

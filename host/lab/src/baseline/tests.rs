@@ -2,6 +2,7 @@
 
 mod limits;
 
+use super::benchmark::Benchmark;
 use super::condensed::condensed;
 use super::full::quadratic;
 use super::load_case::load_cases;
@@ -78,14 +79,8 @@ fn condensed_as_baked() {
 #[test]
 fn a_scene_with_every_solver_but_osqp() {
     let problem = problem("scenes/strip");
-    let found = super::benchmark::Benchmark {
-        problem: &problem,
-        moments: &load_cases(&problem, 2).unwrap(),
-        target: 1e-2 * super::discretisation_error(&problem, &mut Vec::new()).unwrap(),
-        osqp: None,
-        coarser: &[],
-    }
-    .hold(&mut Vec::new())
-    .unwrap();
+    let moments = load_cases(&problem, 2).unwrap();
+    let error = super::discretisation_error(&problem, &mut Vec::new()).unwrap();
+    let found = Benchmark::new(&problem, &moments, error).hold(&mut Vec::new()).unwrap();
     assert!(found.iter().all(|b| b.algebraic_error <= b.target), "{found:?}");
 }

@@ -1,6 +1,7 @@
 //! The cases that are finished, kept from the moment they are: the same command goes on where it was interrupted.
 
 use std::collections::BTreeSet;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
@@ -10,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::trade::journal::{Journal, program};
 use crate::trade::shard::Shard;
+use signorini_problem::threads::on_two_threads;
 use signorini_scene::{Error, Result};
 
 /// The findings of a run, for its folder and for the terminal.
@@ -69,6 +71,18 @@ impl Kept {
             Ok(()) | Err(Error::Check(_)) => Ok(line.row),
             Err(error) => Err(error),
         }
+    }
+
+    /// Finds in two threads the rows of these cases, each under its `key`; calls `done` after each.
+    pub(super) fn rows<T: Serialize + DeserializeOwned + PartialEq + Send>(
+        &self,
+        cases: RangeInclusive<u32>,
+        key: impl Fn(u32) -> String + Sync,
+        row: impl Fn(u32) -> T + Sync,
+        done: impl Fn() + Sync,
+    ) -> Result<Vec<T>> {
+        let work = |&number: &u32| self.row(&key(number), || Ok(row(number)));
+        on_two_threads(&cases.collect::<Vec<_>>(), work, done)
     }
 
     /// Seconds of all runs.

@@ -111,7 +111,6 @@ const SIDES: [(&str, [f64; 2]); 4] =
     [("bottom", [0.0, -1.0]), ("right", [1.0, 0.0]), ("top", [0.0, 1.0]), ("left", [-1.0, 0.0])];
 
 impl Posed {
-    #[must_use]
     pub fn at_scale_one(self) -> Self {
         Self { scales: Scales::ONE, ..self }
     }

@@ -19,7 +19,7 @@ pub mod mpi;
 mod picture;
 mod plan;
 pub mod promised;
-pub mod record;
+mod record;
 pub(crate) mod records;
 mod reference;
 mod run;
@@ -31,3 +31,5 @@ pub mod target;
 #[cfg(test)]
 pub(crate) mod tests;
 pub(crate) mod verdict;
+
+pub use record::Trade;

@@ -56,14 +56,8 @@ fn all_solvers_follow_limits_from_tick_to_tick() -> Result<()> {
         let moments = load_cases(&problem, 3)?;
         let (full, _) = quadratic(&problem, &Parts::examine(&problem)?, &moments)?;
         let size = full.distance(0, &vec![0.0; full.matrix.order()]);
-        let found = Benchmark {
-            problem: &problem,
-            moments: &moments,
-            target: 1e-2 * discretisation_error(&problem, &mut notes)?,
-            osqp: None,
-            coarser: &[],
-        }
-        .hold(&mut notes)?;
+        let error = discretisation_error(&problem, &mut notes)?;
+        let found = Benchmark::new(&problem, &moments, error).hold(&mut notes)?;
         assert!(found.iter().all(|b| b.algebraic_error <= b.target), "{name}: {found:?}");
         // Sweeps in two scalars, each with two ω, the active set with and without its factor, Clarabel; and condensed
         // Clarabel and exchanges in two scalars: all of them cold and warm.

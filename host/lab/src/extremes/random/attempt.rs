@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::case::{RandomCase, Way};
+use signorini_certify::ErrorBound;
 use signorini_problem::{Approach, Problem};
 use signorini_scene::setting::ModelKind;
 use signorini_scene::{Error, Result, Scene};
@@ -15,6 +16,14 @@ pub struct Attempt {
     pub problem: Problem,
     /// The answer, in the scene's units.
     pub answer: Solution,
+}
+
+/// An answer in units in which its numbers are near 1.
+pub struct Held<'a> {
+    pub case: &'a RandomCase,
+    pub problem: &'a Problem,
+    pub answer: &'a Solution,
+    pub bound: ErrorBound,
 }
 
 /// Updates of unknowns that a solve may take.

@@ -138,7 +138,6 @@ impl Function {
     }
 
     /// The function, `factor` times as large.
-    #[must_use]
     pub fn times(mut self, factor: f64) -> Self {
         self.terms.iter_mut().for_each(|term| term.factor *= factor);
         self

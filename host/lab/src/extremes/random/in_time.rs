@@ -17,8 +17,7 @@ use crate::extremes::kept::{Findings, Kept};
 use crate::extremes::watch::watched;
 use crate::record_file::{csv, indented};
 use signorini_files::atomic::write_atomically;
-use signorini_problem::threads::on_two_threads;
-use signorini_scene::error::{Error, Result};
+use signorini_scene::error::Result;
 use signorini_scene::mesh::gmsh::write as msh;
 use signorini_solve::ScalarKind;
 
@@ -86,7 +85,8 @@ pub fn run(
     kept: &Kept,
     done: impl Fn() + Sync,
 ) -> Result<Findings> {
-    let rows = rows(seed, cases, kept, done)?;
+    let key = |number| format!("trajectory {number} of {seed}");
+    let rows = kept.rows(cases, key, |number| row(seed, number), done)?;
     let record = Record::new(seed, &rows);
     let files = vec![
         ("trajectories.json", indented(&record).into_bytes()),
@@ -96,21 +96,9 @@ pub fn run(
     Ok(Findings { files, text: record.text(), wrong })
 }
 
-fn rows(
-    seed: u64,
-    cases: RangeInclusive<u32>,
-    kept: &Kept,
-    done: impl Fn() + Sync,
-) -> Result<Vec<Row>> {
-    let key = |number: u32| format!("trajectory {number} of {seed}");
-    let work = |&number: &u32| kept.row(&key(number), || Ok(row(seed, number)));
-    on_two_threads(&cases.collect::<Vec<_>>(), work, done)
-}
-
 /// Writes scene, mesh and log of a trajectory into `folder`: `signorini tick scene.toml --log log.csv` plays it.
 pub fn write(seed: u64, number: u32, folder: &Path) -> Result<()> {
     let case = Trajectory::draw(seed, number);
-    std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
     let names: String = (0..case.on_line.len()).map(|at| format!(",p{at}")).collect();
     let lines = case.log.iter().zip(1..).map(|(values, tick)| {
         let values: String = values.iter().map(|value| format!(",{value:?}")).collect();
@@ -241,10 +229,12 @@ mod tests {
     fn random_trajectories_keep_their_bounds() {
         let folder = tempfile::tempdir().unwrap();
         let kept = Kept::open(folder.path()).unwrap();
-        let mut found = rows(5, 0..=39, &kept, || ()).unwrap();
+        let rows =
+            |cases| kept.rows(cases, |number| number.to_string(), |number| row(5, number), || ());
+        let mut found = rows(0..=39).unwrap();
         let may_be = |number: &u32| posed(&Trajectory::draw(5, *number)).unwrap().is_some();
         for number in (40..).filter(may_be).take(8) {
-            found.extend(rows(5, number..=number, &kept, || ()).unwrap());
+            found.extend(rows(number..=number).unwrap());
         }
         let record = Record::new(5, &found);
         println!("{}", record.text());

@@ -46,9 +46,8 @@ use super::kept::{Findings, Kept};
 use super::watch::watched;
 use crate::record_file::{csv, indented};
 use signorini_files::atomic::write_atomically;
-use signorini_problem::threads::on_two_threads;
+use signorini_scene::Result;
 use signorini_scene::mesh::gmsh::write as msh;
-use signorini_scene::{Error, Result};
 
 /// A case without an answer by then hangs.
 const LIMIT: Duration = Duration::from_secs(1800);
@@ -61,7 +60,8 @@ pub fn run(
     kept: &Kept,
     done: impl Fn() + Sync,
 ) -> Result<Findings> {
-    let rows = rows(seed, cases, kept, done)?;
+    let key = |number| format!("{number} of {seed}");
+    let rows = kept.rows(cases, key, |number| row(seed, number), done)?;
     let record = Record::new(seed, kept.seconds(), &rows);
     let files = vec![
         ("random.json", indented(&record).into_bytes()),
@@ -71,20 +71,9 @@ pub fn run(
     Ok(Findings { files, text: record.text(), wrong })
 }
 
-fn rows(
-    seed: u64,
-    cases: RangeInclusive<u32>,
-    kept: &Kept,
-    done: impl Fn() + Sync,
-) -> Result<Vec<Row>> {
-    let work = |&number: &u32| kept.row(&format!("{number} of {seed}"), || Ok(row(seed, number)));
-    on_two_threads(&cases.collect::<Vec<_>>(), work, done)
-}
-
 /// Writes the scene and the mesh of a case into `folder`.
 pub fn write(seed: u64, number: u32, folder: &Path) -> Result<()> {
     let case = RandomCase::draw(seed, number);
-    std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
     let effort = case.effort;
     let how = format!(
         "# case {number} of seed {seed}: {:?}, {:?}; at most {:?} sweeps\n# earlier ticks {:?}\n# tick {:?}\n",

@@ -58,7 +58,6 @@ impl Row {
         Self { case: number, feature, truth, hold, cells, scalar, way, limit, ..Self::default() }
     }
 
-    #[must_use]
     pub fn with(self, case: &RandomCase, attempt: &Attempt, measured: Option<&Measured>) -> Self {
         let of_f64 = case.effort.scalar == ScalarKind::F64;
         Self {

@@ -20,8 +20,9 @@ use signorini_solve::Solution;
 
 fn record_of(seed: u64, cases: RangeInclusive<u32>) -> Record {
     let folder = tempfile::tempdir().unwrap();
-    let rows = rows(seed, cases, &Kept::open(folder.path()).unwrap(), || {}).unwrap();
-    Record::new(seed, 0.0, &rows)
+    let kept = Kept::open(folder.path()).unwrap();
+    let rows = kept.rows(cases, |number| number.to_string(), |number| row(seed, number), || {});
+    Record::new(seed, 0.0, &rows.unwrap())
 }
 
 /// A fixed seed: whatever is mended stays mended.

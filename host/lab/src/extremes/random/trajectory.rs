@@ -142,11 +142,9 @@ impl Drawing {
             let own = random.log(1.0 / contrast, contrast.max(1.000_001));
             let capacity = if rare && at > 0 { 0.0 } else { own };
             time = time.max(capacity / size);
-            let _ = writeln!(
-                self.text,
-                "[material.{}]\nconductivity = [\"{xx:e}\", \"{xy:e}\", \"{yy:e}\"]\ncapacity = {capacity:e}",
-                surface.name
-            );
+            let _ = writeln!(self.text, "[material.{}]", surface.name);
+            let _ = writeln!(self.text, "conductivity = [\"{xx:e}\", \"{xy:e}\", \"{yy:e}\"]");
+            let _ = writeln!(self.text, "capacity = {capacity:e}");
         }
         time
     }
@@ -172,11 +170,8 @@ impl Drawing {
     }
 
     fn input_of(&mut self, of: &str, field: &str, pattern: &str) {
-        let _ = writeln!(
-            self.text,
-            "[input.p{}]\nof = \"{of}\"\nfield = \"{field}\"\npattern = \"{pattern}\"\ndefault = 0",
-            self.on_line.len()
-        );
+        let _ = writeln!(self.text, "[input.p{}]\nof = \"{of}\"", self.on_line.len());
+        let _ = writeln!(self.text, "field = \"{field}\"\npattern = \"{pattern}\"\ndefault = 0");
         self.on_line.push(matches!(field, "value" | "gap"));
     }
 
@@ -205,11 +200,14 @@ impl Drawing {
         hold
     }
 
+    fn boundary(&mut self, name: &str, kind: &str, data: &str) {
+        let _ = writeln!(self.text, "[boundary.{name}]\nkind = \"{kind}\"\n{data}");
+    }
+
     /// Above every gap.
     fn dirichlet(&mut self, name: &str) {
-        let bend = self.bend(0.3);
-        let _ =
-            writeln!(self.text, "[boundary.{name}]\nkind = \"dirichlet\"\nvalue = \"1.1{bend}\"");
+        let value = format!("value = \"1.1{}\"", self.bend(0.3));
+        self.boundary(name, "dirichlet", &value);
         if self.random.chance(0.6) {
             let pattern = self.bend(0.2);
             self.input_of(name, "value", &format!("0.5{pattern}"));
@@ -218,20 +216,15 @@ impl Drawing {
 
     fn robin(&mut self, name: &str) {
         let (h, ambient) = (self.random.log(0.03, 30.0), self.random.between(-0.5, 0.5));
-        let _ = writeln!(
-            self.text,
-            "[boundary.{name}]\nkind = \"robin\"\ncoefficient = {h:e}\nambient = {ambient:e}"
-        );
+        self.boundary(name, "robin", &format!("coefficient = {h:e}\nambient = {ambient:e}"));
         match self.random.below(3) {
             0 => self.input(name, "ambient", 1.0, Rough::Kinked),
             1 => {
-                let (of, number) = (name, self.on_line.len());
                 // h stays above a tenth of itself.
-                let _ = writeln!(
-                    self.text,
-                    "[input.p{number}]\nof = \"{of}\"\nfield = \"coefficient\"\npattern = {:e}\ndefault = 0\nrange = [-1, 1]",
-                    0.9 * h
-                );
+                let pattern = 0.9 * h;
+                let _ = writeln!(self.text, "[input.p{}]\nof = \"{name}\"", self.on_line.len());
+                let _ = writeln!(self.text, "field = \"coefficient\"\npattern = {pattern:e}");
+                self.text += "default = 0\nrange = [-1, 1]\n";
                 self.on_line.push(false);
             }
             _ => {}
@@ -240,7 +233,7 @@ impl Drawing {
 
     fn neumann(&mut self, name: &str) {
         let flux = self.random.between(-0.5, 0.5);
-        let _ = writeln!(self.text, "[boundary.{name}]\nkind = \"neumann\"\nflux = {flux:e}");
+        self.boundary(name, "neumann", &format!("flux = {flux:e}"));
         if self.random.chance(0.5) {
             self.input(name, "flux", 1.0, Rough::Jumping);
         }
@@ -253,15 +246,10 @@ impl Drawing {
         };
         let bend = self.bend(0.2);
         let limit = match ends {
-            Ends::Both => format!("flux = -0.3\nlimit = {:e}\n", self.random.log(0.1, 10.0)),
+            Ends::Both => format!("flux = -0.3\nlimit = {:e}", self.random.log(0.1, 10.0)),
             _ => String::new(),
         };
-        let _ = writeln!(
-            self.text,
-            "[boundary.{name}]\nkind = \"contact\"\ngap = \"-0.5{}\"\n{}",
-            bend,
-            limit.trim_end()
-        );
+        self.boundary(name, "contact", &format!("gap = \"-0.5{bend}\"\n{limit}"));
         if self.random.chance(0.5) {
             let pattern = self.bend(0.15);
             self.input_of(name, "gap", &format!("0.15{pattern}"));
