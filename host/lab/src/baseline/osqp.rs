@@ -8,7 +8,7 @@
 //!   → {"tick", "cold", "tolerance", "manner"}
 //!   ← {"cycles", "iterations", "z" or null}
 //! ```
-//! The problem is the one of `program`.
+//! The problem is a [`Program`].
 
 use std::io::{BufRead, BufReader, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -22,8 +22,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::failed;
-use super::program::Program;
-use super::quadratic::Quadratic;
+use super::quadratic::{Program, Quadratic};
 use super::series::{InitialGuess, Run, TimedSolver};
 use crate::checkout::root;
 use crate::cycles::IS_WIDE;
@@ -183,8 +182,8 @@ impl Drop for Osqp {
 mod tests {
     use std::os::unix::fs::PermissionsExt;
 
-    use super::super::full::quadratic;
     use super::super::load_case::load_cases;
+    use super::super::psor::quadratic;
     use super::*;
     use crate::trade::tests::scene;
     use signorini_problem::{Parts, Problem};

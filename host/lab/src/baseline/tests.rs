@@ -4,8 +4,8 @@ mod limits;
 
 use super::benchmark::Benchmark;
 use super::condensed::condensed;
-use super::full::quadratic;
 use super::load_case::load_cases;
+use super::psor::quadratic;
 use super::sizes::{Sizes, size};
 use super::table;
 use crate::trade::tests::{problem, scene};

@@ -7,7 +7,7 @@ use super::front::sentence;
 use super::picture::picture;
 use super::record::{Point, Trade};
 use super::records::Records;
-use super::table::{baselines, costs, front, math, skipped};
+use super::table::{costs, front, further, skipped};
 use super::target::Target;
 use super::verdict::{certificate, knob_values, sentences};
 use crate::baseline;
@@ -113,10 +113,7 @@ fn study(trade: &Trade) -> TradeStudy {
         notes: [truth].into_iter().chain(skipped(trade)).collect(),
         picture: picture(trade),
         front: front(trade),
-        further: vec![
-            ("Other solvers on the same matrices".to_owned(), baselines(trade)),
-            ("What micromath does to the solution".to_owned(), math(trade)),
-        ],
+        further: further(trade).into(),
     }
 }
 

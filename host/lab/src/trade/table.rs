@@ -61,8 +61,16 @@ pub fn costs(target: Target) -> &'static [CostColumn] {
     if target == Target::Host { &ON_HOST } else { &ON_BOARD }
 }
 
-/// Other solvers on the same matrices.
-pub fn baselines(trade: &Trade) -> Table {
+/// The tables beside the front, with their headings.
+pub fn further(trade: &Trade) -> [(String, Table); 2] {
+    let named = |heading: &str, table| (heading.to_owned(), table);
+    [
+        named("Other solvers on the same matrices", baselines(trade)),
+        named("What micromath does to the solution", math(trade)),
+    ]
+}
+
+fn baselines(trade: &Trade) -> Table {
     let columns = [
         Column::words("solver", |solver: &&Baseline| solver.solver.clone()),
         Column::words("problem", |solver: &&Baseline| solver.problem.clone()),
@@ -78,8 +86,7 @@ pub fn baselines(trade: &Trade) -> Table {
     Table::new(&columns, &trade.baselines)
 }
 
-/// The effect of the functions of micromath on the solution.
-pub fn math(trade: &Trade) -> Table {
+fn math(trade: &Trade) -> Table {
     let change = |part: Option<f64>| or_dash(part, |part| percent(part, 1.0));
     let columns = [
         Column::words("function", |of: &&FunctionCost| of.function.clone()),
@@ -120,11 +127,7 @@ pub fn text(trade: &Trade) -> String {
         front(trade).text()
     );
     let _ = writeln!(text, "errors: true ones, {}; force: of the contact force", trade.truth);
-    let further = [
-        ("Other solvers on the same matrices", baselines(trade)),
-        ("What micromath does to the solution", math(trade)),
-    ];
-    for (heading, table) in further.iter().filter(|(_, table)| !table.rows.is_empty()) {
+    for (heading, table) in further(trade).iter().filter(|(_, table)| !table.rows.is_empty()) {
         let _ = write!(text, "\n{heading}\n{}", table.text());
     }
     trade.notes.iter().for_each(|note| text += &format!("* {note}\n"));

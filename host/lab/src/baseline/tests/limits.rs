@@ -10,10 +10,9 @@ use super::super::benchmark::Benchmark;
 use super::super::clarabel::Clarabel;
 use super::super::condensed::condensed;
 use super::super::discretisation_error;
-use super::super::full::quadratic;
 use super::super::load_case::load_cases;
-use super::super::program::Program;
-use super::super::quadratic::{Matrix, Quadratic, QuadraticLoads};
+use super::super::psor::quadratic;
+use super::super::quadratic::{Matrix, Program, Quadratic, QuadraticLoads};
 use super::super::series::{InitialGuess, TimedSolver};
 
 /// The unknowns one by one, relative to the largest.

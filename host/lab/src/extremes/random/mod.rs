@@ -1,7 +1,7 @@
 //! `signorini extremes --random N --seed S`: whole scenes drawn at random, each judged by a truth of its own.
 //!
 //! ```text
-//!   mesh, function ─► catalogue, made, data, feature ─► Case ─► attempt ─► measure (exact, or nested) ─► verdict ─► row ─► record
+//!   mesh, function ─► catalogue, made, data, feature ─► Case ─► attempt ─► measure (exact, or nested) ─► verdict ─► record
 //! ```
 //! Case k of a seed depends on nothing but k and the seed, so that each can be had alone. Every odd one has a `feature`.
 
@@ -21,7 +21,6 @@ mod outputs;
 mod posed;
 mod record;
 mod residual;
-mod row;
 mod spot;
 mod step;
 #[cfg(test)]
@@ -37,8 +36,7 @@ use std::time::{Duration, Instant};
 use attempt::{Attempt, attempt};
 use case::RandomCase;
 use measure::measure;
-use record::Record;
-use row::Row;
+use record::{Record, Row};
 use verdict::{broken_by, ended};
 
 use super::judge::{Ended, Outcome, judge};

@@ -9,6 +9,7 @@ use std::path::Path;
 use super::function::{Function, Rough};
 use super::mesh::{self, Kind, MeshPlan, Outline, Regions};
 use super::posed::{Ends, Hold, turned};
+use signorini_problem::Problem;
 use signorini_problem::random::Random;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
@@ -77,8 +78,10 @@ impl Trajectory {
     }
 
     /// Inputs of tick `tick`, counted from 0, at the end of part `part` of `parts` of its step.
-    pub fn inputs(&self, tick: usize, [part, parts]: [u32; 2], defaults: &[f64]) -> Vec<f64> {
-        let last = tick.checked_sub(1).map_or(defaults, |last| &self.log[last]);
+    pub fn inputs(&self, tick: usize, [part, parts]: [u32; 2], problem: &Problem) -> Vec<f64> {
+        let inputs = problem.scene.inputs.iter();
+        let defaults = || inputs.map(|input| input.default).collect();
+        let last = tick.checked_sub(1).map_or_else(defaults, |last| self.log[last].clone());
         let share = f64::from(part) / f64::from(parts);
         let values = last.iter().zip(&self.log[tick]).zip(&self.on_line);
         let value = |((&from, &to), &on_line): ((&f64, &f64), &bool)| match on_line {

@@ -44,7 +44,6 @@ pub struct JudgedTrajectory {
 /// One play: the start and all steps.
 struct Played {
     problem: Problem,
-    defaults: Vec<f64>,
     answers: Vec<Solution>,
     records: Vec<TickRecord>,
 }
@@ -84,15 +83,14 @@ pub(super) fn posed(case: &Trajectory) -> Result<Option<(Problem, CertifiedField
 /// The same trajectory by its condensed controller; nothing where there is none.
 fn condensed(case: &Trajectory) -> Result<Option<Played>> {
     let Some((problem, start)) = posed(case)? else { return Ok(None) };
-    let defaults: Vec<f64> = problem.scene.inputs.iter().map(|input| input.default).collect();
-    let moments = schedule(case, 1, &defaults);
+    let moments = schedule(case, 1, &problem);
     let mut answers = Vec::new();
     let (_, records) = replay(&problem, &moments, (Some(case.scalar), true), |_, solution| {
         answers.push(answered(solution)?);
         Ok(())
     })?;
     answers[0].certified = start;
-    Ok(Some(Played { problem, defaults, answers, records }))
+    Ok(Some(Played { problem, answers, records }))
 }
 
 fn played(case: &Trajectory, parts: u32) -> Result<Played> {
@@ -109,21 +107,20 @@ fn played(case: &Trajectory, parts: u32) -> Result<Played> {
         },
         _ => Budget { scalar: ScalarKind::F64, intervals: false, ..own },
     };
-    let defaults: Vec<f64> = scene.inputs.iter().map(|input| input.default).collect();
-    let moments = schedule(case, parts, &defaults);
+    let moments = schedule(case, parts, &problem);
     let mut answers = Vec::new();
     let records = play(&problem, None, &moments, &budget, |_, solution| {
         answers.push(answered(solution)?);
         Ok(())
     })?;
-    Ok(Played { problem, defaults, answers, records })
+    Ok(Played { problem, answers, records })
 }
 
 /// All ticks of a trajectory, each in so many parts.
-fn schedule(case: &Trajectory, parts: u32, defaults: &[f64]) -> Vec<ScheduledTick> {
+fn schedule(case: &Trajectory, parts: u32, problem: &Problem) -> Vec<ScheduledTick> {
     let moment = |(tick, part): (usize, u32)| ScheduledTick {
         time: (tick as f64 + f64::from(part) / f64::from(parts)) * case.step,
-        inputs: case.inputs(tick, [part, parts], defaults).into_iter().enumerate().collect(),
+        inputs: case.inputs(tick, [part, parts], problem).into_iter().enumerate().collect(),
     };
     let places = (0..case.log.len()).flat_map(|tick| (1..=parts).map(move |part| (tick, part)));
     places.map(moment).collect()
@@ -138,7 +135,7 @@ impl Played {
     fn at(&self, case: &Trajectory, tick: usize) -> Result<Problem> {
         let mut problem = self.problem.clone();
         let inputs: Vec<_> =
-            case.inputs(tick - 1, [1, 1], &self.defaults).into_iter().enumerate().collect();
+            case.inputs(tick - 1, [1, 1], &self.problem).into_iter().enumerate().collect();
         problem.set(&inputs, tick as f64 * case.step)?;
         Ok(problem)
     }

@@ -18,60 +18,39 @@ const SINGLE: &str = "f32 with libm";
 
 /// A row for each function that the loads call, after one for f32 with libm, which any of them adds to.
 pub(super) fn rows(problem: &Problem) -> Result<Vec<FunctionCost>> {
-    let loads = loads(problem);
-    let mut uses: Vec<Use> =
-        Elementary::ALL.into_iter().filter_map(|function| Use::of(&loads, function)).collect();
+    let (loads, costs) = (loads(problem), Costs::measured());
+    let row = |name: &str, keys: Vec<&str>, calls: usize| FunctionCost {
+        function: name.to_owned(),
+        used_in: keys.join(", "),
+        calls: calls as u64,
+        saved: costs.saved_by(name).unwrap_or_default(),
+        ..FunctionCost::default()
+    };
+    let (mut uses, mut all) = (Vec::new(), Vec::new());
+    for function in Elementary::ALL {
+        let called = loads.iter().filter(|(load, _)| load.value.calls(function) > 0);
+        let keys: Vec<&str> = called.clone().map(|(load, _)| load.key.as_str()).collect();
+        let calls = called.map(|(load, places)| load.value.calls(function) * places).sum();
+        if !keys.is_empty() {
+            all.extend(keys.clone());
+            uses.push((Arithmetic::Fast(function), row(function.name(), keys, calls)));
+        }
+    }
     if uses.is_empty() {
         return Ok(Vec::new());
     }
-    uses.insert(
-        0,
-        Use { name: SINGLE, arithmetic: Arithmetic::Single, keys: all(&uses), calls: 0 },
-    );
+    all.sort_unstable();
+    all.dedup();
+    uses.insert(0, (Arithmetic::Single, row(SINGLE, all, 0)));
     let unfit = unfit::<f64>(&problem.scene);
     let assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
     let before = solved(problem)?;
-    let costs = Costs::measured();
-    let row = |used: Use| -> Result<FunctionCost> {
-        let row = FunctionCost {
-            function: used.name.to_owned(),
-            used_in: used.keys.join(", "),
-            calls: used.calls,
-            saved: costs.saved_by(used.name).unwrap_or_default(),
-            ..FunctionCost::default()
-        };
-        match replaced(problem, used.arithmetic) {
+    let changed =
+        |(arithmetic, row): (Arithmetic, FunctionCost)| match replaced(problem, arithmetic) {
             Ok(solution) => row.changed(&assembled, &before, &solution).map_err(&unfit),
             Err(error) => Ok(FunctionCost { note: Some(error.reason()), ..row }),
-        }
-    };
-    uses.into_iter().map(row).collect()
-}
-
-/// Where a function is called, and how often a tick.
-struct Use<'s> {
-    name: &'static str,
-    arithmetic: Arithmetic,
-    keys: Vec<&'s str>,
-    calls: u64,
-}
-
-impl<'s> Use<'s> {
-    fn of(loads: &[(&'s Located<Expression>, usize)], function: Elementary) -> Option<Self> {
-        let called = loads.iter().filter(|(load, _)| load.value.calls(function) > 0);
-        let keys: Vec<_> = called.clone().map(|(load, _)| load.key.as_str()).collect();
-        let calls = called.map(|(load, places)| load.value.calls(function) * places).sum::<usize>();
-        let arithmetic = Arithmetic::Fast(function);
-        let found = Self { name: function.name(), arithmetic, keys, calls: calls as u64 };
-        (!found.keys.is_empty()).then_some(found)
-    }
-}
-
-fn all<'s>(uses: &[Use<'s>]) -> Vec<&'s str> {
-    let mut keys: Vec<_> = uses.iter().flat_map(|used| &used.keys).copied().collect();
-    keys.sort_unstable();
-    keys.dedup();
-    keys
+        };
+    uses.into_iter().map(changed).collect()
 }
 
 /// Every load, and the number of cells or edges that it stands on.
