@@ -1,4 +1,4 @@
-//! An answer on its mesh: s, τ and u_h on each cell, with all that s follows of curved data.
+//! The direct solver's answer, and any answer on its mesh: s, τ and u_h on each cell, with all that s follows of curved data.
 
 use signorini_certify::admissible::{self, Admissible};
 use signorini_certify::cell::{Cell, Jet};
@@ -7,7 +7,12 @@ use signorini_certify::deviation::Deviations;
 use signorini_problem::Problem;
 use signorini_problem::field::CellField;
 use signorini_scene::Result;
-use signorini_solve::Solution;
+use signorini_solve::{Options, Solution, SolverKind, solve};
+
+/// Solves `problem` by factorisation: the exact discrete solution up to rounding.
+pub fn solve_directly(problem: &Problem) -> Result<Solution> {
+    solve(problem, &Options { solver: SolverKind::Direct, ..Options::default() })
+}
 
 /// An answer of a problem.
 pub struct MeshSolution<'a> {

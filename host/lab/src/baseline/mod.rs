@@ -26,12 +26,13 @@ mod tests;
 
 use std::fmt::Display;
 
+use crate::mesh_solution::solve_directly;
 use benchmark::Benchmark;
 use load_case::load_cases;
 pub use series::Baseline;
 use signorini_problem::{Approach, Problem};
 use signorini_scene::{Error, InputError, Result};
-use signorini_solve::{Options, SolverKind, norms, solve};
+use signorini_solve::norms;
 pub use sizes::{Size, Sizes, sizes};
 pub use table::{findings, table};
 
@@ -63,8 +64,7 @@ pub fn of_scene(problem: &Problem) -> Result<(Vec<Baseline>, Vec<String>)> {
 /// ‖A^½∇_h(u − u_h)‖ of the discrete solution; where u is not known, the gap of the error bound stands for
 /// it, and where there is no bound a hundredth of the energy.
 fn discretisation_error(problem: &Problem, notes: &mut Vec<String>) -> Result<f64> {
-    let options = Options { solver: SolverKind::Direct, ..Options::default() };
-    let solution = solve(problem, &options)?;
+    let solution = solve_directly(problem)?;
     if let Some(exact) = &problem.scene.exact {
         return Ok(norms::errors(exact, problem, &solution.u, &solution.flux)?.energy);
     }

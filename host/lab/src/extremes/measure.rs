@@ -13,12 +13,12 @@ use super::attempt::Attempt;
 use super::case::ExtremeCase;
 use super::grid::Shape;
 use super::posed::Posed;
+use crate::mesh_solution::solve_directly;
 use signorini_certify::admissible::Admissible;
 use signorini_certify::exact::{distance, of_fewer_points};
 use signorini_problem::Problem;
 use signorini_scene::{Mesh, Result, Scene};
 use signorini_solve::norms::errors;
-use signorini_solve::{Options, Solution, SolverKind, solve};
 
 /// An answer beside the truth, in energy norms at scale 1.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -133,11 +133,6 @@ fn at_scale_one(posed: &Posed, mesh: impl Into<Arc<Mesh>>) -> Result<Problem> {
     Problem::new(&Scene::parse(&posed.scene(), Path::new("scale-1.toml"))?, mesh)
 }
 
-pub(super) fn solve_directly(problem: &Problem) -> Result<Solution> {
-    let options = Options { solver: SolverKind::Direct, ..Options::default() };
-    solve(problem, &options)
-}
-
 /// The exact discrete solution, its error where that is `needed`.
 fn reference(posed: &Posed, problem: &Problem, needed: bool) -> Result<Reference> {
     if posed.grid.n > FINEST {
@@ -161,20 +156,13 @@ fn reference(posed: &Posed, problem: &Problem, needed: bool) -> Result<Reference
 mod tests {
     use super::*;
     use crate::extremes::grid::Grid;
-    use crate::extremes::posed::{Hold, Scales};
-    use crate::extremes::solution::{Shear, Solution as Exact};
+    use crate::extremes::solution::Solution as Exact;
     use signorini_scene::mesh::structured::Cells;
+    use signorini_solve::Solution;
 
     fn jump(k: f64, change: impl Fn(&str) -> String) -> Result<(Solution, f64)> {
-        let posed = Posed {
-            solution: Exact::Jump(k),
-            shear: Shear::NONE,
-            grid: Grid { n: 12, cells: Cells::Triangles, shape: Shape::Square },
-            scales: Scales::ONE,
-            sides: [Hold::Contact, Hold::Dirichlet, Hold::Dirichlet, Hold::Dirichlet],
-            split: None,
-            ends: None,
-        };
+        let grid = Grid { n: 12, cells: Cells::Triangles, shape: Shape::Square };
+        let posed = Posed::new(Exact::Jump(k), grid);
         let scene = Scene::parse(&change(&posed.scene()), Path::new("jump.toml"))?;
         let problem = Problem::new(&scene, posed.mesh())?;
         let solution = solve_directly(&problem)?;

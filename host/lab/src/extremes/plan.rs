@@ -4,8 +4,8 @@ use super::axis::{self, Axis};
 use super::case::{Effort, ExtremeCase};
 use super::flush;
 use super::grid::{Grid, Shape};
-use super::posed::{Hold, Posed, Scales};
-use super::solution::{Shear, Solution};
+use super::posed::Posed;
+use super::solution::Solution;
 use signorini_scene::mesh::structured::Cells;
 use signorini_solve::ScalarKind;
 
@@ -131,12 +131,13 @@ impl AxisStudy {
     }
 
     fn case(&self, scalar: ScalarKind, value: f64, across: Option<(Axis, f64)>) -> ExtremeCase {
+        let grid = Grid { n: self.n, cells: self.cells, shape: Shape::Square };
         let mut case = ExtremeCase {
             axis: self.name(),
             value,
             across: across.map(|(axis, value)| (axis.name.to_owned(), value)),
             scalar,
-            posed: self.posed(),
+            posed: Posed::new(self.solution, grid),
             effort: Effort::default(),
         };
         (self.axis.set)(value, &mut case);
@@ -144,18 +145,6 @@ impl AxisStudy {
             (axis.set)(value, &mut case);
         }
         case
-    }
-
-    fn posed(&self) -> Posed {
-        Posed {
-            solution: self.solution,
-            shear: Shear::NONE,
-            grid: Grid { n: self.n, cells: self.cells, shape: Shape::Square },
-            scales: Scales::ONE,
-            sides: [Hold::Contact, Hold::Dirichlet, Hold::Dirichlet, Hold::Dirichlet],
-            split: None,
-            ends: None,
-        }
     }
 }
 

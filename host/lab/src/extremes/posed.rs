@@ -111,6 +111,13 @@ const SIDES: [(&str, [f64; 2]); 4] =
     [("bottom", [0.0, -1.0]), ("right", [1.0, 0.0]), ("top", [0.0, 1.0]), ("left", [-1.0, 0.0])];
 
 impl Posed {
+    /// At scale 1 on a grid, with contact below and u given elsewhere.
+    pub fn new(solution: Solution, grid: Grid) -> Self {
+        let sides = [Hold::Contact, Hold::Dirichlet, Hold::Dirichlet, Hold::Dirichlet];
+        let (shear, scales) = (Shear::NONE, Scales::ONE);
+        Self { solution, shear, grid, scales, sides, split: None, ends: None }
+    }
+
     pub fn at_scale_one(self) -> Self {
         Self { scales: Scales::ONE, ..self }
     }

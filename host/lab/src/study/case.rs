@@ -9,10 +9,11 @@ use super::checks::{self, Check};
 use super::cost::{self, Cost};
 use super::outputs::KnownOutputs;
 use crate::cycles;
+use crate::mesh_solution::solve_directly;
 use signorini_problem::Problem;
 use signorini_scene::{Result, Scene};
 use signorini_solve::adaptive::mesh_of_scene;
-use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
+use signorini_solve::{Options, ScalarKind, Solution, solve};
 
 #[derive(Debug, Clone, Serialize)]
 pub struct KnownScene {
@@ -51,8 +52,7 @@ pub fn study(path: &Path) -> Result<(Problem, Solution, KnownScene)> {
     let scene = Scene::read(path)?;
     let problem = Problem::new(&scene, mesh_of_scene(&scene)?.mesh)?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let direct = Options { solver: SolverKind::Direct, ..Options::default() };
-    let reference = solve(&problem, &direct)?;
+    let reference = solve_directly(&problem)?;
     let (double, f64) = run(&problem, ScalarKind::F64, &reference)?;
     let (single, f32) = run(&problem, ScalarKind::F32, &reference)?;
     let mut checks = Vec::new();

@@ -27,16 +27,10 @@ pub(super) fn draw(random: &mut Random, plan: &MeshPlan) -> Posed {
 
 pub(super) fn posed(random: &mut Random, plan: &MeshPlan, solution: Solution) -> Posed {
     let sides = sides(random, solution);
-    let known = Known {
-        solution,
-        shear: shear(random, solution),
-        // Names its sides as the random mesh does; its own mesh is not taken.
-        grid: Grid { n: 1, cells: Cells::Quads, shape: Shape::Square },
-        scales: scales(random),
-        sides,
-        split: None,
-        ends: None,
-    };
+    // Names its sides as the random mesh does; its own mesh is not taken.
+    let grid = Grid { n: 1, cells: Cells::Quads, shape: Shape::Square };
+    let shear = shear(random, solution);
+    let known = Known { shear, scales: scales(random), sides, ..Known::new(solution, grid) };
     let plan = MeshPlan { regions: Regions::Halves, split: false, ..*plan };
     let mesh = known.scales.placed(mesh::draw(random, &plan).mesh);
     let of = |wanted: fn(&Side) -> bool| sides.iter().any(wanted);

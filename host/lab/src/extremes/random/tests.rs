@@ -8,15 +8,13 @@ use super::feature::Feature;
 use super::nested::{Nesting, apart};
 use super::residual::residual;
 use super::*;
-use crate::extremes::measure::solve_directly;
-use crate::mesh_solution::MeshSolution;
+use crate::mesh_solution::{MeshSolution, solve_directly};
 use signorini_certify::exact::distance;
 use signorini_problem::Problem;
 use signorini_problem::quadrature::gauss;
 use signorini_scene::mesh::adapted::adapted;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::{Mesh, Scene};
-use signorini_solve::Solution;
 
 fn record_of(seed: u64, cases: RangeInclusive<u32>) -> Record {
     let folder = tempfile::tempdir().unwrap();
@@ -97,16 +95,12 @@ fn scene(ambient: &str) -> Scene {
     Scene::parse(&text, Path::new("test.toml")).unwrap()
 }
 
-fn solved(problem: &Problem) -> Solution {
-    solve_directly(problem).unwrap()
-}
-
 /// Of a scene on a mesh and on one `levels` finer: the distance, and both bounds.
 fn distance_to_finer(scene: &Scene, cells: Cells, levels: u32) -> (f64, [f64; 2]) {
     let coarse = Problem::new(scene, grid(2, cells)).unwrap();
     let fine = adapted(Mesh::clone(&coarse.mesh), None, levels).unwrap();
     let fine = Problem::new(scene, fine).unwrap();
-    let (one, other) = (solved(&coarse), solved(&fine));
+    let (one, other) = (solve_directly(&coarse).unwrap(), solve_directly(&fine).unwrap());
     let bounds = [&one, &other].map(|of| of.bound.unwrap().total);
     let [of, its] =
         [(&coarse, &one), (&fine, &other)].map(|(of, by)| MeshSolution::of(of, by).unwrap());
@@ -137,7 +131,7 @@ fn what_eight_points_miss_of_u_ext_is_in_the_bound() {
 fn an_answer_is_no_distance_from_itself_and_a_wrong_one_leaves_a_residual() {
     let scene = scene("x");
     let problem = Problem::new(&scene, grid(3, Cells::Mixed)).unwrap();
-    let own = solved(&problem);
+    let own = solve_directly(&problem).unwrap();
     let side = MeshSolution::of(&problem, &own).unwrap();
     let itself = apart(&side, &side, &Nesting::default(), &gauss(4)).unwrap();
     RESIDUAL.check("itself", itself.combined);

@@ -3,13 +3,14 @@
 //! The patterns of inputs have no t and are tables on a device; their functions are not counted.
 
 use super::super::record::FunctionCost;
+use crate::mesh_solution::solve_directly;
 use signorini_bake::costs::Costs;
 use signorini_problem::{Assembled, EdgeKind, Problem};
 use signorini_scene::expression::{Arithmetic, Elementary};
 use signorini_scene::scene::term::each_load;
 use signorini_scene::scene::{Field, Located};
 use signorini_scene::{Expression, Result, Scene};
-use signorini_solve::{Options, Solution, SolverKind, solve, unfit};
+use signorini_solve::{Solution, unfit};
 
 const FIELDS: [Field; 4] = [Field::Value, Field::Gap, Field::Flux, Field::Ambient];
 
@@ -44,7 +45,7 @@ pub(super) fn rows(problem: &Problem) -> Result<Vec<FunctionCost>> {
     uses.insert(0, (Arithmetic::Single, row(SINGLE, all, 0)));
     let unfit = unfit::<f64>(&problem.scene);
     let assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
-    let before = solved(problem)?;
+    let before = solve_directly(problem)?;
     let changed =
         |(arithmetic, row): (Arithmetic, FunctionCost)| match replaced(problem, arithmetic) {
             Ok(solution) => row.changed(&assembled, &before, &solution).map_err(&unfit),
@@ -71,9 +72,5 @@ fn loads(problem: &Problem) -> Vec<(&Located<Expression>, usize)> {
 fn replaced(problem: &Problem, arithmetic: Arithmetic) -> Result<Solution> {
     let mut scene = Scene::clone(&problem.scene);
     each_load(&mut scene, |load| load.value = load.value.with_arithmetic(arithmetic));
-    solved(&problem.with_loads_of(scene)?)
-}
-
-fn solved(problem: &Problem) -> Result<Solution> {
-    solve(problem, &Options { solver: SolverKind::Direct, ..Options::default() })
+    solve_directly(&problem.with_loads_of(scene)?)
 }

@@ -12,7 +12,7 @@ use super::Facts;
 use super::places::Places;
 use super::recovery::{self, Inside, points};
 use super::tables::Kept;
-use crate::mesh_solution::MeshSolution;
+use crate::mesh_solution::{MeshSolution, solve_directly};
 use crate::trade::digits::grouped;
 use signorini_certify::admissible::Admissible;
 use signorini_certify::conductivity::{Conductivity, apply, inverse, product};
@@ -20,7 +20,7 @@ use signorini_problem::quadrature::gauss;
 use signorini_problem::{Problem, Sum};
 use signorini_scene::scene::Field;
 use signorini_scene::{Mesh, Result, Scene};
-use signorini_solve::{Options, Solution, SolverKind, solve};
+use signorini_solve::Solution;
 
 const ON_EDGES: usize = 3;
 
@@ -49,8 +49,7 @@ impl Reference {
     /// Solves `scene` on `mesh` by the direct solver.
     pub(super) fn new(scene: &Scene, mesh: Mesh) -> Result<(Self, Facts)> {
         let problem = Problem::new(scene, mesh)?;
-        let options = Options { solver: SolverKind::Direct, ..Options::default() };
-        let solution = solve(&problem, &options)?;
+        let solution = solve_directly(&problem)?;
         let (mut points, robin) = sampled(&problem, &solution)?;
         let change = recovery::smooth(&problem, &mut points);
         let own = match solution.bound {
