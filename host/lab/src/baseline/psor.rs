@@ -35,9 +35,6 @@ pub(super) struct TickLoads<R> {
 
 impl<R: Scalar> TickLoads<R> {
     /// The law on the contact edges.
-    ///
-    /// # Errors
-    /// Spans that are no numbers.
     pub fn law(&self) -> std::result::Result<Law<'_, R>, signorini_kernel::Error> {
         Ok(Law::above(&self.lower).with_spans(Spans::new(&self.spans)?))
     }

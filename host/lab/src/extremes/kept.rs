@@ -44,9 +44,6 @@ pub struct Kept {
 
 impl Kept {
     /// Opens what an interrupted run of this very program left in the folder `out`; another program's is forgotten.
-    ///
-    /// # Errors
-    /// Another run goes on there; files that cannot be read or written.
     pub fn open(out: &Path) -> Result<Self> {
         let folder = out.join("unfinished");
         let journal = Mutex::new(Journal::open(&folder, Shard::WHOLE, &program())?);

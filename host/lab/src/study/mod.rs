@@ -48,9 +48,6 @@ struct Results<'r> {
 
 /// Runs every scene under `meshes/`, prints the table, writes the report; exit status 0 only when every
 /// check holds.
-///
-/// # Errors
-/// No checkout; scenes that cannot be read, files that cannot be written.
 pub fn run() -> Result<u8> {
     let root = &root()?;
     let scenes = scenes(&root.join("meshes"))?;

@@ -57,9 +57,6 @@ struct Firmware {
 }
 
 /// The table of the firmware that each of these errors takes, on both kinds of meshes; calls `done` after each.
-///
-/// # Errors
-/// A scene that is wrong whatever its mesh.
 pub fn table(scene: &Scene, goals: &[Goal], done: &mut dyn FnMut()) -> Result<String> {
     let mut scene = scene.clone().at_rest();
     // What the device has room for is no limit here, and the error is the one asked for.

@@ -74,22 +74,14 @@ impl Shape {
     }
 
     fn draw(random: &mut Random, rough: Rough) -> Self {
-        const SMOOTH: [Shape; 8] = [
-            Shape::Constant,
-            Shape::Linear,
-            Shape::Quadratic,
-            Shape::Cubic,
-            Shape::Sine,
-            Shape::Layer,
-            Shape::Bell,
-            Shape::Hump,
-        ];
+        use Shape::{Bell, Constant, Cubic, Hump, Layer, Linear, Quadratic, Sine};
+        let smooth = [Constant, Linear, Quadratic, Cubic, Sine, Layer, Bell, Hump];
         match rough {
             Rough::Jumping if random.chance(0.1) => Self::Step,
             Rough::Kinked | Rough::Jumping if random.chance(0.2) => {
                 random.pick(&[Self::Kink, Self::Corner])
             }
-            _ => random.pick(&SMOOTH),
+            _ => random.pick(&smooth),
         }
     }
 }

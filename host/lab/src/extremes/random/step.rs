@@ -35,9 +35,6 @@ impl Judged {
 }
 
 /// Judges the answer of the step `problem` by that on a mesh refined `levels` times.
-///
-/// # Errors
-/// An answer without a bound; a finer step that cannot be solved.
 pub fn judge(problem: &Problem, answer: &Solution, levels: u32) -> Result<Judged> {
     let bound = |of: &Solution| {
         let reason = of.no_bound.as_ref().map_or_else(String::new, ToString::to_string);

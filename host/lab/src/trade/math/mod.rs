@@ -17,9 +17,6 @@ use signorini_solve::Solution;
 
 /// A row for every function that the loads of `problem` call, one for f32 alone where they call any, and
 /// those of the kernel's square root; at its time.
-///
-/// # Errors
-/// A scene that has no solution as it stands, or none in f32.
 pub fn of_scene(problem: &Problem) -> Result<Vec<FunctionCost>, Error> {
     let mut rows = loads::rows(problem)?;
     rows.extend(roots::rows(problem)?);
