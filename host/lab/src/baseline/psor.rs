@@ -1,4 +1,4 @@
-//! The full problem of a scene over some ticks: for projected SOR of the kernel, and as a [`Quadratic`].
+//! The full problem of a scene over some ticks: as a [`Quadratic`], and for the projected SOR of the kernel.
 
 use super::failed;
 use super::quadratic::{Matrix, Quadratic, QuadraticLoads};
