@@ -8,9 +8,8 @@ use std::time::Duration;
 
 use signorini_files::atomic::write_atomically;
 use signorini_lab::trade::journal::Journal;
-use signorini_lab::trade::mpi;
-use signorini_lab::trade::record::Trade;
 use signorini_lab::trade::shard::Shard;
+use signorini_lab::trade::{Trade, mpi};
 use signorini_scene::error::{Error, Result};
 use tempfile::tempdir;
 

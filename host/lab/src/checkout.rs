@@ -14,9 +14,6 @@ pub fn root() -> Result<&'static Path> {
 }
 
 /// The scene files below `folder` whose materials store nothing, in the order of their names: all studies are of steady states.
-///
-/// # Errors
-/// A folder that cannot be read, or without scenes.
 pub fn scenes(folder: &Path) -> Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_owned()];

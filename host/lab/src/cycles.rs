@@ -5,14 +5,13 @@
 //! several repeats: what the work costs when nothing else disturbs it.
 
 /// The unit that [`now`] counts, for the report.
-#[cfg(target_arch = "x86_64")]
-pub const METHOD: &str = "x86-64 time-stamp counter (RDTSC), smallest of 7 repeats";
-/// The unit that [`now`] counts, for the report.
-#[cfg(target_arch = "aarch64")]
-pub const METHOD: &str = "AArch64 generic timer (CNTVCT_EL0), smallest of 7 repeats";
-/// The unit that [`now`] counts, for the report.
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-pub const METHOD: &str = "nanoseconds of the monotonic clock, smallest of 7 repeats";
+pub const METHOD: &str = if cfg!(target_arch = "x86_64") {
+    "x86-64 time-stamp counter (RDTSC), smallest of 7 repeats"
+} else if cfg!(target_arch = "aarch64") {
+    "AArch64 generic timer (CNTVCT_EL0), smallest of 7 repeats"
+} else {
+    "nanoseconds of the monotonic clock, smallest of 7 repeats"
+};
 
 /// Whether this program is built for registers of four f64 on x86-64, which RUSTFLAGS ask for.
 pub const IS_WIDE: bool = cfg!(all(target_feature = "avx2", target_feature = "fma"));
@@ -37,7 +36,6 @@ pub const NARROW: Option<&str> = if cfg!(target_arch = "x86_64") && !IS_WIDE {
     None
 };
 
-/// The counter.
 #[cfg(target_arch = "x86_64")]
 #[allow(unsafe_code)]
 pub fn now() -> u64 {
@@ -45,7 +43,6 @@ pub fn now() -> u64 {
     unsafe { core::arch::x86_64::_rdtsc() }
 }
 
-/// The counter.
 #[cfg(target_arch = "aarch64")]
 #[allow(unsafe_code)]
 pub fn now() -> u64 {
@@ -55,7 +52,6 @@ pub fn now() -> u64 {
     ticks
 }
 
-/// The counter.
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 pub fn now() -> u64 {
     static START: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();

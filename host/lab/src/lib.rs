@@ -8,10 +8,11 @@
 //! ```
 //! The only crate that builds other solvers. Nothing that a user's answer needs is here.
 
-pub mod baseline;
+mod baseline;
 pub mod checkout;
-pub mod cycles;
+mod cycles;
 pub mod extremes;
+mod mesh_solution;
 mod record_file;
 pub mod study;
 pub mod trade;

@@ -37,10 +37,12 @@ pub fn json<T: Serialize>(record: &T) -> String {
     format!("{{\n{}\n}}\n", lines.join(",\n"))
 }
 
+/// An object as JSON, indented.
+pub fn indented(record: &impl Serialize) -> String {
+    serde_json::to_string_pretty(record).unwrap_or_default() + "\n"
+}
+
 /// The text of the CSV file `name`, a line for each row; an empty field for what does not exist.
-///
-/// # Errors
-/// Never for plain data.
 pub fn csv(name: &str, rows: &[impl Serialize]) -> Result<Vec<u8>> {
     let failed = |error: String| Error::Check(format!("{name}: {error}"));
     let mut writer = csv::Writer::from_writer(Vec::new());

@@ -1,18 +1,13 @@
 //! `signorini extremes`: every scale pushed, every outcome named.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use signorini_draw::extremes_page;
 use signorini_files::atomic::{writable, write_atomically};
-use signorini_lab::extremes::judge::Outcome;
-use signorini_lab::extremes::kept::Kept;
 use signorini_lab::extremes::random::in_time;
-use signorini_lab::extremes::random::record::Record;
-use signorini_lab::extremes::section::section;
-use signorini_lab::extremes::{cases, random, run, text};
+use signorini_lab::extremes::{Findings, Kept, cases, random, run};
 use signorini_problem::progress::{say, steps};
 use signorini_scene::error::{InputError, Result};
 
@@ -76,65 +71,47 @@ impl Arguments {
             let error = InputError::new(format!("--only {only}: no case has this in its name"));
             return Err(error.hint("leave it out for a table of all studies").into());
         }
-        writable("--out", &self.out)?;
-        let bar = steps(cases.len());
-        let kept = Kept::open(&self.out)?;
-        let record = run(&cases, &kept, || bar.inc(1));
-        bar.finish_and_clear();
-        let record = record?;
-        let made_by = format!("signorini {}; {:.0} s", env!("CARGO_PKG_VERSION"), record.seconds);
-        let page = extremes_page(&section(&record), &made_by);
-        let files = [
-            ("extremes.json", record.json().into_bytes()),
-            ("extremes.csv", record.csv()?),
-            ("extremes.html", page.into_bytes()),
-        ];
-        for (name, bytes) in files {
-            write_atomically(&self.out.join(name), &bytes)?;
-        }
-        // Last of all: what is gone cannot tell what an interrupted run has found.
-        kept.close()?;
-        say(text(&record));
-        say(format_args!("written to {}", self.out.display()));
-        Ok(u8::from(record.count(Outcome::Wrong) > 0))
+        self.leaving(cases.len(), |kept, done| run(&cases, kept, done), |_, _| Ok(()))
     }
 
     /// Whole scenes.
     fn at_random(self, count: u32) -> Result<u8> {
-        let (seed, out) = (self.seed, &self.out);
-        writable("--out", out)?;
+        let seed = self.seed;
         let cases = self.case.map_or(0..=count - 1, |case| case..=case);
-        let bar = steps(cases.clone().count());
-        let kept = Kept::open(out)?;
+        let number = cases.clone().count();
         if self.in_time {
-            let rows = in_time::run(seed, cases, &kept, || bar.inc(1));
-            bar.finish_and_clear();
-            let rows = rows?;
-            let record = in_time::Record::new(seed, &rows);
-            write_atomically(&out.join("trajectories.json"), record.json().as_bytes())?;
-            write_atomically(&out.join("trajectories.csv"), &in_time::csv(&rows)?)?;
-            for case in record.violations.keys().copied().chain(self.case) {
-                in_time::write(seed, case, &out.join(format!("trajectory-{case}")))?;
-            }
-            kept.close()?;
-            say(record.text());
-            say(format_args!("written to {}", out.display()));
-            return Ok(u8::from(!record.violations.is_empty()));
+            let write = |case, out: &Path| {
+                in_time::write(seed, case, &out.join(format!("trajectory-{case}")))
+            };
+            return self.leaving(number, |kept, done| in_time::run(seed, cases, kept, done), write);
         }
-        let rows = random::run(seed, cases, &kept, || bar.inc(1));
+        let write = |case, out: &Path| random::write(seed, case, &out.join(format!("case-{case}")));
+        self.leaving(number, |kept, done| random::run(seed, cases, kept, done), write)
+    }
+
+    /// Leaves the files of a run, and those of each case that is wrong or was asked for.
+    fn leaving(
+        &self,
+        cases: usize,
+        run: impl FnOnce(&Kept, &(dyn Fn() + Sync)) -> Result<Findings>,
+        write: impl Fn(u32, &Path) -> Result<()>,
+    ) -> Result<u8> {
+        let out = &self.out;
+        writable("--out", out)?;
+        let bar = steps(cases);
+        let kept = Kept::open(out)?;
+        let found = run(&kept, &|| bar.inc(1));
         bar.finish_and_clear();
-        let rows = rows?;
-        let record = Record::new(seed, kept.seconds(), &rows);
-        write_atomically(&out.join("random.json"), record.json().as_bytes())?;
-        write_atomically(&out.join("random.csv"), &random::row::csv(&rows)?)?;
-        let broken = record.violations.iter().map(|violation| violation.case);
-        let written: BTreeSet<u32> = broken.chain(self.case).collect();
-        for case in written {
-            random::write(seed, case, &out.join(format!("case-{case}")))?;
+        let Findings { files, text, wrong } = found?;
+        for (name, bytes) in files {
+            write_atomically(&out.join(name), &bytes)?;
         }
+        let written: BTreeSet<u32> = wrong.iter().copied().chain(self.case).collect();
+        written.into_iter().try_for_each(|case| write(case, out))?;
+        // Last of all: what is gone cannot tell what an interrupted run has found.
         kept.close()?;
-        say(record.text());
+        say(text);
         say(format_args!("written to {}", out.display()));
-        Ok(u8::from(!record.violations.is_empty()))
+        Ok(u8::from(!wrong.is_empty()))
     }
 }

@@ -6,6 +6,7 @@ use clap::Args;
 
 use signorini_files::atomic::write_atomically;
 use signorini_lab::checkout::root;
+use signorini_lab::trade::Trade;
 use signorini_lab::trade::campaign::{Campaign, Ended, folder_of};
 use signorini_lab::trade::front::Wish;
 use signorini_lab::trade::promised;
@@ -13,7 +14,7 @@ use signorini_lab::trade::shard::Shard;
 use signorini_lab::trade::table::text;
 use signorini_lab::trade::target::Target;
 use signorini_problem::progress::{say, steps, warn};
-use signorini_scene::error::{Error, InputError, Result};
+use signorini_scene::error::{InputError, Result};
 use signorini_scene::goal::Goal;
 use signorini_scene::scene::Scene;
 
@@ -144,24 +145,22 @@ impl Arguments {
         let scene = Scene::read(path)?;
         let bar = steps(2 * self.promise.len());
         bar.set_message(scene.title.clone());
-        let taken = promised::of_scene(&scene, &self.promise, &mut || bar.inc(1));
+        let table = promised::table(&scene, &self.promise, &mut || bar.inc(1));
         bar.finish_and_clear();
-        let table = promised::text(&scene.title, &taken?);
+        let table = table?;
         say(&table);
         Ok(table)
     }
 }
 
 fn written(file: &Path, text: &str) -> Result<u8> {
-    let folder = file.parent().unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
     write_atomically(file, text.as_bytes())?;
     say(format_args!("written to {}", file.display()));
     Ok(0)
 }
 
 /// A wish that nothing meets is wrong input; the studies are written all the same.
-fn refused(trades: &[(PathBuf, signorini_lab::trade::record::Trade)], wish: &Wish) -> Result<u8> {
+fn refused(trades: &[(PathBuf, Trade)], wish: &Wish) -> Result<u8> {
     let unmet = trades.iter().find(|(_, trade)| trade.recommendation.point.is_none());
     match unmet {
         Some((_, trade)) if wish.budget.is_some() || wish.error.is_some() => {

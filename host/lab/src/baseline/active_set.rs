@@ -9,11 +9,9 @@ use super::series::{InitialGuess, Run, TimedSolver, counted};
 use signorini_reference::Factor;
 use signorini_scene::Result;
 
-/// The solver on its problem.
 pub(super) struct ActiveSet<'q> {
     quadratic: &'q Quadratic,
     factor: Option<Factor>,
-    /// Whether a cold start may keep the factor.
     keeps: bool,
     active: Vec<bool>,
 }

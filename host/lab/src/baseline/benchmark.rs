@@ -11,17 +11,17 @@ use super::cascade::Cascade;
 use super::clarabel::Clarabel;
 use super::condensed::condensed;
 use super::contest::{Entrant, Outcome};
-use super::full::{Full, quadratic};
-use super::load_case::LoadCase;
-use super::osqp::{Manner, Osqp};
+use super::osqp::{LIMIT, Manner, Osqp};
 use super::pivots::Pivots;
-use super::psor::Psor;
+use super::psor::{Full, Psor, quadratic};
 use super::quadratic::Quadratic;
 use super::series::{Baseline, Task};
 use signorini_problem::scalar::Scalar;
-use signorini_problem::{Parts, Problem};
+use signorini_problem::{Loads, Parts, Problem};
 use signorini_scene::Result;
 
+/// The share of the discretisation error that a solver may leave.
+const SHARE: f64 = 0.01;
 pub(super) const PSOR: &str = "kernel PSOR f64";
 const MANNERS: [(&str, Manner); 4] = [
     ("OSQP", Manner::Watched),
@@ -33,16 +33,20 @@ const MANNERS: [(&str, Manner); 4] = [
 /// A scene, its ticks, and what the solvers are asked for.
 pub(super) struct Benchmark<'a> {
     pub problem: &'a Problem,
-    pub moments: &'a [LoadCase],
+    pub moments: &'a [Loads],
     /// The energy distance to the discrete solution that is small enough.
     pub target: f64,
-    /// OSQP's program.
     pub osqp: Option<&'a Path>,
     /// Coarser grids of triangles that this one is a refinement of, the coarsest first.
     pub coarser: &'a [Problem],
 }
 
-impl Benchmark<'_> {
+impl<'a> Benchmark<'a> {
+    /// Without OSQP and coarser grids, for this error of the discrete solution.
+    pub fn new(problem: &'a Problem, moments: &'a [Loads], error: f64) -> Self {
+        Self { problem, moments, target: SHARE * error, osqp: None, coarser: &[] }
+    }
+
     /// All solvers, one after the other; those that fail are named in `notes`.
     pub fn hold(&self, notes: &mut Vec<String>) -> Result<Vec<Baseline>> {
         let parts = Parts::examine(self.problem)?;
@@ -56,7 +60,7 @@ impl Benchmark<'_> {
         let task = Task { problem: "full", quadratic: &full, target: self.target };
         self.sweeps::<f64>(&task, &parts, moments, &mut take);
         self.sweeps::<f32>(&task, &parts, moments, &mut take);
-        self.cascade(&task, moments)?.into_iter().for_each(&mut take);
+        self.cascade(&task)?.into_iter().for_each(&mut take);
         take(task.alone(Entrant::new("faer active set", Ok(ActiveSet::new(&full)))));
         let kept = ActiveSet::with_factor(&full);
         take(task.alone(Entrant::new("faer active set, factor kept", kept)));
@@ -90,7 +94,7 @@ impl Benchmark<'_> {
         let clarabel = once_with(move || Entrant::new("Clarabel", Clarabel::new(quadratic)));
         clarabel.chain(self.osqp.into_iter().flat_map(move |program| {
             MANNERS.into_iter().map(move |(name, manner)| {
-                Entrant::new(name, Osqp::new(program, quadratic, manner))
+                Entrant::new(name, Osqp::new(program, quadratic, manner, LIMIT))
             })
         }))
     }
@@ -100,7 +104,7 @@ impl Benchmark<'_> {
         &self,
         task: &Task,
         parts: &Parts,
-        moments: &[LoadCase],
+        moments: &[Loads],
         take: &mut impl FnMut(Outcome),
     ) {
         let name = format!("kernel PSOR {}", R::NAME);
@@ -114,17 +118,22 @@ impl Benchmark<'_> {
     }
 
     /// Sweeps from coarse to fine, where there are coarser grids.
-    fn cascade(&self, task: &Task, moments: &[LoadCase]) -> Result<Option<Outcome>> {
+    fn cascade(&self, task: &Task) -> Result<Option<Outcome>> {
         if self.coarser.is_empty() {
             return Ok(None);
         }
         let problems = self.coarser.iter().chain([self.problem]);
-        let full = |problem| Full::new(problem, &Parts::examine(problem)?, &moments[..1]);
-        let grids: Vec<Full<f64>> = problems.clone().map(full).collect::<Result<_>>()?;
+        let grids: Vec<Full<f64>> = problems.clone().map(at_first).collect::<Result<_>>()?;
         let grids: Vec<_> = problems.zip(&grids).collect();
         let name = "kernel PSOR f64, coarse to fine";
         Ok(Some(task.alone(Entrant::new(name, Cascade::new(&grids)))))
     }
+}
+
+/// The problem as the first tick has it.
+fn at_first(problem: &Problem) -> Result<Full<'_, f64>> {
+    let loads = Loads::at_time(problem, problem.time)?;
+    Full::new(problem, &Parts::examine(problem)?, &[loads])
 }
 
 fn sweep<R: Scalar, const WIDTH: usize>(

@@ -12,14 +12,12 @@ use signorini_kernel::{Error as KernelError, Real};
 use signorini_solve::prolongation::{Origin, prolong};
 
 use super::failed;
-use super::full::Full;
-use super::psor::{TickLoads, solve};
+use super::psor::{Full, TickLoads, solve};
 use super::series::{InitialGuess, Run, TimedSolver, counted};
 use signorini_problem::Problem;
 use signorini_scene::Result;
 use signorini_session::coarse;
 
-/// One grid.
 struct Level<'a> {
     system: System<'a, f64, u32>,
     given: &'a TickLoads<f64>,

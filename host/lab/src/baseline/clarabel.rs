@@ -1,7 +1,7 @@
 //! Clarabel, an interior-point method for cone programs.
 //!
 //! ```text
-//!   minimise ½ zᵀPz + qᵀz,  Az + s = b, s ≥ 0:   A = −C, b = −r, the rest as `program` has it
+//!   minimise ½ zᵀPz + qᵀz,  Az + s = b, s ≥ 0:   A = −C, b = −r, the rest as [`Program`] has it
 //! ```
 //! An interior point cannot start from an old answer: warm, new q and b go into a solver whose memory,
 //! ordering and equilibration stand, and it iterates from its own start.
@@ -10,12 +10,10 @@ use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SupportedConeT};
 
 use super::failed;
-use super::program::Program;
-use super::quadratic::{Matrix, Quadratic};
+use super::quadratic::{Matrix, Program, Quadratic};
 use super::series::{InitialGuess, Run, TimedSolver, counted};
 use signorini_scene::Result;
 
-/// The solver on its problem.
 pub(super) struct Clarabel<'q> {
     quadratic: &'q Quadratic,
     program: Program,
@@ -25,10 +23,6 @@ pub(super) struct Clarabel<'q> {
 }
 
 impl<'q> Clarabel<'q> {
-    /// Takes the problem over.
-    ///
-    /// # Errors
-    /// As for [`Program::new`].
     pub fn new(quadratic: &'q Quadratic) -> Result<Self> {
         let program = Program::new(quadratic)?;
         let columns = |rows, sign: f64, of: &Matrix| {

@@ -46,18 +46,16 @@ impl<'e> Entrant<'e> {
         self.solver.as_ref().is_ok_and(|solver| solver.starts().contains(&start))
     }
 
-    /// Has it do some `work`, unless it has failed or has no such start.
-    fn attempt(
-        &mut self,
-        start: InitialGuess,
-        work: impl FnOnce(&mut dyn TimedSolver, &mut Series) -> Result<()>,
-    ) {
-        if !self.has(start) {
-            return;
-        }
-        if let Ok(solver) = &mut self.solver
-            && let Err(error) = work(&mut **solver, &mut self.series)
-        {
+    /// Begins a series or adds a repeat to it, unless it has failed or has no such start.
+    fn go_on(&mut self, task: &Task, start: InitialGuess, begins: bool) {
+        let is_there = self.has(start);
+        let Ok(solver) = &mut self.solver else { return };
+        let done = match begins {
+            _ if !is_there => Ok(()),
+            true => task.trial(&mut **solver, start).map(|series| self.series = series),
+            false => task.repeat(&mut **solver, start, &mut self.series),
+        };
+        if let Err(error) = done {
             self.solver = Err(error);
         }
     }
@@ -68,7 +66,6 @@ impl<'e> Entrant<'e> {
 }
 
 impl Task<'_> {
-    /// Measures one solver by itself.
     pub fn alone(&self, entrant: Entrant) -> Outcome {
         let mut one = [entrant];
         self.hold(&mut one, REPEATS[0], 1);
@@ -76,7 +73,6 @@ impl Task<'_> {
         one.outcome()
     }
 
-    /// Measures several solvers, which take turns.
     pub fn in_turns(&self, mut all: Vec<Entrant>) -> Vec<Outcome> {
         self.hold(&mut all, REPEATS[1], ROWS);
         all.into_iter().map(Entrant::outcome).collect()
@@ -112,13 +108,8 @@ impl Task<'_> {
         start: InitialGuess,
         repeats: usize,
     ) -> Vec<Option<Baseline>> {
-        for one in &mut *all {
-            one.attempt(start, |solver, series| self.trial(solver, start, series));
-        }
-        for _ in 0..repeats {
-            for one in &mut *all {
-                one.attempt(start, |solver, series| self.repeat(solver, start, series));
-            }
+        for pass in 0..=repeats {
+            all.iter_mut().for_each(|one| one.go_on(self, start, pass == 0));
         }
         let baseline = |one: &Entrant| self.baseline(&one.name, start, &one.series);
         all.iter().map(|one| one.has(start).then(|| baseline(one))).collect()

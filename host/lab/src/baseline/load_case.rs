@@ -18,28 +18,14 @@ use signorini_scene::{Result, Scene};
 /// a coarse mesh where it is.
 const TILT: f64 = 4.0;
 
-/// The data of one tick: those of a scene at a time, scaled.
-#[derive(Debug, Clone)]
-pub(super) struct LoadCase {
-    pub scene: Arc<Scene>,
-    pub time: f64,
-    /// Of f, u_D, g and the ambient.
-    pub loads: Factor,
-    /// Of ψ, q and limits.
-    pub contact: f64,
-}
-
-/// level + slope (x − middle)
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Factor {
+/// The factor level + slope (x − middle) of loads.
+struct Factor {
     level: f64,
     slope: f64,
     middle: f64,
 }
 
 impl Factor {
-    const ONE: Self = Self { level: 1.0, slope: 0.0, middle: 0.0 };
-
     /// `tilt` is what it gains from the middle of the domain to its right end.
     fn across(problem: &Problem, level: f64, tilt: f64) -> Self {
         let x = || problem.mesh.vertices.iter().map(|vertex| vertex[0]);
@@ -49,69 +35,52 @@ impl Factor {
         Self { level, slope, middle: 0.5 * (low + high) }
     }
 
-    pub fn at(self, x: f64) -> f64 {
-        self.level + self.slope * (x - self.middle)
-    }
-
     /// In the middle of some points.
-    fn among<const N: usize>(self, points: [[f64; 2]; N]) -> f64 {
-        self.at(points.iter().map(|point| point[0]).sum::<f64>() / N as f64)
+    fn among<const N: usize>(&self, points: [[f64; 2]; N]) -> f64 {
+        let x = points.iter().map(|point| point[0]).sum::<f64>() / N as f64;
+        self.level + self.slope * (x - self.middle)
     }
 }
 
-impl LoadCase {
-    /// The scene as it stands.
-    pub fn at(scene: &Arc<Scene>, time: f64) -> Self {
-        Self { scene: scene.clone(), time, loads: Factor::ONE, contact: 1.0 }
-    }
-
-    /// The scene as it stands, then `ticks` others.
-    pub fn drawn(problem: &Problem, ticks: usize) -> Vec<Self> {
-        let here = Self::at(&problem.scene, problem.time);
-        if problem.scene.inputs.is_empty() {
-            let spaces = [1.0, 1.0, 0.0].map(InputSpace::near);
-            let factors = drawn::<f64>(&spaces, ticks);
-            let moment = |(tick, f): (usize, Vec<f64>)| {
-                let tilt = if tick == 0 { 0.0 } else { TILT * f[2] };
-                let loads = Factor::across(problem, f[0], tilt);
-                Self { loads, contact: f[1], ..here.clone() }
-            };
-            return factors.enumerate().map(moment).collect();
-        }
+/// The loads of the scene as it stands, then of `ticks` others.
+pub(super) fn load_cases(problem: &Problem, ticks: usize) -> Result<Vec<Loads>> {
+    if !problem.scene.inputs.is_empty() {
         let spaces = InputSpace::of(&problem.scene);
-        let drawn = drawn::<f64>(&spaces, ticks).map(|values| {
-            let mut moment = here.clone();
-            let inputs = Arc::make_mut(&mut moment.scene).inputs.iter_mut();
-            let of_loads = inputs.zip(values);
-            let of_loads = of_loads.filter(|(input, _)| input.field.value != Field::Coefficient);
-            of_loads.for_each(|(input, value)| input.default = value);
-            moment
-        });
-        drawn.collect()
+        return drawn::<f64>(&spaces, ticks).map(|values| with_inputs(problem, &values)).collect();
     }
-
-    /// Its integrals on the mesh of `problem`.
-    pub fn integrate(&self, problem: &Problem) -> Result<Loads> {
-        let scene = self.scene.clone();
-        let now = Problem { scene, time: self.time, ..problem.clone() };
-        let mut loads = Loads::at_time(&now, self.time)?;
-        let corner = |vertex: u32| problem.mesh.vertices[vertex as usize];
-        let factor = self.loads;
-        for (load, cell) in loads.triangles.iter_mut().zip(&problem.mesh.triangles) {
-            *load *= factor.among(cell.map(corner));
-        }
-        for (load, cell) in loads.quads.iter_mut().zip(&problem.mesh.quads) {
-            *load *= factor.among(cell.map(corner));
-        }
-        let on_edge = |edge: usize| factor.among(problem.segment(edge));
-        let first = problem.topology.counts.unknowns();
-        let given = loads.dirichlet.iter_mut().enumerate();
-        given.for_each(|(at, value)| *value *= on_edge(first + at));
-        loads.neumann.iter_mut().for_each(|record| record.flux *= on_edge(record.edge as usize));
-        loads.robin.iter_mut().for_each(|record| record.ambient *= on_edge(record.edge as usize));
-        let of_contact =
-            loads.gap.iter_mut().chain(&mut loads.contact_flux).chain(&mut loads.spans);
-        of_contact.for_each(|value| *value *= self.contact);
+    let spaces = [1.0, 1.0, 0.0].map(InputSpace::near);
+    let scaled = |(tick, f): (usize, Vec<f64>)| {
+        let tilt = if tick == 0 { 0.0 } else { TILT * f[2] };
+        let mut loads = Loads::at_time(problem, problem.time)?;
+        scale(&mut loads, problem, &Factor::across(problem, f[0], tilt), f[1]);
         Ok(loads)
+    };
+    drawn::<f64>(&spaces, ticks).enumerate().map(scaled).collect()
+}
+
+fn with_inputs(problem: &Problem, values: &[f64]) -> Result<Loads> {
+    let mut scene = Scene::clone(&problem.scene);
+    let inputs = scene.inputs.iter_mut().zip(values);
+    let of_loads = inputs.filter(|(input, _)| input.field.value != Field::Coefficient);
+    of_loads.for_each(|(input, value)| input.default = *value);
+    Loads::at_time(&Problem { scene: Arc::new(scene), ..problem.clone() }, problem.time)
+}
+
+/// Multiplies f, u_D, g and the ambient by a factor that varies, and ψ, q and limits by another.
+fn scale(loads: &mut Loads, problem: &Problem, factor: &Factor, of_contact: f64) {
+    let corner = |vertex: u32| problem.mesh.vertices[vertex as usize];
+    for (load, cell) in loads.triangles.iter_mut().zip(&problem.mesh.triangles) {
+        *load *= factor.among(cell.map(corner));
     }
+    for (load, cell) in loads.quads.iter_mut().zip(&problem.mesh.quads) {
+        *load *= factor.among(cell.map(corner));
+    }
+    let on_edge = |edge: usize| factor.among(problem.segment(edge));
+    let first = problem.topology.counts.unknowns();
+    let given = loads.dirichlet.iter_mut().enumerate();
+    given.for_each(|(at, value)| *value *= on_edge(first + at));
+    loads.neumann.iter_mut().for_each(|record| record.flux *= on_edge(record.edge as usize));
+    loads.robin.iter_mut().for_each(|record| record.ambient *= on_edge(record.edge as usize));
+    let contact = loads.gap.iter_mut().chain(&mut loads.contact_flux).chain(&mut loads.spans);
+    contact.for_each(|value| *value *= of_contact);
 }

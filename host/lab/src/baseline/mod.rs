@@ -13,34 +13,31 @@ mod cascade;
 mod clarabel;
 mod condensed;
 mod contest;
-mod full;
 mod load_case;
 mod osqp;
 mod pivots;
-mod program;
 mod psor;
 mod quadratic;
 mod series;
-pub mod sizes;
+mod sizes;
 mod table;
 #[cfg(test)]
 mod tests;
 
 use std::fmt::Display;
 
+use crate::mesh_solution::solve_directly;
 use benchmark::Benchmark;
-use load_case::LoadCase;
+use load_case::load_cases;
 pub use series::Baseline;
 use signorini_problem::{Approach, Problem};
 use signorini_scene::{Error, InputError, Result};
-use signorini_solve::{Options, SolverKind, norms, solve};
+use signorini_solve::norms;
 pub use sizes::{Size, Sizes, sizes};
 pub use table::{findings, table};
 
 /// Warm ticks of a scene.
 const TICKS: usize = 20;
-/// The share of the discretisation error that a solver may leave.
-const SHARE: f64 = 0.01;
 
 /// All solvers on the problem of a scene and on its condensed problem, with remarks: solvers that could not run and
 /// why, and how long condensing takes.
@@ -58,23 +55,16 @@ pub fn of_scene(problem: &Problem) -> Result<(Vec<Baseline>, Vec<String>)> {
     let mut notes = Vec::new();
     let program = osqp::program();
     notes.extend(program.err().map(str::to_owned));
-    let moments = LoadCase::drawn(problem, TICKS);
+    let moments = load_cases(problem, TICKS)?;
     let error = discretisation_error(problem, &mut notes)?;
-    let ring = Benchmark {
-        problem,
-        moments: &moments,
-        target: SHARE * error,
-        osqp: program.ok(),
-        coarser: &[],
-    };
+    let ring = Benchmark { osqp: program.ok(), ..Benchmark::new(problem, &moments, error) };
     Ok((ring.hold(&mut notes)?, notes))
 }
 
 /// ‖A^½∇_h(u − u_h)‖ of the discrete solution; where u is not known, the gap of the error bound stands for
 /// it, and where there is no bound a hundredth of the energy.
 fn discretisation_error(problem: &Problem, notes: &mut Vec<String>) -> Result<f64> {
-    let options = Options { solver: SolverKind::Direct, ..Options::default() };
-    let solution = solve(problem, &options)?;
+    let solution = solve_directly(problem)?;
     if let Some(exact) = &problem.scene.exact {
         return Ok(norms::errors(exact, problem, &solution.u, &solution.flux)?.energy);
     }

@@ -8,7 +8,7 @@
 //!   → {"tick", "cold", "tolerance", "manner"}
 //!   ← {"cycles", "iterations", "z" or null}
 //! ```
-//! The problem is the one of `program`.
+//! The problem is a [`Program`].
 
 use std::io::{BufRead, BufReader, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -22,8 +22,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::failed;
-use super::program::Program;
-use super::quadratic::Quadratic;
+use super::quadratic::{Program, Quadratic};
 use super::series::{InitialGuess, Run, TimedSolver};
 use crate::checkout::root;
 use crate::cycles::IS_WIDE;
@@ -58,7 +57,6 @@ fn build() -> std::result::Result<PathBuf, String> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Manner {
-    /// Its own defaults.
     Defaults,
     /// With the loosest tolerance that will do, looked at every 5 iterations.
     Watched,
@@ -77,7 +75,7 @@ struct OsqpAnswer {
 }
 
 /// Longer than any answer takes by a factor of thousands (the longest in the record is 0.06 s): a program silent that long hangs.
-const LIMIT: Duration = Duration::from_secs(300);
+pub(super) const LIMIT: Duration = Duration::from_secs(300);
 
 /// The solver on its problem, until it is dropped.
 pub(super) struct Osqp {
@@ -91,12 +89,8 @@ pub(super) struct Osqp {
 }
 
 impl Osqp {
-    pub fn new(program: &Path, quadratic: &Quadratic, manner: Manner) -> Result<Self> {
-        Self::with_limit(program, quadratic, manner, LIMIT)
-    }
-
     /// Starts the program with a limit for the time that a problem or an answer may take.
-    pub fn with_limit(
+    pub fn new(
         program: &Path,
         quadratic: &Quadratic,
         manner: Manner,
@@ -121,7 +115,6 @@ impl Osqp {
     }
 }
 
-/// A line of JSON.
 fn say(to: &mut impl Write, what: &impl Serialize) -> Result<()> {
     serde_json::to_writer(&mut *to, what).map_err(failed)?;
     writeln!(to).and_then(|()| to.flush()).map_err(failed)
@@ -189,8 +182,8 @@ impl Drop for Osqp {
 mod tests {
     use std::os::unix::fs::PermissionsExt;
 
-    use super::super::full::quadratic;
-    use super::super::load_case::LoadCase;
+    use super::super::load_case::load_cases;
+    use super::super::psor::quadratic;
     use super::*;
     use crate::trade::tests::scene;
     use signorini_problem::{Parts, Problem};
@@ -205,8 +198,8 @@ mod tests {
         let scene = scene("catalogue/moving-tri");
         let problem = Problem::new(&scene, grid(16, Cells::Triangles)).unwrap();
         let parts = Parts::examine(&problem).unwrap();
-        let (full, _) = quadratic(&problem, &parts, &LoadCase::drawn(&problem, 1)).unwrap();
-        let run = Osqp::with_limit(&program, &full, Manner::Watched, limit)
+        let (full, _) = quadratic(&problem, &parts, &load_cases(&problem, 1).unwrap()).unwrap();
+        let run = Osqp::new(&program, &full, Manner::Watched, limit)
             .and_then(|mut osqp| osqp.run(0, InitialGuess::Cold, 1e-3));
         run.unwrap_err().to_string()
     }

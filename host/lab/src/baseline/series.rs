@@ -17,7 +17,6 @@ pub struct Baseline {
     pub solver: String,
     /// `full`, `condensed`.
     pub problem: String,
-    /// Unknowns of that problem.
     pub unknowns: usize,
     /// `cold`, `warm`.
     pub start: String,
@@ -37,7 +36,6 @@ pub struct Baseline {
     pub algebraic_error: f64,
     /// Largest `algebraic_error` that will do: 1 % of the discretisation error.
     pub target: f64,
-    /// Sweeps or iterations.
     pub iterations: u32,
 }
 
@@ -50,7 +48,6 @@ pub(super) enum InitialGuess {
     Warm,
 }
 
-/// One solve.
 #[derive(Debug, Clone)]
 pub(super) struct Run {
     pub cycles: f64,
@@ -58,12 +55,10 @@ pub(super) struct Run {
     pub u: Vec<f64>,
 }
 
-/// A solver with its problem.
 pub(super) trait TimedSolver {
     /// Solves a tick and counts its own cycles: copies of data and of the answer are not part of it.
     fn run(&mut self, tick: usize, start: InitialGuess, tolerance: f64) -> Result<Run>;
 
-    /// The starts that the solver has.
     fn starts(&self) -> &'static [InitialGuess] {
         &[InitialGuess::Cold, InitialGuess::Warm]
     }
@@ -104,7 +99,6 @@ pub(super) struct Pass {
 pub(super) struct Series {
     exponent: i32,
     passes: Vec<Pass>,
-    /// Seconds.
     spent: f64,
 }
 
@@ -123,8 +117,7 @@ impl Task<'_> {
         &self,
         solver: &mut dyn TimedSolver,
         start: InitialGuess,
-        series: &mut Series,
-    ) -> Result<()> {
+    ) -> Result<Series> {
         let begin = Instant::now();
         let mut exponent = -1;
         let mut trial = self.pass(solver, start, exponent)?;
@@ -133,11 +126,10 @@ impl Task<'_> {
             trial = self.pass(solver, start, exponent)?;
         }
         let spent = begin.elapsed().as_secs_f64();
-        *series = match spent < LONG {
+        Ok(match spent < LONG {
             true => Series { exponent, ..Series::default() },
             false => Series { exponent, passes: vec![trial], spent },
-        };
-        Ok(())
+        })
     }
 
     /// One more: as many passes as time allows, the fastest of them with the largest distance of any.

@@ -6,12 +6,11 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::benchmark::Benchmark;
-use super::load_case::LoadCase;
 use super::series::Baseline;
-use super::{SHARE, discretisation_error, osqp};
+use super::{discretisation_error, osqp};
 use crate::checkout::root;
 use crate::cycles::{NARROW, REGISTERS};
-use signorini_problem::Problem;
+use signorini_problem::{Loads, Problem};
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::{Result, Scene};
 
@@ -21,44 +20,35 @@ const GRIDS: [u32; 6] = [3, 4, 8, 16, 32, 56];
 const COARSEST: u32 = 2;
 /// From tick to tick; the free points move by up to 0.0063.
 const STEP: f64 = 0.01;
-/// Warm ticks.
 const TICKS: usize = 10;
 
 /// The whole study.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Sizes {
-    /// The problem, in words.
     pub title: String,
     /// The registers that this program was built for; empty in records that do not tell.
     #[serde(default)]
     pub registers: String,
-    /// By size.
     pub rows: Vec<Size>,
     /// Solvers that could not run and why; how long condensing takes.
     pub notes: Vec<String>,
 }
 
-/// One grid.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Size {
     /// Squares over the height of the domain.
     pub n: u32,
     /// Edges not on D.
     pub unknowns: usize,
-    /// Contact edges.
     pub contact: usize,
     /// ‖A^½∇_h(u − u_h)‖ of the discrete solution in the first tick.
     pub discretisation_error: f64,
     /// The part that a solver may leave of ‖A^½∇_h(u_h − u*_h)‖, in every tick.
     pub target: f64,
-    /// The solvers.
     pub baselines: Vec<Baseline>,
 }
 
 /// Measures all solvers on every grid; tells `progress` in words what comes next.
-///
-/// # Errors
-/// The scene `meshes/catalogue/moving-tri.toml` is not there.
 pub fn sizes(mut progress: impl FnMut(&str)) -> Result<Sizes> {
     let scene = Scene::read(&root()?.join("meshes/catalogue/moving-tri.toml"))?;
     progress("building OSQP");
@@ -84,22 +74,20 @@ pub(super) fn size(
     let problem = Problem::new(scene, grid(n, Cells::Triangles))?;
     let coarser = nested(n).into_iter().map(|n| Problem::new(scene, grid(n, Cells::Triangles)));
     let coarser: Vec<_> = coarser.collect::<Result<_>>()?;
-    let moments: Vec<_> =
-        (0..=ticks).map(|tick| LoadCase::at(&problem.scene, STEP * tick as f64)).collect();
+    let at = |tick: usize| {
+        let time = STEP * tick as f64;
+        Loads::at_time(&Problem { time, ..problem.clone() }, time)
+    };
+    let moments: Vec<_> = (0..=ticks).map(at).collect::<Result<_>>()?;
     let mut remarks = Vec::new();
     let discretisation_error = discretisation_error(&problem, &mut remarks)?;
-    let target = SHARE * discretisation_error;
-    let ring = Benchmark {
-        problem: &problem,
-        moments: &moments,
-        target,
-        osqp: program,
-        coarser: &coarser,
-    };
+    let own = Benchmark::new(&problem, &moments, discretisation_error);
+    let ring = Benchmark { osqp: program, coarser: &coarser, ..own };
     let baselines = ring.hold(&mut remarks)?;
     notes.extend(remarks.into_iter().map(|remark| format!("n = {n}: {remark}")));
     let counts = problem.topology.counts;
     let (unknowns, contact) = (counts.unknowns(), counts.contact);
+    let target = ring.target;
     Ok(Size { n, unknowns, contact, discretisation_error, target, baselines })
 }
 

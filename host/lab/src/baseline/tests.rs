@@ -2,9 +2,10 @@
 
 mod limits;
 
+use super::benchmark::Benchmark;
 use super::condensed::condensed;
-use super::full::quadratic;
-use super::load_case::LoadCase;
+use super::load_case::load_cases;
+use super::psor::quadratic;
 use super::sizes::{Sizes, size};
 use super::table;
 use crate::trade::tests::{problem, scene};
@@ -44,7 +45,7 @@ fn contact_moves() {
     for file in ["catalogue/h-tri", "scenes/benbelgacem"] {
         let problem = problem(file);
         let parts = Parts::examine(&problem).unwrap();
-        let moments = LoadCase::drawn(&problem, 20);
+        let moments = load_cases(&problem, 20).unwrap();
         let (full, _) = quadratic(&problem, &parts, &moments).unwrap();
         let free = full.free();
         let touching = |(u, tick): (&Vec<f64>, &super::quadratic::QuadraticLoads)| {
@@ -61,7 +62,7 @@ fn contact_moves() {
 fn condensed_as_baked() {
     let problem = problem("scenes/slab");
     let parts = Parts::examine(&problem).unwrap();
-    let (full, factor) = quadratic(&problem, &parts, &LoadCase::drawn(&problem, 2)).unwrap();
+    let (full, factor) = quadratic(&problem, &parts, &load_cases(&problem, 2).unwrap()).unwrap();
     let (ours, model) = condensed(&problem, &full, &factor).unwrap();
     let baked = condense(&problem).unwrap();
     let largest = ours.ticks[0].load.iter().fold(0.0, |most: f64, b| most.max(b.abs()));
@@ -78,14 +79,8 @@ fn condensed_as_baked() {
 #[test]
 fn a_scene_with_every_solver_but_osqp() {
     let problem = problem("scenes/strip");
-    let found = super::benchmark::Benchmark {
-        problem: &problem,
-        moments: &LoadCase::drawn(&problem, 2),
-        target: 1e-2 * super::discretisation_error(&problem, &mut Vec::new()).unwrap(),
-        osqp: None,
-        coarser: &[],
-    }
-    .hold(&mut Vec::new())
-    .unwrap();
+    let moments = load_cases(&problem, 2).unwrap();
+    let error = super::discretisation_error(&problem, &mut Vec::new()).unwrap();
+    let found = Benchmark::new(&problem, &moments, error).hold(&mut Vec::new()).unwrap();
     assert!(found.iter().all(|b| b.algebraic_error <= b.target), "{found:?}");
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::case::ExtremeCase;
+use super::case::{Effort, ExtremeCase};
 use crate::record_file::word;
 use signorini_problem::Problem;
 use signorini_scene::mesh::{Mesh, gmsh::write as msh};
@@ -12,10 +12,8 @@ use signorini_session::tick::{Budget, ScheduledTick, TickRecord, play};
 use signorini_solve::adaptive::mesh_of_scene;
 use signorini_solve::{Ending, Options, Solution, solve};
 
-/// An answer of the solver.
 #[derive(Debug, Clone)]
 pub struct Attempt {
-    /// The mesh as read.
     pub mesh: Arc<Mesh>,
     /// Edges not on D.
     pub unknowns: usize,
@@ -26,9 +24,6 @@ pub struct Attempt {
 }
 
 /// Writes the files of the case into `folder` and solves what they say.
-///
-/// # Errors
-/// Input that is refused; files that cannot be written.
 pub fn attempt(case: &ExtremeCase, folder: &Path) -> Result<Attempt> {
     let (path, mesh) = (folder.join("scene.toml"), folder.join("mesh.msh"));
     let write = |path: &Path, text: String| std::fs::write(path, text).map_err(Error::io(path));
@@ -36,21 +31,14 @@ pub fn attempt(case: &ExtremeCase, folder: &Path) -> Result<Attempt> {
     write(&mesh, msh::text(&case.posed.mesh()))?;
     let scene = Scene::read(&path)?;
     let problem = Problem::new(&scene, mesh_of_scene(&scene)?.mesh)?;
-    if case.effort.ticks > 0 {
-        return ticks(case, problem);
-    }
     let options =
         Options { scalar: case.scalar, max_sweeps: Some(case.most_sweeps()), ..Options::default() };
-    let answer = match case.effort.omega {
-        None => solve(&problem, &options)?,
-        Some(_) => signorini_session::solve(&problem)?,
+    let (answer, ticks) = match case.effort {
+        Effort { ticks: 1.., .. } => ticks(case, &problem)?,
+        Effort { omega: None, .. } => (solve(&problem, &options)?, Vec::new()),
+        _ => (signorini_session::solve(&problem)?, Vec::new()),
     };
-    Ok(Attempt {
-        unknowns: problem.topology.counts.unknowns(),
-        answer,
-        ticks: Vec::new(),
-        mesh: problem.mesh,
-    })
+    Ok(Attempt { unknowns: problem.topology.counts.unknowns(), answer, ticks, mesh: problem.mesh })
 }
 
 /// A fixed ω is a setting of the scene.
@@ -61,7 +49,7 @@ fn setting(case: &ExtremeCase) -> String {
 }
 
 /// Ticks at t = 0, 1, 2, …; of the sweeps the most of one tick count.
-fn ticks(case: &ExtremeCase, problem: Problem) -> Result<Attempt> {
+fn ticks(case: &ExtremeCase, problem: &Problem) -> Result<(Solution, Vec<TickRecord>)> {
     let moment = |tick: u32| ScheduledTick { time: f64::from(tick), inputs: Vec::new() };
     let moments: Vec<ScheduledTick> = (0..case.effort.ticks).map(moment).collect();
     let budget = Budget {
@@ -72,12 +60,12 @@ fn ticks(case: &ExtremeCase, problem: Problem) -> Result<Attempt> {
         intervals: false,
         shows_start: false,
     };
-    let ticks = play(&problem, None, &moments, &budget, |_, _| Ok(()))?;
+    let ticks = play(problem, None, &moments, &budget, |_, _| Ok(()))?;
     let worst = ticks.iter().find(|tick| tick.failed()).or(ticks.last());
     let answer = Solution {
         status: worst.map_or_else(Ending::default, |tick| tick.status),
         sweeps: ticks.iter().map(|tick| tick.sweeps).max().unwrap_or(0),
         ..Solution::default()
     };
-    Ok(Attempt { unknowns: problem.topology.counts.unknowns(), answer, ticks, mesh: problem.mesh })
+    Ok((answer, ticks))
 }

@@ -9,7 +9,6 @@ use signorini_scene::mesh::structured::Cells;
 /// A number that is pushed.
 #[derive(Debug, Clone, Copy)]
 pub struct Axis {
-    /// Name in the files.
     pub name: &'static str,
     /// A remark beyond the name; may be empty.
     pub remark: &'static str,
@@ -64,7 +63,6 @@ const BEYOND_3: f64 = 3.000_000_000_000_1;
 /// ‖(2, 1)‖: the diameter of the domain.
 const DIAMETER: f64 = 2.236_067_977_499_79;
 
-/// Powers of two.
 const fn powers<const N: usize>(exponents: [i32; N]) -> [f64; N] {
     let (mut all, mut at) = ([1.0; N], 0);
     while at < N {

@@ -8,15 +8,11 @@ use signorini_solve::ScalarKind;
 /// A problem, with the scalar and the effort that it is solved with.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExtremeCase {
-    /// The axis.
     pub axis: String,
-    /// The place on it.
     pub value: f64,
     /// The axis that it is crossed with, and the place on that.
     pub across: Option<(String, f64)>,
-    /// Scalar type of the kernel.
     pub scalar: ScalarKind,
-    /// The problem.
     pub posed: Posed,
     /// Wishes beyond the solver's defaults.
     pub effort: Effort,
@@ -50,13 +46,11 @@ impl ExtremeCase {
         self.effort.sweeps.unwrap_or(budget)
     }
 
-    /// Its name on the terminal.
     pub fn name(&self) -> String {
         let across = self.across.as_ref().map(|(axis, value)| format!(", {axis} {value:e}"));
         format!("{} {:e}{}", self.axis, self.value, across.unwrap_or_default())
     }
 
-    /// Gives J, or the wall, this jump.
     pub fn set_contrast(&mut self, k: f64) {
         let solution = &mut self.posed.solution;
         *solution = match *solution {
@@ -84,7 +78,7 @@ impl ExtremeCase {
         if length == 0.0 {
             posed.sides[0] = Hold::Neumann;
         } else if length < 2.0 {
-            posed.split = Some(Split { of: "bottom", edges: [n - 1, n], rest: Hold::Neumann });
+            posed.split = Some(Split { of: "bottom", edges: [n - 1, n] });
         } else if length > 2.0 {
             posed.sides = [Hold::Pressed; 4];
         }
@@ -101,7 +95,7 @@ impl ExtremeCase {
         posed.sides = [Hold::Contact, right, Hold::Neumann, Hold::Neumann];
         if length > 0.0 && length < 1.0 {
             posed.grid.shape = Shape::Graded { aspect: 1.0 / (n * length) };
-            posed.split = Some(Split { of: "right", edges: [0, 1], rest: Hold::Neumann });
+            posed.split = Some(Split { of: "right", edges: [0, 1] });
         }
     }
 }

@@ -13,10 +13,8 @@ use signorini_scene::Mesh;
 use signorini_scene::mesh::Curve;
 use signorini_scene::mesh::structured::{Cells, grid};
 
-/// The shape of the cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shape {
-    /// Squares.
     Square,
     /// Rows grow from a height of 1/(n · aspect) at the bottom, each by the same factor.
     Graded {
@@ -26,7 +24,6 @@ pub enum Shape {
     /// Every other row has a height of about 1/(n · aspect), and its upper line is moved by half a cell: angles near
     /// 180° in triangles, oblique needles as quads.
     Slivers {
-        /// Width over height of these cells.
         aspect: f64,
     },
     /// Every other vertical side of the lines inside moves towards the next, until a width of t/n is left: a
@@ -39,14 +36,11 @@ pub enum Shape {
     Trapezoids,
 }
 
-/// A grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grid {
     /// Cells over the height.
     pub n: u32,
-    /// The kind of its cells.
     pub cells: Cells,
-    /// Its shape.
     pub shape: Shape,
 }
 
@@ -64,7 +58,6 @@ impl Grid {
         mesh
     }
 
-    /// The heights of the lines, from 0 to 1.
     fn rows(&self) -> Vec<f64> {
         let n = f64::from(self.n);
         let heights: Vec<f64> = match self.shape {

@@ -38,9 +38,7 @@ pub enum Outcome {
     Correct,
     /// Guaranteed, or without a bound and saying so, but not as good as it could be.
     CertifiedPoor,
-    /// Refused, with a message.
     TypedError,
-    /// Anything else.
     #[default]
     Wrong,
 }
@@ -49,7 +47,6 @@ impl Outcome {
     /// All, the best first.
     pub const ALL: [Self; 4] = [Self::Correct, Self::CertifiedPoor, Self::TypedError, Self::Wrong];
 
-    /// Its name in the files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Correct => "correct",
@@ -63,23 +60,15 @@ impl Outcome {
 /// How a case ended.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ended {
-    /// The input was refused.
     Refused(String),
     /// The input was refused after sweeps had been spent on it.
     RefusedLate(String),
-    /// Something else failed.
     Failed(String),
-    /// A panic.
     Panicked,
-    /// No end in time.
     TimedOut,
-    /// There is an answer.
     Answered {
-        /// Whether the solver claims success.
         success: bool,
-        /// The status it gives.
         status: &'static str,
-        /// How wrong it is.
         measured: Measured,
     },
 }
@@ -182,10 +171,7 @@ fn uncertified(
 }
 
 fn digits(scalar: ScalarKind) -> f64 {
-    match scalar {
-        ScalarKind::F64 => DIGITS[0],
-        ScalarKind::F32 => DIGITS[1],
-    }
+    DIGITS[usize::from(scalar == ScalarKind::F32)]
 }
 
 #[cfg(test)]

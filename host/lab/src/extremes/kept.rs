@@ -1,5 +1,7 @@
 //! The cases that are finished, kept from the moment they are: the same command goes on where it was interrupted.
 
+use std::collections::BTreeSet;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
@@ -9,7 +11,19 @@ use serde::{Deserialize, Serialize};
 
 use crate::trade::journal::{Journal, program};
 use crate::trade::shard::Shard;
+use signorini_problem::threads::on_two_threads;
 use signorini_scene::{Error, Result};
+
+/// The findings of a run, for its folder and for the terminal.
+#[derive(Debug)]
+pub struct Findings {
+    /// Files by their names.
+    pub files: Vec<(&'static str, Vec<u8>)>,
+    /// Words for the terminal.
+    pub text: String,
+    /// Numbers of the cases that are wrong.
+    pub wrong: BTreeSet<u32>,
+}
 
 /// A finished case, and the seconds that all runs together had taken by then.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -30,9 +44,6 @@ pub struct Kept {
 
 impl Kept {
     /// Opens what an interrupted run of this very program left in the folder `out`; another program's is forgotten.
-    ///
-    /// # Errors
-    /// Another run goes on there; files that cannot be read or written.
     pub fn open(out: &Path) -> Result<Self> {
         let folder = out.join("unfinished");
         let journal = Mutex::new(Journal::open(&folder, Shard::WHOLE, &program())?);
@@ -40,9 +51,6 @@ impl Kept {
     }
 
     /// The row that is known of the case `key`, or what `work` finds.
-    ///
-    /// # Errors
-    /// Those of `work`; a file that cannot be written.
     pub(super) fn row<T: Serialize + DeserializeOwned + PartialEq>(
         &self,
         key: &str,
@@ -62,15 +70,24 @@ impl Kept {
         }
     }
 
+    /// Finds in two threads the rows of these cases, each under its `key`; calls `done` after each.
+    pub(super) fn rows<T: Serialize + DeserializeOwned + PartialEq + Send>(
+        &self,
+        cases: RangeInclusive<u32>,
+        key: impl Fn(u32) -> String + Sync,
+        row: impl Fn(u32) -> T + Sync,
+        done: impl Fn() + Sync,
+    ) -> Result<Vec<T>> {
+        let work = |&number: &u32| self.row(&key(number), || Ok(row(number)));
+        on_two_threads(&cases.collect::<Vec<_>>(), work, done)
+    }
+
     /// Seconds of all runs.
-    pub fn seconds(&self) -> f64 {
+    pub(super) fn seconds(&self) -> f64 {
         *held(&self.before) + self.start.elapsed().as_secs_f64()
     }
 
     /// Deletes what only an interrupted run needs.
-    ///
-    /// # Errors
-    /// A file that cannot be deleted.
     pub fn close(self) -> Result<()> {
         self.journal.into_inner().unwrap_or_else(PoisonError::into_inner).close()?;
         // It stays where somebody else keeps something in it.

@@ -13,17 +13,16 @@ use super::attempt::Attempt;
 use super::case::ExtremeCase;
 use super::grid::Shape;
 use super::posed::Posed;
+use crate::mesh_solution::solve_directly;
 use signorini_certify::admissible::Admissible;
 use signorini_certify::exact::{distance, of_fewer_points};
 use signorini_problem::Problem;
 use signorini_scene::{Mesh, Result, Scene};
 use signorini_solve::norms::errors;
-use signorini_solve::{Options, Solution, SolverKind, solve};
 
 /// An answer beside the truth, in energy norms at scale 1.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Measured {
-    /// The answer's bound.
     pub bound: Option<f64>,
     /// The true error that it bounds; without a bound, ‖A^½∇_h(u − u_h)‖.
     pub error: f64,
@@ -33,7 +32,6 @@ pub struct Measured {
     pub reference: Option<Reference>,
     /// |u − u_h|₁ and ‖σ − σ_h‖ on trapezoids, where they fall at different rates.
     pub of_fields: Option<[f64; 2]>,
-    /// Whether every number of the answer is finite.
     pub finite: bool,
 }
 
@@ -53,10 +51,6 @@ const FINEST: u32 = 64;
 /// Grids with more rows are integrated with fewer points: solutions that are polynomials in each cell need no more.
 const LARGE: u32 = 128;
 
-/// The distances of `attempt`.
-///
-/// # Errors
-/// A problem at scale 1 that cannot be posed.
 pub fn measure(case: &ExtremeCase, attempt: &Attempt) -> Result<Measured> {
     let posed = case.posed.at_scale_one();
     let mesh = case.posed.scales.unplaced(&attempt.mesh);
@@ -106,9 +100,6 @@ pub fn measure(case: &ExtremeCase, attempt: &Attempt) -> Result<Measured> {
 }
 
 /// Of the ticks the one whose bound is worst kept, against the exact discrete solution of its time.
-///
-/// # Errors
-/// As for [`measure`].
 pub fn of_ticks(case: &ExtremeCase, attempt: &Attempt) -> Result<Measured> {
     let mut problem = at_scale_one(&case.posed, attempt.mesh.clone())?;
     let mut worst = Measured { finite: true, ..Measured::default() };
@@ -142,12 +133,6 @@ fn at_scale_one(posed: &Posed, mesh: impl Into<Arc<Mesh>>) -> Result<Problem> {
     Problem::new(&Scene::parse(&posed.scene(), Path::new("scale-1.toml"))?, mesh)
 }
 
-/// The exact discrete solution.
-pub(super) fn solve_directly(problem: &Problem) -> Result<Solution> {
-    let options = Options { solver: SolverKind::Direct, ..Options::default() };
-    solve(problem, &options)
-}
-
 /// The exact discrete solution, its error where that is `needed`.
 fn reference(posed: &Posed, problem: &Problem, needed: bool) -> Result<Reference> {
     if posed.grid.n > FINEST {
@@ -171,20 +156,13 @@ fn reference(posed: &Posed, problem: &Problem, needed: bool) -> Result<Reference
 mod tests {
     use super::*;
     use crate::extremes::grid::Grid;
-    use crate::extremes::posed::{Hold, Scales};
-    use crate::extremes::solution::{Shear, Solution as Exact};
+    use crate::extremes::solution::Solution as Exact;
     use signorini_scene::mesh::structured::Cells;
+    use signorini_solve::Solution;
 
     fn jump(k: f64, change: impl Fn(&str) -> String) -> Result<(Solution, f64)> {
-        let posed = Posed {
-            solution: Exact::Jump(k),
-            shear: Shear::NONE,
-            grid: Grid { n: 12, cells: Cells::Triangles, shape: Shape::Square },
-            scales: Scales::ONE,
-            sides: [Hold::Contact, Hold::Dirichlet, Hold::Dirichlet, Hold::Dirichlet],
-            split: None,
-            ends: None,
-        };
+        let grid = Grid { n: 12, cells: Cells::Triangles, shape: Shape::Square };
+        let posed = Posed::new(Exact::Jump(k), grid);
         let scene = Scene::parse(&change(&posed.scene()), Path::new("jump.toml"))?;
         let problem = Problem::new(&scene, posed.mesh())?;
         let solution = solve_directly(&problem)?;

@@ -7,40 +7,41 @@
 //! ```
 //! Every case is a scene file and a mesh file that go through the reader, the checks and the default
 //! options of [`signorini_solve`], on a thread of its own that may panic or be left alone after its limit of time. The
-//! outcomes are defined in [`mod@judge`].
+//! outcomes are defined in `judge`.
 
 mod attempt;
 mod axis;
 mod case;
 mod flush;
 mod grid;
-pub mod judge;
-pub mod kept;
+mod judge;
+mod kept;
 mod measure;
 mod plan;
 mod posed;
 pub mod random;
-pub mod record;
-pub mod section;
+pub(crate) mod record;
+pub(crate) mod section;
 mod solution;
 mod watch;
 
 use std::cmp::Reverse;
 use std::time::{Duration, Instant};
 
-use crate::record_file::word;
+use crate::record_file::{csv, json, word};
 use crate::trade::journal::digest;
 use attempt::{Attempt, attempt};
 use case::ExtremeCase;
 use flush::flushed;
-use judge::{Ended, judge, ratio};
-use kept::Kept;
+use judge::{Ended, Outcome, judge, ratio};
 use measure::{Measured, measure, of_ticks};
-use record::{Record, Row, definitions};
+use record::{Record, Row, definitions, text};
+use section::section;
 use watch::watched;
 
-pub use record::text;
+pub use kept::{Findings, Kept};
 
+use signorini_draw::extremes_page;
 use signorini_problem::threads::on_two_threads;
 use signorini_scene::{Error, Result};
 
@@ -55,10 +56,7 @@ pub fn cases(only: Option<&str>) -> Vec<ExtremeCase> {
 }
 
 /// Runs the cases that are not yet `kept` in two threads, the largest first; calls `done` after each.
-///
-/// # Errors
-/// No temporary folder for the scenes; finished cases cannot be kept.
-pub fn run(cases: &[ExtremeCase], kept: &Kept, done: impl Fn() + Sync) -> Result<Record> {
+pub fn run(cases: &[ExtremeCase], kept: &Kept, done: impl Fn() + Sync) -> Result<Findings> {
     let mut order: Vec<usize> = (0..cases.len()).collect();
     order.sort_by_key(|&at| Reverse(cases[at].posed.grid.n));
     let found = |&at: &usize| {
@@ -69,13 +67,24 @@ pub fn run(cases: &[ExtremeCase], kept: &Kept, done: impl Fn() + Sync) -> Result
     let mut rows = on_two_threads(&order, found, done)?;
     rows.sort_by_key(|&(at, _)| at);
     let cases = rows.into_iter().map(|(_, row)| row).collect();
-    Ok(Record { definitions: definitions(), seconds: kept.seconds(), cases })
+    let record = Record { definitions: definitions(), seconds: kept.seconds(), cases };
+    let made_by = format!("signorini {}; {:.0} s", env!("CARGO_PKG_VERSION"), record.seconds);
+    let page = extremes_page(&section(&record), &made_by);
+    let wrong = (0..).zip(&record.cases).filter(|(_, row)| row.outcome == Outcome::Wrong);
+    Ok(Findings {
+        files: vec![
+            ("extremes.json", json(&record).into_bytes()),
+            ("extremes.csv", csv("extremes.csv", &record.cases)?),
+            ("extremes.html", page.into_bytes()),
+        ],
+        text: text(&record),
+        wrong: wrong.map(|(at, _)| at).collect(),
+    })
 }
 
 /// Remains of a case: the answer, how wrong it is, and how long it took.
 type Left = (Result<(Attempt, Measured)>, f64);
 
-/// Solves, measures and judges one case.
 fn row(case: &ExtremeCase) -> Result<Row> {
     let folder = tempfile::tempdir().map_err(Error::io(&std::env::temp_dir()))?;
     let (place, own) = (folder.path().to_owned(), case.clone());

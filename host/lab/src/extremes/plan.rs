@@ -4,17 +4,15 @@ use super::axis::{self, Axis};
 use super::case::{Effort, ExtremeCase};
 use super::flush;
 use super::grid::{Grid, Shape};
-use super::posed::{Hold, Posed, Scales};
-use super::solution::{Shear, Solution};
+use super::posed::Posed;
+use super::solution::Solution;
 use signorini_scene::mesh::structured::Cells;
 use signorini_solve::ScalarKind;
 
 /// An axis or a pair of them, with the problem whose numbers they push.
 #[derive(Debug, Clone, Copy)]
 pub struct AxisStudy {
-    /// The axis.
     pub axis: Axis,
-    /// The axis that it is crossed with.
     pub across: Option<Axis>,
     solution: Solution,
     /// Which of several studies along one axis; empty where it is the only one.
@@ -113,13 +111,11 @@ pub const STUDIES: [AxisStudy; 62] = [
 ];
 
 impl AxisStudy {
-    /// The name of its axis in the files.
     pub fn name(&self) -> String {
         let name = self.axis.name;
         if self.of.is_empty() { name.to_owned() } else { format!("{name}: {}", self.of) }
     }
 
-    /// Its cases.
     pub fn cases(&self) -> Vec<ExtremeCase> {
         let mut cases = Vec::new();
         for scalar in [ScalarKind::F64, ScalarKind::F32] {
@@ -135,12 +131,13 @@ impl AxisStudy {
     }
 
     fn case(&self, scalar: ScalarKind, value: f64, across: Option<(Axis, f64)>) -> ExtremeCase {
+        let grid = Grid { n: self.n, cells: self.cells, shape: Shape::Square };
         let mut case = ExtremeCase {
             axis: self.name(),
             value,
             across: across.map(|(axis, value)| (axis.name.to_owned(), value)),
             scalar,
-            posed: self.posed(),
+            posed: Posed::new(self.solution, grid),
             effort: Effort::default(),
         };
         (self.axis.set)(value, &mut case);
@@ -148,18 +145,6 @@ impl AxisStudy {
             (axis.set)(value, &mut case);
         }
         case
-    }
-
-    fn posed(&self) -> Posed {
-        Posed {
-            solution: self.solution,
-            shear: Shear::NONE,
-            grid: Grid { n: self.n, cells: self.cells, shape: Shape::Square },
-            scales: Scales::ONE,
-            sides: [Hold::Contact, Hold::Dirichlet, Hold::Dirichlet, Hold::Dirichlet],
-            split: None,
-            ends: None,
-        }
     }
 }
 

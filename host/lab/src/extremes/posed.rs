@@ -45,7 +45,6 @@ impl Scales {
         (x - self.length * self.shift) / self.length
     }
 
-    /// The mesh of the problem as posed.
     pub fn placed(&self, mesh: Mesh) -> Mesh {
         let vertices = mesh.vertices.iter().map(|point| point.map(|x| self.place(x))).collect();
         Mesh { vertices, ..mesh }
@@ -81,15 +80,13 @@ pub enum Hold {
     Pressed,
 }
 
-/// Which edges of a curve are a curve of their own, named `held` or `open`: from the first one on.
+/// A curve of which some edges stay; σ·n is given on the rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Split {
     /// The curve: `bottom`, `right`, `top`, `left`.
     pub of: &'static str,
     /// The position of the edges that stay.
     pub edges: [usize; 2],
-    /// The condition on the rest.
-    pub rest: Hold,
 }
 
 /// A problem with a known solution, at a scale.
@@ -99,9 +96,7 @@ pub struct Posed {
     pub solution: Solution,
     /// The map that turns it oblique.
     pub shear: Shear,
-    /// The mesh at scale 1.
     pub grid: Grid,
-    /// The scale.
     pub scales: Scales,
     /// Conditions on bottom, right, top and left.
     pub sides: [Hold; 4],
@@ -116,13 +111,17 @@ const SIDES: [(&str, [f64; 2]); 4] =
     [("bottom", [0.0, -1.0]), ("right", [1.0, 0.0]), ("top", [0.0, 1.0]), ("left", [-1.0, 0.0])];
 
 impl Posed {
-    /// The problem at scale 1.
-    #[must_use]
+    /// At scale 1 on a grid, with contact below and u given elsewhere.
+    pub fn new(solution: Solution, grid: Grid) -> Self {
+        let sides = [Hold::Contact, Hold::Dirichlet, Hold::Dirichlet, Hold::Dirichlet];
+        let (shear, scales) = (Shear::NONE, Scales::ONE);
+        Self { solution, shear, grid, scales, sides, split: None, ends: None }
+    }
+
     pub fn at_scale_one(self) -> Self {
         Self { scales: Scales::ONE, ..self }
     }
 
-    /// Its mesh.
     pub fn mesh(&self) -> Mesh {
         let mut mesh = self.scales.placed(self.grid.mesh());
         if let Some(split) = self.split {
@@ -158,7 +157,7 @@ impl Posed {
         }
         if let (Some(split), true) = (self.split, named("rest")) {
             let normal = SIDES.iter().find(|side| side.0 == split.of).map_or([0.0; 2], |s| s.1);
-            text += &self.boundary("rest", normal, split.rest, &texts);
+            text += &self.boundary("rest", normal, Hold::Neumann, &texts);
         }
         let [ux, uy] = texts.gradient.each_ref().map(|slope| times(s / c, slope));
         let u = times(s, &texts.u);

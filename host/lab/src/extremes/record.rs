@@ -16,37 +16,27 @@ pub const RECORD: &str = "host/benches/extremes/extremes.json";
 /// A run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Record {
-    /// The meaning of the outcomes.
     pub definitions: Vec<Definition>,
-    /// Wall-clock seconds of the whole run.
     pub seconds: f64,
-    /// Every case, study by study.
     pub cases: Vec<Row>,
 }
 
-/// The meaning of an outcome.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Definition {
-    /// The outcome.
     pub outcome: Outcome,
-    /// In words.
     pub means: String,
 }
 
-/// A case.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Row {
     /// The axis, and which of several studies along it.
     pub axis: String,
-    /// The place on it.
     pub value: f64,
-    /// The axis that it is crossed with.
     pub axis2: Option<String>,
     /// The place on that.
     pub value2: Option<f64>,
     /// `f64`, `f32`.
     pub scalar: String,
-    /// The worth of the answer.
     pub outcome: Outcome,
     /// True error over bound; none without a bound.
     pub error_over_bound: Option<f64>,
@@ -54,7 +44,6 @@ pub struct Row {
     pub sweeps: Option<u32>,
     /// Edges not on D.
     pub unknowns: Option<usize>,
-    /// How the solve ended.
     pub status: Option<String>,
     /// The true error that the bound is for, at scale 1; without a bound ‖A^½∇_h(u − u_h)‖.
     pub error: Option<f64>,
@@ -70,7 +59,6 @@ pub struct Row {
     pub error_flux: Option<f64>,
     /// Wall-clock seconds of the attempt alone, files included.
     pub seconds: f64,
-    /// Why it is not correct.
     pub note: String,
 }
 
@@ -99,23 +87,7 @@ pub fn definitions() -> Vec<Definition> {
 }
 
 impl Record {
-    /// The text of `extremes.csv`: the same cases.
-    ///
-    /// # Errors
-    /// Never for plain data.
-    pub fn csv(&self) -> Result<Vec<u8>> {
-        record_file::csv("extremes.csv", &self.cases)
-    }
-
-    /// The text of `extremes.json`: a line per case.
-    pub fn json(&self) -> String {
-        record_file::json(self)
-    }
-
     /// Reads the record at `path`; none where there is no file.
-    ///
-    /// # Errors
-    /// A file that is no record, with its name.
     pub fn read(path: &Path) -> Result<Option<Self>> {
         record_file::read(path, "extremes", "signorini extremes")
     }

@@ -5,7 +5,6 @@ use super::plan::remark;
 use super::record::{Record, Row, place};
 use signorini_draw::{Column, Extremes, ExtremesStudy, OutcomeMap, Square, Table, plain};
 
-/// Everything of the section.
 pub fn section(record: &Record) -> Extremes {
     let studies = record.studies();
     let legend = record.definitions.iter();
@@ -27,9 +26,10 @@ fn study(axis: &str, across: Option<&str>, cases: &[&Row]) -> ExtremesStudy {
     let heading = across.map_or(axis.to_owned(), |across| format!("{axis} × {across}"));
     let maps = match across {
         None => vec![(String::new(), strip(axis, cases))],
-        Some(across) => ["f64", "f32"]
-            .map(|scalar| (scalar.to_owned(), map(axis, across, scalar, cases)))
-            .into(),
+        Some(across) => {
+            let map = |scalar: &str| (scalar.to_owned(), map(axis, across, scalar, cases));
+            ["f64", "f32"].map(map).into()
+        }
     };
     let rates = rates(cases).map_or(String::new(), |rates| format!("; {rates}"));
     ExtremesStudy { heading, remark: remark(axis, across).to_owned() + &rates, maps }
@@ -37,13 +37,12 @@ fn study(axis: &str, across: Option<&str>, cases: &[&Row]) -> ExtremesStudy {
 
 /// By which powers of the width the errors of u and σ fall between the two finest grids, in f64.
 fn rates(cases: &[&Row]) -> Option<String> {
-    let of = |case: &Row| Some((case.value, case.error_u?, case.error_flux?));
+    let of = |case: &&Row| Some([case.value, case.error_u?, case.error_flux?]);
     let double = cases.iter().filter(|case| case.scalar == "f64");
-    let all: Vec<_> = double.filter_map(|case| of(case)).collect();
+    let all: Vec<_> = double.filter_map(of).collect();
     let [.., coarse, fine] = all[..] else { return None };
-    let rate =
-        |coarse_error: f64, error: f64| (coarse_error / error).ln() / (fine.0 / coarse.0).ln();
-    let (of_u, of_flux) = (rate(coarse.1, fine.1), rate(coarse.2, fine.2));
+    let rate = |at: usize| (coarse[at] / fine[at]).ln() / (fine[0] / coarse[0]).ln();
+    let [of_u, of_flux] = [1, 2].map(rate);
     Some(format!(
         "the error of ∇u falls with rate {of_u:.2}, that of the flux with rate {of_flux:.2}"
     ))

@@ -28,7 +28,6 @@ const ROUNDING: f64 = 1e-5;
 /// The bound of one iterate, and how wrong it is.
 #[derive(Debug, Clone, Copy, Default, Serialize)]
 pub struct Certified {
-    /// Sweeps it took.
     pub sweeps: u32,
     /// `None`: contact alone holds a part, and cannot take its surplus.
     pub bound: Option<ErrorBound>,
@@ -37,7 +36,6 @@ pub struct Certified {
 }
 
 impl Certified {
-    /// Integrates the errors of `solution`.
     pub fn new(problem: &Problem, solution: &Solution) -> Result<Self> {
         let errors = of_solution(problem, solution)?;
         Ok(Self { sweeps: solution.sweeps, bound: solution.bound, errors })
@@ -54,7 +52,6 @@ impl Certified {
         Some(bound.duality_gap / self.errors?.energy)
     }
 
-    /// Checks of every iterate.
     fn guarantee(&self, subject: &str, energy: f64) -> Vec<Check> {
         let (Some(bound), Some(errors)) = (self.bound, self.errors) else { return Vec::new() };
         let (Some(combined), Some(identity)) = (errors.combined, errors.identity) else {
@@ -71,7 +68,6 @@ impl Certified {
         checks
     }
 
-    /// Checks of an iterate that was cut off.
     pub fn when_cut_off(&self, subject: &str, energy: f64) -> Vec<Check> {
         let mut checks = self.guarantee(subject, energy);
         checks.extend(self.efficiency(energy).map(|ratio| {
@@ -80,7 +76,6 @@ impl Certified {
         checks
     }
 
-    /// Checks of a converged solution.
     pub fn when_converged(
         &self,
         subject: &str,

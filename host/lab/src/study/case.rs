@@ -9,21 +9,17 @@ use super::checks::{self, Check};
 use super::cost::{self, Cost};
 use super::outputs::KnownOutputs;
 use crate::cycles;
+use crate::mesh_solution::solve_directly;
 use signorini_problem::Problem;
 use signorini_scene::{Result, Scene};
 use signorini_solve::adaptive::mesh_of_scene;
-use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
+use signorini_solve::{Options, ScalarKind, Solution, solve};
 
-/// The findings on a scene.
 #[derive(Debug, Clone, Serialize)]
 pub struct KnownScene {
-    /// The scene file's name.
     pub name: String,
-    /// Its title.
     pub title: String,
-    /// Triangles and quads.
     pub cells: [usize; 2],
-    /// Edges not on the Dirichlet boundary.
     pub unknowns: usize,
     /// Active contact edges, and all of them.
     pub contact: [usize; 2],
@@ -31,13 +27,9 @@ pub struct KnownScene {
     pub force: f64,
     /// ‖A^½∇_h u_h‖
     pub energy: f64,
-    /// The kernel in f64.
     pub f64: Run,
-    /// The kernel in f32.
     pub f32: Run,
-    /// The declared outputs.
     pub outputs: KnownOutputs,
-    /// The checks.
     pub checks: Vec<Check>,
 }
 
@@ -47,13 +39,11 @@ pub struct Run {
     /// Sweeps down to the rounding floor, the error bound there, and distances to the exact solution.
     #[serde(flatten)]
     pub certified: Certified,
-    /// The ω it found.
     pub omega: f64,
     /// Largest distance to the reference, relative to the range of u.
     pub distance: f64,
     /// Cycles per unknown for the whole solve.
     pub solve_cycles: f64,
-    /// Cycles of a sweep.
     pub cost: Cost,
 }
 
@@ -62,8 +52,7 @@ pub fn study(path: &Path) -> Result<(Problem, Solution, KnownScene)> {
     let scene = Scene::read(path)?;
     let problem = Problem::new(&scene, mesh_of_scene(&scene)?.mesh)?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let direct = Options { solver: SolverKind::Direct, ..Options::default() };
-    let reference = solve(&problem, &direct)?;
+    let reference = solve_directly(&problem)?;
     let (double, f64) = run(&problem, ScalarKind::F64, &reference)?;
     let (single, f32) = run(&problem, ScalarKind::F32, &reference)?;
     let mut checks = Vec::new();

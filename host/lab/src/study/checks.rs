@@ -13,13 +13,11 @@ use signorini_solve::{ScalarKind, Solution};
 pub struct Check {
     /// The scene and the scalar, or the refined grid.
     pub subject: String,
-    /// The claim.
     pub claim: &'static str,
     /// The value that was found, with the bound.
     pub found: String,
     /// How much of the bound is used up; above 1 (or NaN) the check fails.
     pub used: f64,
-    /// Whether it holds.
     pub passed: bool,
 }
 
@@ -84,7 +82,6 @@ pub fn distance(u: &[f64], reference: &[f64]) -> f64 {
     u.iter().zip(reference).fold(0.0_f64, |most, (a, b)| most.or_larger((a - b).abs())) / size
 }
 
-/// A scene in one scalar.
 pub fn subject(name: &str, scalar: ScalarKind) -> String {
     format!("{name}, {}", word(&scalar))
 }

@@ -25,7 +25,7 @@ const ON_TRAPEZOIDS: &str = "b";
 
 /// The grid that a scene is refined on.
 #[derive(Debug)]
-struct Grid {
+pub struct Grid {
     name: &'static str,
     mesh: fn(u32) -> Mesh,
     element: QuadElement,
@@ -62,48 +62,39 @@ static TRAPEZOIDS: [Grid; 4] = [
 /// One scene on one kind of cells, refined.
 #[derive(Debug, Clone, Serialize)]
 pub struct ConvergenceStudy {
-    /// Scene and cells.
     pub name: String,
     /// Squares over the height of the domain.
     pub n: Vec<u32>,
-    /// Errors on each grid.
     pub errors: Vec<Errors>,
     /// ∫λ on each grid.
     pub force: Vec<f64>,
     /// Measured rates of h1, l2, flux: the least-squares slope over all grids.
     pub rates: [f64; 3],
-    /// The checks.
     pub checks: Vec<Check>,
     #[serde(skip)]
     grid: &'static Grid,
 }
 
-/// A scene still to be refined.
-#[derive(Debug, Clone)]
-pub struct ConvergencePlan {
-    scene: PathBuf,
-    grid: &'static Grid,
-}
+/// A scene still to be refined, and on which grid.
+type Plan = (PathBuf, &'static Grid);
 
 /// The studies of the main job, the long ones first.
-pub fn planned(root: &Path) -> Vec<ConvergencePlan> {
+pub fn planned(root: &Path) -> Vec<Plan> {
     let folder = root.join("meshes/catalogue");
-    let scene = |name: &str| folder.join(format!("{name}-tri.toml"));
-    let on = |name, grid| ConvergencePlan { scene: scene(name), grid };
-    let squares = SCENES.iter().rev().flat_map(|name| SQUARES.iter().map(move |grid| (name, grid)));
-    let squares = squares.map(|(name, grid)| on(name, grid));
-    squares.chain(TRAPEZOIDS.iter().map(|grid| on(ON_TRAPEZOIDS, grid))).collect()
+    let squares =
+        SCENES.into_iter().rev().flat_map(|name| SQUARES.iter().map(move |of| (name, of)));
+    let all = squares.chain(TRAPEZOIDS.iter().map(|of| (ON_TRAPEZOIDS, of)));
+    all.map(|(name, grid)| (folder.join(format!("{name}-tri.toml")), grid)).collect()
 }
 
 /// Runs the studies; calls `done` after each.
-pub fn run(plans: &[ConvergencePlan], done: impl Fn() + Sync) -> Result<Vec<ConvergenceStudy>> {
-    let mut studies = on_two_threads(plans, ConvergencePlan::run, done)?;
+pub fn run(plans: &[Plan], done: impl Fn() + Sync) -> Result<Vec<ConvergenceStudy>> {
+    let mut studies = on_two_threads(plans, |(scene, grid)| refined(scene, grid), done)?;
     studies.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(studies)
 }
 
 impl Grid {
-    /// Checks of the rates.
     fn checks(&self, name: &str, [h1, l2, flux]: [f64; 3]) -> Vec<Check> {
         let claim = "the mean-square error of the flux ‖σ − σ_h‖ falls with rate 1";
         let flux = Check::at_least(name, claim, flux, 0.97);
@@ -138,81 +129,61 @@ impl Grid {
     }
 }
 
-impl ConvergencePlan {
-    fn run(&self) -> Result<ConvergenceStudy> {
-        let Self { scene, grid } = self;
-        let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
-        let name = format!("{}, {}", stem.trim_end_matches("-tri"), grid.name);
-        let scene = Scene::read(scene)?;
-        let own = scene.setting.unwrap_or_default();
-        let scene = Scene { setting: Some(Setting { element: grid.element, ..own }), ..scene };
-        let (mut found, mut force) = (Vec::new(), Vec::new());
-        for n in LEVELS {
-            let problem = Problem::new(&scene, (grid.mesh)(n))?;
-            let options = Options { solver: SolverKind::Kernel, ..Options::default() };
-            let solution = solve(&problem, &options)?;
-            found.extend(of_solution(&problem, &solution)?);
-            force.push(solution.contact_force);
-        }
-        let rate = |at: usize| {
-            let series = QUANTITIES[at].series(&name, grid, &found);
-            measured_rate(&widths(), &series.values).unwrap_or(f64::NAN)
-        };
-        let rates = [0, 1, 2].map(rate);
-        let checks = grid.checks(&name, rates);
-        let n = LEVELS.to_vec();
-        Ok(ConvergenceStudy { name, n, errors: found, force, rates, checks, grid })
+fn refined(scene: &Path, grid: &'static Grid) -> Result<ConvergenceStudy> {
+    let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
+    let name = format!("{}, {}", stem.trim_end_matches("-tri"), grid.name);
+    let scene = Scene::read(scene)?;
+    let own = scene.setting.unwrap_or_default();
+    let scene = Scene { setting: Some(Setting { element: grid.element, ..own }), ..scene };
+    let (mut errors, mut force) = (Vec::new(), Vec::new());
+    for n in LEVELS {
+        let problem = Problem::new(&scene, (grid.mesh)(n))?;
+        let options = Options { solver: SolverKind::Kernel, ..Options::default() };
+        let solution = solve(&problem, &options)?;
+        errors.extend(of_solution(&problem, &solution)?);
+        force.push(solution.contact_force);
     }
+    let rates = QUANTITIES.map(|(_, pick)| {
+        let values: Vec<_> = errors.iter().map(|of| Some(pick(of))).collect();
+        measured_rate(&widths(), &values).unwrap_or(f64::NAN)
+    });
+    let checks = grid.checks(&name, rates);
+    Ok(ConvergenceStudy { name, n: LEVELS.to_vec(), errors, force, rates, checks, grid })
 }
 
-/// An error that is studied.
-struct Quantity {
-    title: &'static str,
-    /// Its place among the rates.
-    place: usize,
-    pick: fn(&Errors) -> f64,
-}
+type Pick = fn(&Errors) -> f64;
 
-const QUANTITIES: [Quantity; 3] = [
-    Quantity { title: "Gradient error of u, unweighed: |u − u_h|₁", place: 0, pick: |e| e.h1 },
-    Quantity { title: "Mean-square error of u (L²): ‖u − u_h‖", place: 1, pick: |e| e.l2 },
-    Quantity {
-        title: "Mean-square error of the flux (L²): ‖σ − σ_h‖", place: 2, pick: |e| e.flux
-    },
+/// The errors that are studied, in the order of their rates.
+const QUANTITIES: [(&str, Pick); 3] = [
+    ("Gradient error of u, unweighed: |u − u_h|₁", |errors| errors.h1),
+    ("Mean-square error of u (L²): ‖u − u_h‖", |errors| errors.l2),
+    ("Mean-square error of the flux (L²): ‖σ − σ_h‖", |errors| errors.flux),
 ];
 
-impl Quantity {
-    fn series(&self, name: &str, grid: &Grid, errors: &[Errors]) -> Curve {
-        Curve {
-            label: name.to_owned(),
-            values: errors.iter().map(|errors| Some((self.pick)(errors))).collect(),
-            expected_rate: Some(grid.expected[self.place]),
-            ..Curve::default()
-        }
-    }
-}
-
-/// The mesh widths, from coarse to fine.
 fn widths() -> Vec<f64> {
     LEVELS.iter().map(|&n| 1.0 / f64::from(n)).collect()
 }
 
 /// The pictures: one per error on squares, one on trapezoids, with a curve per study.
 pub fn plots(studies: &[ConvergenceStudy]) -> Vec<Chart> {
-    let plot = |quantity: &Quantity, bent: bool| {
+    let plot = |(at, bent): (usize, bool)| {
+        let (title, pick) = QUANTITIES[at];
         let is_bent = |grid: &Grid| TRAPEZOIDS.iter().any(|of| of.name == grid.name);
         let on = studies.iter().filter(|study| is_bent(study.grid) == bent);
-        let series = on.map(|study| quantity.series(&study.name, study.grid, &study.errors));
+        let curves = on.map(|study| Curve {
+            label: study.name.clone(),
+            values: study.errors.iter().map(|errors| Some(pick(errors))).collect(),
+            expected_rate: Some(study.grid.expected[at]),
+            ..Curve::default()
+        });
         let place = if bent { ", on trapezoids" } else { "" };
         Chart {
-            title: format!("{}{place}", quantity.title),
+            title: format!("{title}{place}"),
             across: "mesh width h".to_owned(),
             at: widths(),
-            strips: vec![Strip { curves: series.collect(), ..Strip::default() }],
+            strips: vec![Strip { curves: curves.collect(), ..Strip::default() }],
         }
     };
-    let both = [false, true].into_iter();
-    both.flat_map(|bent| QUANTITIES.iter().map(move |quantity| (quantity, bent)))
-        .map(|(quantity, bent)| plot(quantity, bent))
-        .collect()
+    let all = [false, true].into_iter().flat_map(|bent| (0..3).map(move |at| (at, bent)));
+    all.map(plot).collect()
 }

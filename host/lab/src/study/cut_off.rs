@@ -21,13 +21,11 @@ const DRAWN: [&str; 3] = ["h-tri", "h-quad", "t-h-tri"];
 /// A scene, stopped again and again.
 #[derive(Debug, Clone, Serialize)]
 pub struct CutOff {
-    /// The scene file's name.
     pub name: String,
     /// After 1, 5, 20, 80 and 320 sweeps, and at convergence.
     pub stops: Vec<Certified>,
     /// gap over the energy error of u_h at each stop; `None` where both are rounding.
     pub efficiency: Vec<Option<f64>>,
-    /// The checks.
     pub checks: Vec<Check>,
 }
 

@@ -15,6 +15,7 @@ use serde::Serialize;
 use crate::checkout::{root, scenes};
 use crate::extremes::record as extremes;
 use crate::extremes::section::section as extremes_section;
+use crate::record_file::indented;
 use crate::trade::records::{self, RECORD};
 use crate::trade::section::section;
 use crate::trade::verdict::{KnobValue, knob_values};
@@ -47,9 +48,6 @@ struct Results<'r> {
 
 /// Runs every scene under `meshes/`, prints the table, writes the report; exit status 0 only when every
 /// check holds.
-///
-/// # Errors
-/// No checkout; scenes that cannot be read, files that cannot be written.
 pub fn run() -> Result<u8> {
     let root = &root()?;
     let scenes = scenes(&root.join("meshes"))?;
@@ -88,7 +86,6 @@ pub fn run() -> Result<u8> {
         knobs: &knob_values(trades.host.iter().chain(&trades.m4f)),
         passed: failed.is_empty(),
     };
-    let json = serde_json::to_string_pretty(&results).unwrap_or_default() + "\n";
     let report = Report {
         title: "Signorini: standard scenes".to_owned(),
         generated_by: format!(
@@ -105,7 +102,7 @@ pub fn run() -> Result<u8> {
         extremes: Some(extremes_section(&pushed)),
         scenes: panels,
     };
-    write_atomically(&folder.join("results.json"), json.as_bytes())?;
+    write_atomically(&folder.join("results.json"), indented(&results).as_bytes())?;
     write_atomically(&folder.join("index.html"), html(&report).as_bytes())?;
     say(format_args!("report: {}", folder.join("index.html").display()));
     for check in &failed {

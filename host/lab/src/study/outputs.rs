@@ -27,9 +27,6 @@ const ROUNDING: f64 = 1e-7;
 
 impl KnownOutputs {
     /// The outputs of a solution, with a check for each exact value that is known.
-    ///
-    /// # Errors
-    /// Data that are not finite.
     pub fn new(
         subject: &str,
         problem: &Problem,

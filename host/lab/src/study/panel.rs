@@ -17,7 +17,6 @@ const SAMPLES: usize = 9;
 /// How far the kernel is from the reference.
 const FROM_FAER: &str = "largest distance of u to faer’s, over the range of u";
 
-/// Collects the picture of one scene.
 pub fn panel(problem: &Problem, solution: &Solution, case: &KnownScene) -> ScenePanel {
     let cells = 0..problem.mesh.triangles.len() + problem.mesh.quads.len();
     let flux = |cell| CellField::new(problem, cell, &solution.u, &solution.flux).middle_flux();
@@ -36,7 +35,7 @@ pub fn panel(problem: &Problem, solution: &Solution, case: &KnownScene) -> Scene
         no_bound: solution.no_bound.as_ref().map(ToString::to_string),
         error: case.f64.certified.error(),
         energy: (norm.unwrap_or(f64::NAN), energy_norm::name(problem)),
-        contact: walk(problem).iter().map(|place| contact_edge(problem, solution, place)).collect(),
+        contact: walk(problem, solution),
         boundary: boundary(problem),
         sentence: case.outputs.sentence.clone(),
         facts: facts(case),
@@ -48,18 +47,24 @@ fn terms(bound: ErrorBound) -> BoundTerms {
     BoundTerms { total, of_u, gap, algebraic, oscillation, rounding }
 }
 
-fn contact_edge(problem: &Problem, solution: &Solution, place: &LineEdge) -> ContactEdge {
-    let edge = problem.topology.counts.free + place.contact;
-    let opening = solution.u[edge] - solution.gap(problem, place.contact);
+/// A contact edge, `reversed` where it is walked against its direction, and the arc length where it begins.
+fn contact_edge(
+    problem: &Problem,
+    solution: &Solution,
+    contact: usize,
+    (reversed, start): (bool, f64),
+) -> ContactEdge {
+    let edge = problem.topology.counts.free + contact;
+    let opening = solution.u[edge] - solution.gap(problem, contact);
     let mut ends = problem.segment(edge);
-    if place.reversed {
+    if reversed {
         ends.reverse();
     }
     ContactEdge {
         ends,
-        arc_length: [place.start, place.start + problem.lengths[edge]],
+        arc_length: [start, start + problem.lengths[edge]],
         state: state(opening),
-        multiplier: solution.multiplier(problem, place.contact),
+        multiplier: solution.multiplier(problem, contact),
         exact_multiplier: exact_multiplier(problem, edge, ends).unwrap_or_default(),
         opening,
     }
@@ -142,19 +147,8 @@ fn facts(case: &KnownScene) -> Vec<(String, String)> {
     facts
 }
 
-/// A contact edge on the line.
-#[derive(Debug, Clone, Copy)]
-struct LineEdge {
-    /// Its position among the contact edges.
-    contact: usize,
-    /// Whether it is walked against its direction.
-    reversed: bool,
-    /// Arc length where it begins.
-    start: f64,
-}
-
-/// Orders the contact edges by arc length; separate pieces of the boundary follow one another.
-fn walk(problem: &Problem) -> Vec<LineEdge> {
+/// The contact edges by arc length; separate pieces of the boundary follow one another.
+fn walk(problem: &Problem, solution: &Solution) -> Vec<ContactEdge> {
     let counts = problem.topology.counts;
     let ends = |contact: usize| problem.ends[counts.free + contact];
     let mut at_vertex: HashMap<u32, Vec<usize>> = HashMap::new();
@@ -174,7 +168,7 @@ fn walk(problem: &Problem) -> Vec<LineEdge> {
         while let Some(contact) = next {
             used[contact] = true;
             let reversed = ends(contact)[0] != from;
-            line.push(LineEdge { contact, reversed, start: length });
+            line.push(contact_edge(problem, solution, contact, (reversed, length)));
             length += problem.lengths[counts.free + contact];
             from = ends(contact)[usize::from(!reversed)];
             next = at_vertex[&from].iter().copied().find(|&other| !used[other]);

@@ -9,7 +9,6 @@ use signorini_certify::ErrorBound;
 use signorini_draw::{self as report, Column, Table};
 use signorini_solve::norms::Errors;
 
-/// A number of a scene.
 fn of_scene<'c>(
     name: &str,
     cell: impl Fn(&KnownScene) -> String + 'c,

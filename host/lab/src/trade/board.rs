@@ -7,11 +7,10 @@ use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::emit::{Emitted, emit};
 use signorini_bake::setting;
 use signorini_files::atomic::write_atomically;
-use signorini_image::board::{Board, M4F};
+use signorini_image::board::Board;
 use signorini_image::firmware::Firmware;
 use signorini_image::module::Module;
 use signorini_image::room::NoResult;
-use signorini_image::tools;
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::{Error, Result};
@@ -32,14 +31,6 @@ pub fn measure(
         Err(Error::Input(refused)) => Ok(Err(refused.message().to_owned())),
         Err(error) => Err(error),
     }
-}
-
-/// The tools that images need, installed where need be and possible.
-///
-/// # Errors
-/// What is missing, and what to do about it.
-pub fn ready() -> Result<()> {
-    tools::ensure(&[M4F.triple]).map_err(Error::Check)
 }
 
 fn module(problem: &Problem, name: &str) -> Result<Module> {

@@ -73,9 +73,6 @@ impl Campaign {
     }
 
     /// The record of every standard scene, by default on the host and on the M4F.
-    ///
-    /// # Errors
-    /// No checkout.
     pub fn standard(target: Option<Target>, out: Option<&Path>, with_peers: bool) -> Result<Self> {
         let root = root()?;
         let paths = scenes(&root.join("meshes"))?;
@@ -101,9 +98,6 @@ impl Campaign {
     }
 
     /// Runs this process's cases. Under MPI each rank has its share, and the first puts the parts together.
-    ///
-    /// # Errors
-    /// Wrong input, files that cannot be written.
     pub fn run(&self, shard: Option<Shard>, wish: &Wish, done: &mut Done) -> Result<Ended> {
         if let Some(shard) = shard {
             return self.share(shard, wish, done);

@@ -17,9 +17,6 @@ use signorini_scene::{Error, Result, Scene, Setting};
 pub const FRAGMENT: &str = "recommended.toml";
 
 /// Writes `trade.json`, `trade.csv`, `trade.svg` and, where there is a recommendation, `recommended.toml`.
-///
-/// # Errors
-/// A file that cannot be written.
 pub fn write(folder: &Path, scene: &Scene, trade: &Trade) -> Result<()> {
     let csv = trade_csv(trade).map_err(|error| Error::Check(error.to_string()))?;
     write_atomically(&folder.join("trade.json"), json(trade).as_bytes())?;
@@ -39,53 +36,17 @@ pub fn write(folder: &Path, scene: &Scene, trade: &Trade) -> Result<()> {
 
 /// Where each column stands in a point's JSON; its name is this path with `_` between the words. Columns
 /// are added at the end, so that readers by position go on working.
-const COLUMNS: [&str; 39] = [
-    "/name",
-    "/scalar",
-    "/math",
-    "/cells",
-    "/level",
-    "/unknowns",
-    "/stop",
-    "/sweeps",
-    "/start",
-    "/omega",
-    "/model",
-    "/certificate",
-    "/error/energy",
-    "/error/combined",
-    "/error/l2",
-    "/error/flux",
-    "/error/force",
-    "/error/length",
-    "/bound",
-    "/bound_of_u",
-    "/cycles",
-    "/cycles_spread",
-    "/cycles_per_unknown",
-    "/instructions",
-    "/ram_bytes",
-    "/flash_bytes",
-    "/pareto",
-    "/setting/refine",
-    "/setting/cells",
-    "/setting/scalar",
-    "/setting/math",
-    "/setting/model",
-    "/setting/start",
-    "/setting/omega",
-    "/setting/sweeps",
-    "/setting/share",
-    "/setting/certificate",
-    "/setting/solver",
-    "/setting/error",
-];
+const COLUMNS: &str = "name scalar math cells level unknowns stop sweeps start omega model certificate \
+    error/energy error/combined error/l2 error/flux error/force error/length bound bound_of_u \
+    cycles cycles_spread cycles_per_unknown instructions ram_bytes flash_bytes pareto \
+    setting/refine setting/cells setting/scalar setting/math setting/model setting/start setting/omega \
+    setting/sweeps setting/share setting/certificate setting/solver setting/error";
 
 /// The text of `trade.csv`: `scene,target,` and a column for each field of a point (`error_energy`,
 /// `setting_refine`, …). A value that does not exist is an empty field.
 fn trade_csv(trade: &Trade) -> csv::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let names = COLUMNS.iter().map(|path| path.trim_start_matches('/').replace('/', "_"));
+    let names = COLUMNS.split(' ').map(|path| path.replace('/', "_"));
     let fixed = ["scene", "target"].map(str::to_owned);
     writer.write_record(fixed.into_iter().chain(names))?;
     for point in &trade.points {
@@ -98,7 +59,7 @@ fn trade_csv(trade: &Trade) -> csv::Result<Vec<u8>> {
 fn fields(point: &Point) -> impl Iterator<Item = String> {
     // Plain data without a map: it always has a JSON.
     let json = serde_json::to_value(point).unwrap_or_default();
-    COLUMNS.into_iter().map(move |path| match json.pointer(path) {
+    COLUMNS.split(' ').map(move |path| match json.pointer(&format!("/{path}")) {
         None | Some(Value::Null) => String::new(),
         Some(Value::String(text)) => text.clone(),
         Some(other) => other.to_string(),
@@ -145,7 +106,7 @@ mod tests {
         )
         .unwrap();
         let mut found = leaves("", &serde_json::to_value(&point).unwrap());
-        let mut columns = COLUMNS.map(str::to_owned).to_vec();
+        let mut columns: Vec<_> = COLUMNS.split(' ').map(|path| format!("/{path}")).collect();
         found.sort();
         columns.sort();
         assert_eq!(found, columns);
@@ -161,7 +122,7 @@ mod tests {
         let header = reader.headers().unwrap().clone();
         let column = |name: &str| header.iter().position(|found| found == name).unwrap();
         let rows: Vec<_> = reader.records().map(std::result::Result::unwrap).collect();
-        assert_eq!((rows.len(), header.len()), (5, COLUMNS.len() + 2));
+        assert_eq!((rows.len(), header.len()), (5, COLUMNS.split(' ').count() + 2));
         assert_eq!([&rows[1][0], &rows[1][1], &rows[1][2]], ["levee", "host", "a, \"b\""]);
         assert_eq!(&rows[1][column("bound")], "");
         let error: f64 = rows[2][column("error_energy")].parse().unwrap();

@@ -117,21 +117,18 @@ fn nothing(trade: &Trade, wish: &Wish) -> String {
     let (Some(cheapest), Some(best)) = (cheapest, best) else {
         return "No setting could be measured.".to_owned();
     };
-    let asked = match (wish.budget, wish.error) {
-        (Some(budget), Some(_)) => {
-            format!("accurate enough within {} {}", whole(budget), trade.target.cost_unit())
-        }
-        (Some(budget), None) => {
-            format!("within {} {}", whole(budget), trade.target.cost_unit())
-        }
+    let unit = trade.target.cost_unit();
+    let within = wish.budget.map(|budget| format!("within {} {unit}", whole(budget)));
+    let asked = match (within, wish.error) {
+        (Some(within), Some(_)) => format!("accurate enough {within}"),
+        (Some(within), None) => within,
         _ => "accurate enough".to_owned(),
     };
     format!(
-        "No setting measured is {asked}: the cheapest, {}, takes {} {} with an error of {:.3e}; the most accurate, {}, \
+        "No setting measured is {asked}: the cheapest, {}, takes {} {unit} with an error of {:.3e}; the most accurate, {}, \
          takes {} with {:.3e}.",
         cheapest.name,
         whole(cheapest.cost()),
-        trade.target.cost_unit(),
         cheapest.error.energy,
         best.name,
         whole(best.cost()),

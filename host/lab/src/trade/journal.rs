@@ -119,9 +119,6 @@ impl Journal {
 
     /// Deletes the journals of all shards that nobody is writing: the outputs of the study, written before,
     /// replace them.
-    ///
-    /// # Errors
-    /// A file that cannot be deleted.
     pub fn close(self) -> Result<()> {
         drop(self.file);
         journals(&self.folder)?

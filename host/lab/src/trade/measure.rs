@@ -22,7 +22,6 @@ const TICKS: usize = 100;
 /// Runs of all warm ticks.
 const RUNS: usize = 3;
 
-/// Time and sweeps of a tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Timing {
     cycles: f64,
@@ -31,9 +30,6 @@ struct Timing {
 }
 
 /// Measures `problem` as its setting says; level and cells are told by the setting.
-///
-/// # Errors
-/// A setting that the scene does not allow for.
 pub fn measure(problem: &Problem, truth: &ReferenceSolution) -> Result<Point> {
     let mut setting = completed(&problem.scene);
     // Where nothing changes from tick to tick, and where no tick goes, every solve begins anew.
@@ -45,7 +41,7 @@ pub fn measure(problem: &Problem, truth: &ReferenceSolution) -> Result<Point> {
     let (timing, answer) = with_session(problem, |session| {
         let timing = match setting.start {
             Start::Cold => cold(session, &defaults)?,
-            Start::Warm => warm(session, &spaces)?,
+            Start::Warm => warm(session, &spaces, &defaults)?,
         };
         Ok((timing, session.answer(problem)?))
     })?;
@@ -71,9 +67,7 @@ fn cold(session: &mut dyn Session, defaults: &[f64]) -> Result<Timing> {
 }
 
 /// Ticks with inputs drawn from their ranges, and a last one at the defaults, whose answer is kept.
-fn warm(session: &mut dyn Session, spaces: &[InputSpace]) -> Result<Timing> {
-    let defaults: Vec<f64> = spaces.iter().map(|space| space.default).collect();
-    let defaults = &defaults;
+fn warm(session: &mut dyn Session, spaces: &[InputSpace], defaults: &[f64]) -> Result<Timing> {
     let mut medians = Vec::new();
     let mut sweeps = Vec::new();
     for _ in 0..RUNS {

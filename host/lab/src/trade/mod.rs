@@ -6,28 +6,30 @@
 //!   records of many scenes ─► verdict (which knobs pay) ─► section of the main report
 //! ```
 
-pub mod board;
+mod board;
 pub mod campaign;
 mod digits;
-pub mod files;
+mod files;
 pub mod front;
 pub mod journal;
-pub mod math;
-pub mod measure;
+mod math;
+mod measure;
 mod meshes;
 pub mod mpi;
-pub mod picture;
-pub mod plan;
+mod picture;
+mod plan;
 pub mod promised;
-pub mod record;
-pub mod records;
-pub mod reference;
+mod record;
+pub(crate) mod records;
+mod reference;
 mod run;
-pub mod section;
+pub(crate) mod section;
 pub mod shard;
-pub mod study;
+mod study;
 pub mod table;
 pub mod target;
 #[cfg(test)]
 pub(crate) mod tests;
-pub mod verdict;
+pub(crate) mod verdict;
+
+pub use record::Trade;

@@ -43,9 +43,6 @@ impl Session {
     /// `done` is what became of this rank's shard. The result is its failure, if it failed; else, on
     /// rank 0, what `merge` returns, or the worst exit status of a shard if that is larger; elsewhere 0.
     /// A single rank that failed does not merge.
-    ///
-    /// # Errors
-    /// That of `done`, or of `merge`.
     pub fn gather(mut self, done: Result<()>, merge: impl FnOnce() -> Result<u8>) -> Result<u8> {
         let Some(ranks) = self.ranks.take() else { return Ok(0) };
         if ranks.count == 1 {

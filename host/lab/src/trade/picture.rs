@@ -17,7 +17,6 @@ const GROUPS: [fn(&Point) -> String; 4] = [
     |point| point.scalar.clone(),
 ];
 
-/// The picture of a study.
 pub fn picture(trade: &Trade) -> ParetoPlot {
     let (series, group) = series(&trade.points);
     let recommended = trade.recommendation.point.as_ref();

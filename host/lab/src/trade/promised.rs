@@ -35,39 +35,29 @@ pub const RECORD: &str = "host/benches/trade/promised.txt";
 /// The name of a table in the folder of its scene.
 pub const FILE: &str = "promised.txt";
 
-/// The firmware of a promised error on a mesh of one kind.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Taken {
-    /// The bound that must hold.
-    pub goal: Goal,
+/// The firmware of a promised error on a mesh of one kind, or why there is none.
+struct Taken {
+    goal: Goal,
     /// Which cells were refined.
-    pub refining: Refining,
-    /// Its needs, or why there is no such firmware.
-    pub found: std::result::Result<Firmware, String>,
+    refining: Refining,
+    found: std::result::Result<Firmware, String>,
 }
 
 /// A controller for the mesh.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Firmware {
-    /// The figures of the mesh.
-    pub promise: Promise,
-    /// Edges of its contact boundary.
-    pub contact: usize,
+struct Firmware {
+    promise: Promise,
+    /// Edges of the contact boundary.
+    contact: usize,
     /// The model, in a few words.
-    pub model: String,
-    /// Bytes.
-    pub ram: u64,
-    /// Bytes.
-    pub flash: u64,
+    model: String,
+    /// Bytes of RAM and of flash.
+    bytes: [u64; 2],
     /// Of the longest tick of its trial.
-    pub instructions: Option<f64>,
+    instructions: Option<f64>,
 }
 
-/// The firmware that each of these errors takes, on both kinds of meshes.
-///
-/// # Errors
-/// A scene that is wrong whatever its mesh.
-pub fn of_scene(scene: &Scene, goals: &[Goal], done: &mut dyn FnMut()) -> Result<Vec<Taken>> {
+/// The table of the firmware that each of these errors takes, on both kinds of meshes; calls `done` after each.
+pub fn table(scene: &Scene, goals: &[Goal], done: &mut dyn FnMut()) -> Result<String> {
     let mut scene = scene.clone().at_rest();
     // What the device has room for is no limit here, and the error is the one asked for.
     scene.target = None;
@@ -86,7 +76,7 @@ pub fn of_scene(scene: &Scene, goals: &[Goal], done: &mut dyn FnMut()) -> Result
             done();
         }
     }
-    Ok(all)
+    Ok(text(&scene.title, &all))
 }
 
 fn firmware(scene: &Scene, goal: Goal, refining: Refining) -> Result<Firmware> {
@@ -106,14 +96,12 @@ fn baked<R: Scalar>(problem: &Problem, promise: &Promise) -> Result<Firmware> {
         promise: promise.clone(),
         contact: problem.topology.counts.contact,
         model: format!("{}, {name}", R::NAME),
-        ram: needs.ram,
-        flash: needs.flash,
+        bytes: [needs.ram, needs.flash],
         instructions: needs.ticks[1],
     })
 }
 
-/// The table of one scene, for the terminal and for the record.
-pub fn text(title: &str, all: &[Taken]) -> String {
+fn text(title: &str, all: &[Taken]) -> String {
     let of = |name: &str, cell: fn(&Firmware) -> String| {
         Column::number(name, move |taken: &&Taken| {
             taken.found.as_ref().map_or("–".to_owned(), cell)
@@ -125,8 +113,8 @@ pub fn text(title: &str, all: &[Taken]) -> String {
         of("unknowns", |found| grouped(found.promise.unknowns as u64)),
         of("contact", |found| grouped(found.contact as u64)),
         of("bound/error", |found| format!("{:.2}", found.promise.largest)),
-        of("RAM", |found| grouped(found.ram)),
-        of("flash", |found| grouped(found.flash)),
+        of("RAM", |found| grouped(found.bytes[0])),
+        of("flash", |found| grouped(found.bytes[1])),
         of("instructions", |found| or_dash(found.instructions, |count| grouped(count as u64))),
         Column::words("model", |taken: &&Taken| {
             taken.found.as_ref().map_or("–".to_owned(), |found| found.model.clone())
@@ -162,7 +150,7 @@ mod tests {
         let model = "f32, condensed, exact method".to_owned();
         let instructions = Some(30_328.0);
         let firmware =
-            Firmware { promise, contact: 69, model, ram: 2096, flash: 33_400, instructions };
+            Firmware { promise, contact: 69, model, bytes: [2096, 33_400], instructions };
         let taken = [
             Taken { goal, refining: Refining::Marked, found: Ok(firmware) },
             Taken { goal, refining: Refining::Everywhere, found: Err("too large".to_owned()) },

@@ -55,7 +55,6 @@ pub struct Point {
     pub cells: String,
     /// Uniform refinements of the scene's mesh.
     pub level: u32,
-    /// Edges not on D.
     pub unknowns: usize,
     /// When a tick ends: `share 0.1`, `12 sweeps`, `exact`, `factor`.
     pub stop: String,
@@ -67,7 +66,6 @@ pub struct Point {
     pub omega: String,
     /// `full`, `condensed`.
     pub model: String,
-    /// Whether the bound is computed.
     pub certificate: bool,
     /// How far the answer for the default inputs is from the truth.
     pub error: PointError,
@@ -90,7 +88,6 @@ pub struct Point {
     pub flash_bytes: Option<u64>,
     /// No other point is better in both cost and error.
     pub pareto: bool,
-    /// The setting, as a scene's `[setting]` has it.
     pub setting: Setting,
 }
 
@@ -112,7 +109,6 @@ pub struct PointError {
 }
 
 impl Point {
-    /// Whether the mesh is the scene's as it stands.
     pub fn is_on_own_mesh(&self) -> bool {
         self.level == 0 && self.setting.cells.is_none() && self.setting.error.is_none()
     }
@@ -129,18 +125,14 @@ impl Point {
 /// Combinations left out for one reason.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Skipped {
-    /// Why.
     pub reason: String,
-    /// How many.
     pub count: usize,
 }
 
 /// The setting to take.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Recommendation {
-    /// A sentence.
     pub text: String,
-    /// The point.
     pub point: Option<Point>,
 }
 
@@ -154,9 +146,7 @@ pub struct FunctionCost {
     pub used_in: String,
     /// ‖A^½∇_h(u_h − ũ_h)‖ / ‖A^½∇_h u_h‖ of the change.
     pub energy: Option<f64>,
-    /// Change of the contact force.
     pub force: Option<f64>,
-    /// Change of the length of the contact set.
     pub length: Option<f64>,
     /// Sweeps more (or fewer) of a cold solve in f32; none where it is the loads that change.
     pub sweeps: Option<i64>,

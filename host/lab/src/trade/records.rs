@@ -24,18 +24,13 @@ pub const SIZES: &str = "sizes.json";
 /// The studies in that folder, by the names of the scenes.
 #[derive(Debug, Clone, Default)]
 pub struct Records {
-    /// Costs on the host.
     pub host: Vec<Trade>,
-    /// Costs on the Cortex-M4F.
     pub m4f: Vec<Trade>,
     /// Other solvers over the size of the problem.
     pub sizes: Option<Sizes>,
 }
 
 /// Reads whatever records there are in `folder`.
-///
-/// # Errors
-/// A record that cannot be read, with its name.
 pub fn read(folder: &Path) -> Result<Records> {
     Ok(Records {
         host: read_folder(&folder.join("host"))?,

@@ -43,9 +43,6 @@ impl Study {
     /// Measures what no journal knows, and puts it together; `None` where other processes have the rest. Where cases
     /// are shared `by_scene`, all of this one are this process's. `done` hears of every case: how many there are, and
     /// what it was.
-    ///
-    /// # Errors
-    /// Wrong input, files that cannot be written.
     pub fn run(
         &self,
         shard: Shard,

@@ -1,20 +1,19 @@
 //! The records of all scenes as the main report shows them.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
-use super::digits::{or_dash, percent};
+use super::digits::or_dash;
 use super::front::sentence;
 use super::picture::picture;
 use super::record::{Point, Trade};
 use super::records::Records;
-use super::table::{baselines, costs, front, math, skipped};
+use super::table::{ERRORS, costs, front, further, skipped};
 use super::target::Target;
 use super::verdict::{certificate, knob_values, sentences};
 use crate::baseline;
 use crate::baseline::Baseline;
 use signorini_draw::{Column, Table, TradePanel, TradeStudy, Tradeoff, plain};
 
-/// Everything of the section.
 pub fn section(records: &Records) -> Tradeoff {
     let all = || records.host.iter().chain(&records.m4f);
     let mut findings = sentences(&knob_values(all()));
@@ -29,51 +28,40 @@ pub fn section(records: &Records) -> Tradeoff {
     }
 }
 
-/// One scene: its study on the host and that on the M4F.
-type Scene<'r> = [Option<&'r Trade>; 2];
+/// A scene by its name: its study on the host and that on the M4F.
+type Scene<'r> = (&'r str, [Option<&'r Trade>; 2]);
 
-/// The scenes of both targets by name.
+/// The scenes of both targets in the order of their names.
 fn scenes(records: &Records) -> Vec<Scene<'_>> {
-    let all = records.host.iter().chain(&records.m4f);
-    let names: BTreeSet<&str> = all.map(|trade| trade.scene.as_str()).collect();
-    let both = |name| [named(&records.host, name), named(&records.m4f, name)];
-    names.into_iter().map(both).collect()
-}
-
-fn named<'t>(trades: &'t [Trade], name: &str) -> Option<&'t Trade> {
-    trades.iter().find(|trade| trade.scene == name)
+    let mut scenes = BTreeMap::<&str, [Option<&Trade>; 2]>::new();
+    for (at, trades) in [&records.host, &records.m4f].into_iter().enumerate() {
+        for trade in trades {
+            scenes.entry(&trade.scene).or_default()[at].get_or_insert(trade);
+        }
+    }
+    scenes.into_iter().collect()
 }
 
 /// A row for each scene: what to take, and how much longer general solvers take.
 fn summary(scenes: &[Scene]) -> Table {
-    let name = |scene: &&Scene| {
-        let trade = scene.iter().flatten().next();
-        trade.map(|trade| trade.scene.clone()).unwrap_or_default()
-    };
     let number = |name: &str, at: usize, text: fn(&Trade, &Point) -> String| {
-        Column::number(name, move |scene: &&Scene| taken(scene[at], text))
+        Column::number(name, move |(_, on): &&Scene| taken(on[at], text))
     };
     let setting = |name: &str, at: usize| {
-        Column::words(name, move |scene: &&Scene| taken(scene[at], |_, point| point.name.clone()))
+        Column::words(name, move |(_, on): &&Scene| taken(on[at], |_, point| point.name.clone()))
     };
     let mut columns = vec![
-        Column::words("scene", name),
+        Column::words("scene", |(name, _): &&Scene| (*name).to_owned()),
         setting("take on the host", 0),
-        number("error of u_h %", 0, |trade, point| percent(point.error.energy, trade.energy)),
-        number("error of s, τ %", 0, |trade, point| {
-            or_dash(point.error.combined, |error| percent(error, trade.energy))
-        }),
-        number("bound of s, τ %", 0, |trade, point| {
-            or_dash(point.bound, |bound| percent(bound, trade.energy))
-        }),
-        number("cycles/unknown", 0, |_, point| plain(point.cycles_per_unknown)),
-        setting("take on the M4F", 1),
     ];
+    columns.extend(ERRORS.map(|(name, text)| number(name, 0, text)));
+    columns.push(number("cycles/unknown", 0, |_, point| plain(point.cycles_per_unknown)));
+    columns.push(setting("take on the M4F", 1));
     columns.extend(costs(Target::M4f).iter().map(|&(name, text)| {
-        Column::number(name, move |scene: &&Scene| taken(scene[1], |_, point| text(point)))
+        Column::number(name, move |(_, on): &&Scene| taken(on[1], |_, point| text(point)))
     }));
     columns.extend(["Clarabel", "OSQP"].map(|solver| {
-        Column::number(solver, move |scene: &&Scene| or_dash(warm_ratio(scene[0], solver), times))
+        Column::number(solver, move |(_, on): &&Scene| or_dash(warm_ratio(on[0], solver), times))
     }));
     Table::new(&columns, scenes)
 }
@@ -96,10 +84,10 @@ fn times(ratio: f64) -> String {
     format!("{}×", super::digits::cost(ratio))
 }
 
-fn panel(scene: &Scene) -> TradePanel {
-    let trades = || scene.iter().flatten();
+fn panel((name, on): &Scene) -> TradePanel {
+    let trades = || on.iter().flatten();
     TradePanel {
-        name: trades().next().map(|trade| trade.scene.clone()).unwrap_or_default(),
+        name: (*name).to_owned(),
         title: trades().next().map(|trade| trade.title.clone()).unwrap_or_default(),
         studies: trades().map(|trade| study(trade)).collect(),
     }
@@ -114,10 +102,7 @@ fn study(trade: &Trade) -> TradeStudy {
         notes: [truth].into_iter().chain(skipped(trade)).collect(),
         picture: picture(trade),
         front: front(trade),
-        further: vec![
-            ("Other solvers on the same matrices".to_owned(), baselines(trade)),
-            ("What micromath does to the solution".to_owned(), math(trade)),
-        ],
+        further: further(trade).into(),
     }
 }
 

@@ -2,28 +2,25 @@
 
 use std::path::{Path, PathBuf};
 
-use super::board;
 use super::journal::{Journal, digest, program};
 use super::meshes::Meshes;
 use super::shard::Shard;
 use super::target::Target;
 use crate::checkout::root;
 use signorini_bake::module_api::ModuleApi;
+use signorini_image::board::M4F;
+use signorini_image::tools;
 use signorini_problem::Problem;
 use signorini_scene::scene::term::at_rest_warning;
 use signorini_scene::setting::Precision;
-use signorini_scene::{Result, Scene};
+use signorini_scene::{Error, Result, Scene};
 
 /// A study: a scene, whose cost decides, where it goes, and which cases are this process's.
 #[derive(Debug, Clone)]
 pub struct Study {
-    /// The scene, its data at t = 0.
     pub scene: Scene,
-    /// Its name.
     pub name: String,
-    /// Whose cost decides.
     pub target: Target,
-    /// The folder of its files.
     pub folder: PathBuf,
     /// Whether other solvers and micromath are studied too.
     pub with_peers: bool,
@@ -32,15 +29,11 @@ pub struct Study {
 }
 
 impl Study {
-    /// Opens the scene at `path`.
-    ///
-    /// # Errors
-    /// A scene that cannot be read; a board, and no checkout with its images.
     pub fn open(path: &Path, target: Target, folder: PathBuf, with_peers: bool) -> Result<Self> {
         if target.board().is_some() {
             // A board without the sources is no reason to leave a setting out, but all of them.
             root()?;
-            board::ready()?;
+            tools::ensure(&[M4F.triple]).map_err(Error::Check)?;
         }
         let read = Scene::read(path)?;
         let at_rest = at_rest_warning(&read);
@@ -65,9 +58,6 @@ impl Study {
     }
 
     /// Deletes what only an interrupted study needs.
-    ///
-    /// # Errors
-    /// A journal that cannot be deleted.
     pub fn close(&self) -> Result<()> {
         self.journal(Shard::WHOLE, &mut Meshes::new(&self.scene)?)?.close()?;
         // It stays where somebody else keeps something in it, such as a shard that still runs.

@@ -15,7 +15,10 @@ pub fn front(trade: &Trade) -> Table {
     points.sort_by(|a, b| a.cost().total_cmp(&b.cost()));
     let taken = trade.recommendation.point.as_ref();
     let chosen = taken.and_then(|taken| points.iter().position(|point| point.name == taken.name));
-    let of_energy = |part: f64| percent(part, trade.energy);
+    let error = |at: usize| {
+        let (name, text) = ERRORS[at];
+        Column::number(name, move |point: &&Point| text(trade, point))
+    };
     let mut columns = vec![
         Column::words("setting", |point: &&Point| point.name.clone()),
         Column::number("unknowns", |point: &&Point| grouped(point.unknowns as u64)),
@@ -30,12 +33,10 @@ pub fn front(trade: &Trade) -> Table {
             .map(|&(name, text)| Column::number(name, move |point: &&Point| text(point))),
     );
     columns.extend([
-        Column::number("error of u_h %", |point: &&Point| of_energy(point.error.energy)),
+        error(0),
         Column::number("force %", |point: &&Point| percent(point.error.force, trade.force)),
-        Column::number("error of s, τ %", |point: &&Point| {
-            or_dash(point.error.combined, of_energy)
-        }),
-        Column::number("bound of s, τ %", |point: &&Point| or_dash(point.bound, of_energy)),
+        error(1),
+        error(2),
         Column::number("bound/error", |point: &&Point| {
             let both = point.bound.zip(point.error.combined);
             or_dash(both.map(|(bound, error)| bound / error), plain)
@@ -43,6 +44,17 @@ pub fn front(trade: &Trade) -> Table {
     ]);
     Table::new(&columns, points).choosing(chosen)
 }
+
+type ErrorColumn = (&'static str, fn(&Trade, &Point) -> String);
+
+/// Errors and the bound in percent of the energy norm.
+pub const ERRORS: [ErrorColumn; 3] = [
+    ("error of u_h %", |trade, point| percent(point.error.energy, trade.energy)),
+    ("error of s, τ %", |trade, point| {
+        or_dash(point.error.combined, |error| percent(error, trade.energy))
+    }),
+    ("bound of s, τ %", |trade, point| or_dash(point.bound, |bound| percent(bound, trade.energy))),
+];
 
 /// A cost of a point: its name and its text.
 pub type CostColumn = (&'static str, fn(&Point) -> String);
@@ -61,8 +73,16 @@ pub fn costs(target: Target) -> &'static [CostColumn] {
     if target == Target::Host { &ON_HOST } else { &ON_BOARD }
 }
 
-/// Other solvers on the same matrices.
-pub fn baselines(trade: &Trade) -> Table {
+/// The tables beside the front, with their headings.
+pub fn further(trade: &Trade) -> [(String, Table); 2] {
+    let named = |heading: &str, table| (heading.to_owned(), table);
+    [
+        named("Other solvers on the same matrices", baselines(trade)),
+        named("What micromath does to the solution", math(trade)),
+    ]
+}
+
+fn baselines(trade: &Trade) -> Table {
     let columns = [
         Column::words("solver", |solver: &&Baseline| solver.solver.clone()),
         Column::words("problem", |solver: &&Baseline| solver.problem.clone()),
@@ -78,8 +98,7 @@ pub fn baselines(trade: &Trade) -> Table {
     Table::new(&columns, &trade.baselines)
 }
 
-/// The effect of the functions of micromath on the solution.
-pub fn math(trade: &Trade) -> Table {
+fn math(trade: &Trade) -> Table {
     let change = |part: Option<f64>| or_dash(part, |part| percent(part, 1.0));
     let columns = [
         Column::words("function", |of: &&FunctionCost| of.function.clone()),
@@ -120,11 +139,7 @@ pub fn text(trade: &Trade) -> String {
         front(trade).text()
     );
     let _ = writeln!(text, "errors: true ones, {}; force: of the contact force", trade.truth);
-    let further = [
-        ("Other solvers on the same matrices", baselines(trade)),
-        ("What micromath does to the solution", math(trade)),
-    ];
-    for (heading, table) in further.iter().filter(|(_, table)| !table.rows.is_empty()) {
+    for (heading, table) in further(trade).iter().filter(|(_, table)| !table.rows.is_empty()) {
         let _ = write!(text, "\n{heading}\n{}", table.text());
     }
     trade.notes.iter().for_each(|note| text += &format!("* {note}\n"));

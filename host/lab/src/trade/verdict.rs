@@ -42,13 +42,10 @@ pub struct KnobValue {
     pub target: Target,
     /// The knob: `scalar`, `level`, …
     pub knob: &'static str,
-    /// Its value.
     pub value: String,
     /// Studies in which it could be chosen.
     pub studies: usize,
-    /// Points measured with it there.
     pub points: usize,
-    /// How many of them are on a front.
     pub on_front: usize,
 }
 

@@ -1,7 +1,7 @@
 //! All solvers on problems whose fluxes have limits: answers are those of the kernel's solve, and of each other.
 
 use crate::trade::tests::problem;
-use signorini_problem::Parts;
+use signorini_problem::{Loads, Parts};
 use signorini_scene::Result;
 use signorini_solve::{Options, SolverKind, solve};
 use signorini_tolerances::lab::{CLARABEL_LIMITED, PIVOTING_LIMITED};
@@ -10,10 +10,9 @@ use super::super::benchmark::Benchmark;
 use super::super::clarabel::Clarabel;
 use super::super::condensed::condensed;
 use super::super::discretisation_error;
-use super::super::full::quadratic;
-use super::super::load_case::LoadCase;
-use super::super::program::Program;
-use super::super::quadratic::{Matrix, Quadratic, QuadraticLoads};
+use super::super::load_case::load_cases;
+use super::super::psor::quadratic;
+use super::super::quadratic::{Matrix, Program, Quadratic, QuadraticLoads};
 use super::super::series::{InitialGuess, TimedSolver};
 
 /// The unknowns one by one, relative to the largest.
@@ -29,7 +28,7 @@ fn check(name: &str, found: &[f64], u: &[f64]) {
 fn clarabel_agrees_where_fluxes_have_limits() -> Result<()> {
     for name in ["limits/l-tri", "limits/l-quad", "scenes/antiicing"] {
         let problem = problem(name);
-        let here = [LoadCase::at(&problem.scene, problem.time)];
+        let here = [Loads::at_time(&problem, problem.time)?];
         let (full, factor) = quadratic(&problem, &Parts::examine(&problem)?, &here)?;
         let solution =
             solve(&problem, &Options { solver: SolverKind::Kernel, ..Options::default() })?;
@@ -53,17 +52,11 @@ fn clarabel_agrees_where_fluxes_have_limits() -> Result<()> {
 fn all_solvers_follow_limits_from_tick_to_tick() -> Result<()> {
     for name in ["limits/l-tri", "scenes/antiicing"] {
         let (problem, mut notes) = (problem(name), Vec::new());
-        let moments = LoadCase::drawn(&problem, 3);
+        let moments = load_cases(&problem, 3)?;
         let (full, _) = quadratic(&problem, &Parts::examine(&problem)?, &moments)?;
         let size = full.distance(0, &vec![0.0; full.matrix.order()]);
-        let found = Benchmark {
-            problem: &problem,
-            moments: &moments,
-            target: 1e-2 * discretisation_error(&problem, &mut notes)?,
-            osqp: None,
-            coarser: &[],
-        }
-        .hold(&mut notes)?;
+        let error = discretisation_error(&problem, &mut notes)?;
+        let found = Benchmark::new(&problem, &moments, error).hold(&mut notes)?;
         assert!(found.iter().all(|b| b.algebraic_error <= b.target), "{name}: {found:?}");
         // Sweeps in two scalars, each with two ω, the active set with and without its factor, Clarabel; and condensed
         // Clarabel and exchanges in two scalars: all of them cold and warm.

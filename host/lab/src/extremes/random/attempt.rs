@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::case::{RandomCase, Way};
+use signorini_certify::ErrorBound;
 use signorini_problem::{Approach, Problem};
 use signorini_scene::setting::ModelKind;
 use signorini_scene::{Error, Result, Scene};
@@ -17,13 +18,17 @@ pub struct Attempt {
     pub answer: Solution,
 }
 
+/// An answer in units in which its numbers are near 1.
+pub struct Held<'a> {
+    pub case: &'a RandomCase,
+    pub problem: &'a Problem,
+    pub answer: &'a Solution,
+    pub bound: ErrorBound,
+}
+
 /// Updates of unknowns that a solve may take.
 const UPDATES: f64 = 1e9;
 
-/// Solves `case`.
-///
-/// # Errors
-/// Input that is refused.
 pub fn attempt(case: &RandomCase) -> Result<Attempt> {
     let scene = Scene::parse(&case.scene, Path::new("scene.toml"))?;
     let problem = Problem::new(&scene, case.mesh.clone())?;
@@ -81,7 +86,6 @@ fn ticks(case: &RandomCase, problem: Problem) -> Result<Attempt> {
 }
 
 impl Attempt {
-    /// Whether every number is finite.
     pub fn is_finite(&self) -> bool {
         let Solution { u, flux, contact_force, bound, certified, .. } = &self.answer;
         let parts = [u, flux, &certified.vertices, &certified.bubbles, &certified.tau];

@@ -14,7 +14,6 @@ use signorini_problem::random::Random;
 use signorini_scene::Mesh;
 use signorini_solve::ScalarKind;
 
-/// Where its truth comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Yardstick {
@@ -27,7 +26,6 @@ pub enum Yardstick {
     Finer,
 }
 
-/// The solver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Way {
@@ -44,41 +42,30 @@ pub enum Way {
     Condensed,
 }
 
-/// How it is solved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Effort {
-    /// The solver.
     pub way: Way,
-    /// In which scalar.
     pub scalar: ScalarKind,
     /// A limit on the sweeps that may cut it off.
     pub sweeps: Option<u32>,
     /// Inputs of earlier ticks, whatever became of them.
     pub earlier: Vec<Vec<f64>>,
-    /// Inputs of the tick that is judged.
     pub inputs: Vec<f64>,
 }
 
-/// One case.
 #[derive(Debug, Clone)]
 pub struct RandomCase {
-    /// Its number in the run.
     pub number: u32,
     /// The feature of its data, in every other case.
     pub feature: Option<Feature>,
     /// Lines along which a finer mesh is cut for that.
     pub lines: Vec<Line>,
-    /// Where its truth comes from.
     pub truth: Yardstick,
-    /// The condition that holds it.
     pub hold: Hold,
-    /// The kind of its cells.
     pub kind: Kind,
     /// The scene, whose mesh is `mesh.msh` beside it.
     pub scene: String,
-    /// That mesh.
     pub mesh: Mesh,
-    /// How it is solved.
     pub effort: Effort,
 }
 
@@ -114,7 +101,6 @@ impl RandomCase {
     }
 }
 
-/// Whether it is a tick.
 fn ticks(way: Way) -> bool {
     matches!(way, Way::Full | Way::Condensed)
 }

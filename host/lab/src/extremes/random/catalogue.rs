@@ -8,7 +8,6 @@ use crate::extremes::solution::{Shear, Solution};
 use signorini_problem::random::Random;
 use signorini_scene::mesh::structured::Cells;
 
-/// Draws one.
 pub(super) fn draw(random: &mut Random, plan: &MeshPlan) -> Posed {
     let solution = match random.below(12) {
         0..3 => Solution::Jump(random.log(1e-10, 1e10)),
@@ -26,19 +25,12 @@ pub(super) fn draw(random: &mut Random, plan: &MeshPlan) -> Posed {
     posed(random, plan, solution)
 }
 
-/// Draws how one is posed.
 pub(super) fn posed(random: &mut Random, plan: &MeshPlan, solution: Solution) -> Posed {
     let sides = sides(random, solution);
-    let known = Known {
-        solution,
-        shear: shear(random, solution),
-        // Names its sides as the random mesh does; its own mesh is not taken.
-        grid: Grid { n: 1, cells: Cells::Quads, shape: Shape::Square },
-        scales: scales(random),
-        sides,
-        split: None,
-        ends: None,
-    };
+    // Names its sides as the random mesh does; its own mesh is not taken.
+    let grid = Grid { n: 1, cells: Cells::Quads, shape: Shape::Square };
+    let shear = shear(random, solution);
+    let known = Known { shear, scales: scales(random), sides, ..Known::new(solution, grid) };
     let plan = MeshPlan { regions: Regions::Halves, split: false, ..*plan };
     let mesh = known.scales.placed(mesh::draw(random, &plan).mesh);
     let of = |wanted: fn(&Side) -> bool| sides.iter().any(wanted);

@@ -87,7 +87,6 @@ impl Parts {
         half
     }
 
-    /// How far a vertex is off a line.
     fn off(&self, vertex: u32, line: Line) -> f64 {
         let off = self.vertices[vertex as usize][line.axis] - line.at;
         if off.abs() <= ON { 0.0 } else { off }

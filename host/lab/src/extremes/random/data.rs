@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-use super::function::{Frame, Function, Rough};
+use super::function::{Function, Rough};
 use super::mesh::{self, MeshPlan};
 use super::posed::{Ends, Hold, Posed, span, turned};
 use signorini_problem::random::Random;
@@ -21,12 +21,11 @@ pub(super) fn draw(random: &mut Random, plan: &MeshPlan, moving: bool) -> Posed 
         ],
     };
     let drawn = mesh::draw(random, &MeshPlan { map, ..*plan });
-    let frame = Frame { centre: [0.0; 2], length };
     let size = if random.chance(0.2) { random.log(1e-8, 1e8) } else { 1.0 };
     let names: Vec<&str> = drawn.mesh.curves.iter().map(|curve| curve.name.as_str()).collect();
     let steepest = random.pick(&[1.5, 1.5, 10.0, 1e3]);
     let (text, inputs) = (String::new(), Vec::new());
-    let mut scene = Scene { random, frame, size, steepest, moving, text, inputs };
+    let mut scene = Scene { random, length, size, steepest, moving, text, inputs };
     scene.text += "title = \"random\"\nmesh = \"mesh.msh\"\n";
     let stiffness = scene.materials(&drawn.mesh);
     let hold = scene.boundaries(&names, stiffness);
@@ -36,7 +35,7 @@ pub(super) fn draw(random: &mut Random, plan: &MeshPlan, moving: bool) -> Posed 
 
 struct Scene<'r> {
     random: &'r mut Random,
-    frame: Frame,
+    length: f64,
     /// Of u.
     size: f64,
     /// How often a wave or a layer of boundary data fits into the domain at most; of f not more often than 10 times.
@@ -76,7 +75,7 @@ impl Scene<'_> {
             false => turned([size * ratio.sqrt(), size / ratio.sqrt()], along),
         };
         let factor = match random.below(6) {
-            0 => Function::draw(random, self.frame, Rough::Kinked, 4.0).value(),
+            0 => Function::draw(random, self.length, Rough::Kinked, 4.0).value(),
             _ => String::new(),
         };
         entries.map(|entry| match factor.is_empty() || entry == 0.0 {
@@ -87,25 +86,24 @@ impl Scene<'_> {
 
     fn function(&mut self, size: f64, rough: Rough, most: f64) -> String {
         let steepest = self.steepest.min(most);
-        Function::draw(self.random, self.frame, rough, steepest).times(size).value()
+        Function::draw(self.random, self.length, rough, steepest).times(size).value()
     }
 
-    /// The load and the conditions.
     fn boundaries(&mut self, names: &[&str], stiffness: f64) -> Hold {
         let wanted = match self.random.below(10) {
             0..6 => Hold::Dirichlet,
             6..8 => Hold::Robin,
             _ => Hold::Contact,
         };
-        let flux = self.size * stiffness / self.frame.length;
+        let flux = self.size * stiffness / self.length;
         let share = if wanted == Hold::Contact { 0.2 } else { 1.0 };
         let f = match self.random.chance(0.6) {
-            true => self.function(share * flux / self.frame.length, Rough::Jumping, 10.0),
+            true => self.function(share * flux / self.length, Rough::Jumping, 10.0),
             false => "0".to_owned(),
         };
         let _ = writeln!(self.text, "[source]\nf = \"{f}\"");
         if self.moving && self.random.chance(0.5) {
-            self.input("source", "f", flux / self.frame.length);
+            self.input("source", "f", flux / self.length);
         }
         let value = self.function(self.size, Rough::Kinked, 1e3);
         let holding = self.random.below(names.len() as u32) as usize;

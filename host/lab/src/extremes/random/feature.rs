@@ -51,7 +51,6 @@ pub enum Feature {
 }
 
 impl Feature {
-    /// All features.
     pub const ALL: [Self; 14] = [
         Self::Source,
         Self::Flux,

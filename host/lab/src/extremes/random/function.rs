@@ -28,7 +28,6 @@ enum Shape {
     Step,
 }
 
-/// How rough a function may be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rough {
     /// Two derivatives that are continuous.
@@ -48,34 +47,11 @@ struct Term {
     offset: f64,
 }
 
-/// A sum of such terms, in coordinates about `centre` in units of `length`.
+/// A sum of such terms, in coordinates in units of `length`, the size of the domain: z changes by about 1 there.
 #[derive(Debug, Clone)]
 pub struct Function {
     terms: Vec<Term>,
-    frame: Frame,
-}
-
-/// Where the domain lies and how large it is: z changes by about 1 there.
-#[derive(Debug, Clone, Copy)]
-pub struct Frame {
-    /// A point of the domain.
-    pub centre: [f64; 2],
-    /// Its size.
-    pub length: f64,
-}
-
-impl Frame {
-    /// (−1, 1) × (0, 1)
-    pub const RECTANGLE: Self = Self { centre: [0.0; 2], length: 1.0 };
-
-    /// A coordinate as an operand.
-    fn operand(&self, axis: usize) -> String {
-        let name = ["x", "y"][axis];
-        if self.centre == [0.0; 2] && self.length == 1.0 {
-            return name.to_owned();
-        }
-        format!("(({name} - {:e})/{:e})", self.centre[axis], self.length)
-    }
+    length: f64,
 }
 
 impl Shape {
@@ -98,22 +74,14 @@ impl Shape {
     }
 
     fn draw(random: &mut Random, rough: Rough) -> Self {
-        const SMOOTH: [Shape; 8] = [
-            Shape::Constant,
-            Shape::Linear,
-            Shape::Quadratic,
-            Shape::Cubic,
-            Shape::Sine,
-            Shape::Layer,
-            Shape::Bell,
-            Shape::Hump,
-        ];
+        use Shape::{Bell, Constant, Cubic, Hump, Layer, Linear, Quadratic, Sine};
+        let smooth = [Constant, Linear, Quadratic, Cubic, Sine, Layer, Bell, Hump];
         match rough {
             Rough::Jumping if random.chance(0.1) => Self::Step,
             Rough::Kinked | Rough::Jumping if random.chance(0.2) => {
                 random.pick(&[Self::Kink, Self::Corner])
             }
-            _ => random.pick(&SMOOTH),
+            _ => random.pick(&smooth),
         }
     }
 }
@@ -144,15 +112,15 @@ impl Term {
 
 impl Function {
     /// One to three terms of size 1.
-    pub fn draw(random: &mut Random, frame: Frame, rough: Rough, steepest: f64) -> Self {
+    pub fn draw(random: &mut Random, length: f64, rough: Rough, steepest: f64) -> Self {
         let count = 1 + random.below(3);
         let terms = (0..count).map(|_| Term::draw(random, rough, steepest)).collect();
-        Self { terms, frame }
+        Self { terms, length }
     }
 
     /// A smooth function of the coordinate `axis` alone.
     pub fn draw_along(random: &mut Random, axis: usize, steepest: f64) -> Self {
-        let mut function = Self::draw(random, Frame::RECTANGLE, Rough::Smooth, steepest);
+        let mut function = Self::draw(random, 1.0, Rough::Smooth, steepest);
         for term in &mut function.terms {
             let steep = term.wave[0].hypot(term.wave[1]);
             term.wave = [0.0; 2];
@@ -162,32 +130,31 @@ impl Function {
     }
 
     /// The function, `factor` times as large.
-    #[must_use]
     pub fn times(mut self, factor: f64) -> Self {
         self.terms.iter_mut().for_each(|term| term.factor *= factor);
         self
     }
 
-    /// Its value.
     pub fn value(&self) -> String {
         self.sum(0, |_| 1.0)
     }
 
     /// ∂/∂x or ∂/∂y.
     pub fn slope(&self, axis: usize) -> String {
-        let length = self.frame.length;
-        self.sum(1, |term| term.wave[axis] / length)
+        self.sum(1, |term| term.wave[axis] / self.length)
     }
 
-    /// A second derivative.
     pub fn second(&self, axes: [usize; 2]) -> String {
-        let length = self.frame.length;
-        self.sum(2, |term| term.wave[axes[0]] / length * (term.wave[axes[1]] / length))
+        self.sum(2, |term| term.wave[axes[0]] / self.length * (term.wave[axes[1]] / self.length))
     }
 
     /// Σ c · weight · φ⁽ᵒʳᵈᵉʳ⁾(z), in parentheses.
     fn sum(&self, order: usize, weight: impl Fn(&Term) -> f64) -> String {
-        let [x, y] = [0, 1].map(|axis| self.frame.operand(axis));
+        let operand = |name: &str| match self.length {
+            1.0 => name.to_owned(),
+            length => format!("(({name} - 0e0)/{length:e})"),
+        };
+        let [x, y] = ["x", "y"].map(operand);
         let mut texts = Vec::new();
         for term in &self.terms {
             let [a, b] = term.wave;

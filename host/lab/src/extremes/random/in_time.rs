@@ -9,15 +9,15 @@ use serde::{Deserialize, Serialize};
 
 use super::mesh::Kind;
 use super::posed::Hold;
+use super::step::Judged;
 use super::trajectory::Trajectory;
-use super::window::{JudgedTrajectory, JudgedWindow, judged};
+use super::window::{JudgedTrajectory, judged};
 use crate::extremes::judge::INTEGRATED;
-use crate::extremes::kept::Kept;
+use crate::extremes::kept::{Findings, Kept};
 use crate::extremes::watch::watched;
-use crate::record_file;
+use crate::record_file::{csv, indented};
 use signorini_files::atomic::write_atomically;
-use signorini_problem::threads::on_two_threads;
-use signorini_scene::error::{Error, Result};
+use signorini_scene::error::Result;
 use signorini_scene::mesh::gmsh::write as msh;
 use signorini_solve::ScalarKind;
 
@@ -26,90 +26,79 @@ const LIMIT: Duration = Duration::from_secs(1800);
 
 /// A line of `trajectories.csv`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct Row {
-    /// Its number.
-    pub case: u32,
-    /// The condition that holds it.
-    pub hold: Hold,
-    /// Its cells.
-    pub cells: Kind,
-    /// Its scalar.
-    pub scalar: ScalarKind,
+struct Row {
+    case: u32,
+    hold: Hold,
+    cells: Kind,
+    scalar: ScalarKind,
     /// Whether it starts from a steady state.
-    pub was_steady: bool,
-    /// A limit on the sweeps of each step.
-    pub limit: Option<u32>,
+    was_steady: bool,
+    limit: Option<u32>,
     /// λ dt
-    pub rate: Option<f64>,
+    rate: Option<f64>,
     /// Ticks whose bound over time was judged.
-    pub ticks: usize,
+    ticks: usize,
     /// The largest part of a bound over time that the finer answer proves to be error.
-    pub error_over_window: Option<f64>,
+    error_over_window: Option<f64>,
     /// The bound over time over the error, at its largest of all ticks and at the last one.
-    pub window_over_error: Option<f64>,
+    window_over_error: Option<f64>,
     /// See `window_over_error`.
-    pub at_last: Option<f64>,
+    at_last: Option<f64>,
     /// As `error_over_window`, of the condensed controller.
-    pub condensed_error_over_window: Option<f64>,
+    condensed_error_over_window: Option<f64>,
     /// As `at_last`, of the condensed controller.
-    pub condensed_at_last: Option<f64>,
+    condensed_at_last: Option<f64>,
     /// The part of the last step's bound that the finer answer proves to be error.
-    pub error_over_step: Option<f64>,
+    error_over_step: Option<f64>,
     /// The bound of the last step over its error.
-    pub step_over_error: Option<f64>,
+    step_over_error: Option<f64>,
     /// Why the last tick has no bound, or what went wrong.
-    pub note: String,
-    /// What is broken.
-    pub broken: String,
+    note: String,
+    broken: String,
 }
 
 /// The findings of a run, as `trajectories.json` holds them.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct Record {
-    /// Its seed.
-    pub seed: u64,
-    /// How many trajectories it drew.
-    pub cases: usize,
+struct Record {
+    seed: u64,
+    cases: usize,
     /// How many of them have a bound over time, and in how many ticks in all.
-    pub with_window: usize,
+    with_window: usize,
     /// See `with_window`.
-    pub ticks: usize,
+    ticks: usize,
     /// How many of them were played by a condensed controller as well, with such a bound.
-    pub condensed: usize,
+    condensed: usize,
     /// How many steps have a bound and were judged.
-    pub steps: usize,
+    steps: usize,
     /// Least, median and largest of what is judged, by its kind.
-    pub spreads: BTreeMap<String, [f64; 3]>,
+    spreads: BTreeMap<String, [f64; 3]>,
     /// What stands in the way of a bound, and how often.
-    pub without: BTreeMap<String, usize>,
+    without: BTreeMap<String, usize>,
     /// Cases that break a bound or fail, with their numbers.
-    pub violations: BTreeMap<u32, String>,
+    violations: BTreeMap<u32, String>,
 }
 
 /// Draws these trajectories of a seed and runs in two threads those that are not yet `kept`; calls `done` after each.
-///
-/// # Errors
-/// Finished cases cannot be kept.
 pub fn run(
     seed: u64,
     cases: RangeInclusive<u32>,
     kept: &Kept,
     done: impl Fn() + Sync,
-) -> Result<Vec<Row>> {
-    let key = |number: u32| format!("trajectory {number} of {seed}");
-    let work = |&number: &u32| kept.row(&key(number), || Ok(row(seed, number)));
-    let mut rows = on_two_threads(&cases.collect::<Vec<_>>(), work, done)?;
-    rows.sort_by_key(|row| row.case);
-    Ok(rows)
+) -> Result<Findings> {
+    let key = |number| format!("trajectory {number} of {seed}");
+    let rows = kept.rows(cases, key, |number| row(seed, number), done)?;
+    let record = Record::new(seed, &rows);
+    let files = vec![
+        ("trajectories.json", indented(&record).into_bytes()),
+        ("trajectories.csv", csv("trajectories.csv", &rows)?),
+    ];
+    let wrong = record.violations.keys().copied().collect();
+    Ok(Findings { files, text: record.text(), wrong })
 }
 
 /// Writes scene, mesh and log of a trajectory into `folder`: `signorini tick scene.toml --log log.csv` plays it.
-///
-/// # Errors
-/// Files that cannot be written.
 pub fn write(seed: u64, number: u32, folder: &Path) -> Result<()> {
     let case = Trajectory::draw(seed, number);
-    std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
     let names: String = (0..case.on_line.len()).map(|at| format!(",p{at}")).collect();
     let lines = case.log.iter().zip(1..).map(|(values, tick)| {
         let values: String = values.iter().map(|value| format!(",{value:?}")).collect();
@@ -135,23 +124,21 @@ fn row(seed: u64, number: u32) -> Row {
 
 impl Row {
     fn with(self, found: &JudgedTrajectory) -> Self {
-        let over = |of: &JudgedWindow| of.window / of.apart;
-        let largest = |all: &[JudgedWindow], of: &dyn Fn(&JudgedWindow) -> f64| {
-            all.iter().map(of).filter(|ratio| !ratio.is_nan()).reduce(f64::max)
-        };
         let finite = |ratio: f64| ratio.is_finite().then_some(ratio);
+        let largest = |all: &[Judged], of: fn(&Judged) -> f64| {
+            all.iter().map(of).filter(|ratio| !ratio.is_nan()).reduce(f64::max).and_then(finite)
+        };
+        let last = |all: &[Judged]| all.last().and_then(|of| finite(of.bound_over_error()));
         let row = Self {
             rate: found.rate,
             ticks: found.windows.len(),
-            error_over_window: largest(&found.windows, &JudgedWindow::least_over_bound)
-                .and_then(finite),
-            window_over_error: largest(&found.windows, &over).and_then(finite),
-            at_last: found.windows.last().map(over).and_then(finite),
-            condensed_error_over_window: largest(&found.condensed, &JudgedWindow::least_over_bound)
-                .and_then(finite),
-            condensed_at_last: found.condensed.last().map(over).and_then(finite),
-            error_over_step: found.step.and_then(|of| finite((of.apart - of.finer) / of.total)),
-            step_over_error: found.step.and_then(|of| finite(of.ratio())),
+            error_over_window: largest(&found.windows, Judged::error_over_bound),
+            window_over_error: largest(&found.windows, Judged::bound_over_error),
+            at_last: last(&found.windows),
+            condensed_error_over_window: largest(&found.condensed, Judged::error_over_bound),
+            condensed_at_last: last(&found.condensed),
+            error_over_step: found.step.and_then(|of| finite(of.error_over_bound())),
+            step_over_error: found.step.and_then(|of| finite(of.bound_over_error())),
             note: found.no_bound.clone().unwrap_or_default(),
             ..self
         };
@@ -168,8 +155,7 @@ impl Row {
 }
 
 impl Record {
-    /// Sums up `rows`.
-    pub fn new(seed: u64, rows: &[Row]) -> Self {
+    fn new(seed: u64, rows: &[Row]) -> Self {
         let mut record = Self { seed, cases: rows.len(), ..Self::default() };
         let mut all: BTreeMap<String, Vec<f64>> = BTreeMap::new();
         for row in rows {
@@ -195,13 +181,7 @@ impl Record {
         record
     }
 
-    /// The text of `trajectories.json`.
-    pub fn json(&self) -> String {
-        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
-    }
-
-    /// The text for the terminal.
-    pub fn text(&self) -> String {
+    fn text(&self) -> String {
         let Self { cases, with_window, ticks, condensed, steps, .. } = self;
         let mut lines = vec![format!(
             "{cases} random trajectories: {with_window} have a bound over time, judged in {ticks} ticks; {condensed} have a condensed controller; {steps} steps judged"
@@ -239,17 +219,9 @@ impl Row {
     }
 }
 
-/// The text of `trajectories.csv`.
-///
-/// # Errors
-/// Never for plain data.
-pub fn csv(rows: &[Row]) -> Result<Vec<u8>> {
-    record_file::csv("trajectories.csv", rows)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::window::may_be_condensed;
+    use super::super::window::posed;
     use super::*;
 
     /// The first of those that `signorini extremes --random N --seed 5 --in-time` draws, and the next of them that can be condensed.
@@ -257,12 +229,14 @@ mod tests {
     fn random_trajectories_keep_their_bounds() {
         let folder = tempfile::tempdir().unwrap();
         let kept = Kept::open(folder.path()).unwrap();
-        let mut rows = run(5, 0..=39, &kept, || ()).unwrap();
-        let may_be = |number: &u32| may_be_condensed(&Trajectory::draw(5, *number)).unwrap();
+        let rows =
+            |cases| kept.rows(cases, |number| number.to_string(), |number| row(5, number), || ());
+        let mut found = rows(0..=39).unwrap();
+        let may_be = |number: &u32| posed(&Trajectory::draw(5, *number)).unwrap().is_some();
         for number in (40..).filter(may_be).take(8) {
-            rows.extend(run(5, number..=number, &kept, || ()).unwrap());
+            found.extend(rows(number..=number).unwrap());
         }
-        let record = Record::new(5, &rows);
+        let record = Record::new(5, &found);
         println!("{}", record.text());
         assert!(record.violations.is_empty(), "{:?}", record.violations);
         assert!(record.with_window > 30 && record.steps > 10, "{record:?}");

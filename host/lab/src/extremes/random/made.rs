@@ -8,7 +8,7 @@
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-use super::function::{Frame, Function, Rough};
+use super::function::{Function, Rough};
 use super::mesh::{self, Drawn, MeshPlan, Outline, Regions};
 use super::posed::{self, Ends, Hold, Posed, span};
 use signorini_problem::random::Random;
@@ -22,7 +22,6 @@ struct Chosen {
     materials: String,
 }
 
-/// Draws one.
 pub(super) fn draw(random: &mut Random, plan: &MeshPlan) -> Posed {
     let contrast = random.chance(0.4);
     let plan = match contrast {
@@ -53,7 +52,7 @@ fn turned(random: &mut Random) -> [[f64; 2]; 2] {
 
 /// A = a(x, y) T with a symmetric T: ∇·(A∇u) = a T:∇∇u + T∇u·∇a.
 fn uniform(random: &mut Random, steepest: f64) -> Chosen {
-    let u = Function::draw(random, Frame::RECTANGLE, Rough::Smooth, steepest);
+    let u = Function::draw(random, 1.0, Rough::Smooth, steepest);
     let [p, q] = [random.log(0.1, 10.0), random.log(0.1, 10.0)];
     let size = if random.chance(0.2) { random.log(1e-10, 1e10) } else { 1.0 };
     let along = random.between(0.0, PI).sin_cos();
@@ -108,7 +107,6 @@ fn halves(random: &mut Random, steepest: f64) -> Chosen {
     }
 }
 
-/// A condition for every curve.
 fn boundaries(
     random: &mut Random,
     drawn: &Drawn,
@@ -135,7 +133,7 @@ fn boundaries(
             }
             (_, 3) => format!("kind = \"neumann\"\nflux = \"{flux}\""),
             _ => {
-                let p = Function::draw(random, Frame::RECTANGLE, rough, steepest).value();
+                let p = Function::draw(random, 1.0, rough, steepest).value();
                 format!("kind = \"contact\"\n{}", contact(random, u, &flux, &p))
             }
         };

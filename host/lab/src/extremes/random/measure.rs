@@ -6,12 +6,12 @@
 //! ```
 //! whatever the exact solution is: an answer that breaks it, or a finer one, has a bound that is wrong.
 
-use super::attempt::Attempt;
+use super::attempt::{Attempt, Held};
 use super::case::{RandomCase, Way, Yardstick};
 use super::cut::cut_along;
-use super::nested::{Apart, MeshSolution, Nesting, apart};
-use super::outputs::{Asked, Intervals};
-use crate::extremes::measure::solve_directly;
+use super::nested::{Apart, Nesting, apart};
+use super::outputs::Intervals;
+use crate::mesh_solution::{MeshSolution, solve_directly};
 use signorini_certify::ErrorBound;
 use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::Conductivity;
@@ -19,20 +19,17 @@ use signorini_certify::curved::CurvedEdges;
 use signorini_certify::deviation::Deviations;
 use signorini_certify::exact::{Distance, distance_on};
 use signorini_certify::robin::missed;
-use signorini_intervals::Answered;
 use signorini_problem::Problem;
 use signorini_problem::quadrature::{gauss, on_panels};
 use signorini_scene::mesh::refine::refined;
 use signorini_scene::scene::units::Units;
 use signorini_scene::{Mesh, Result};
 use signorini_solve::norms::errors;
-use signorini_solve::outputs::Reading;
-use signorini_solve::{Solution, choose_units, times};
+use signorini_solve::{choose_units, times};
 
 /// An answer beside the truth, in units in which its numbers are near 1.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Measured {
-    /// Its bound.
     pub bound: ErrorBound,
     /// The distance of s and τ from the truth; without a bound NaN.
     pub combined: f64,
@@ -55,7 +52,6 @@ pub struct Measured {
     pub energy: f64,
     /// The bound of the exact discrete solution on the same mesh.
     pub best: Option<f64>,
-    /// Intervals of outputs.
     pub intervals: Intervals,
 }
 
@@ -87,8 +83,6 @@ const LEVELS: u32 = 3;
 /// Panels, and points on each, in a direction of a cell of the finer mesh: more and more while an error seems above its
 /// bounds.
 const RULES: [(u32, usize); 4] = [(1, 4), (1, 7), (4, 8), (16, 8)];
-/// Outputs that one case is asked for; one where the finer mesh is large.
-const OUTPUTS: usize = 3;
 /// Points a direction for the energy of one answer.
 const POINTS: usize = 7;
 /// Panels a direction of a cell beside an exact solution: more and more while kinks and layers inside cells seem to take them.
@@ -104,9 +98,6 @@ const RESOLVED: f64 = 1e-4;
 const CORNERS: f64 = 1e-9;
 
 /// Measures; `None` where there is no truth to measure by.
-///
-/// # Errors
-/// A scene that cannot be stated in its own units.
 pub fn measure(case: &RandomCase, attempt: &Attempt) -> Result<Option<Measured>> {
     let (problem, answer) = match attempt.answer.in_its_units() {
         Some((problem, own)) => (problem.clone(), own.clone()),
@@ -132,36 +123,9 @@ pub fn measure(case: &RandomCase, attempt: &Attempt) -> Result<Option<Measured>>
     Ok(found)
 }
 
-/// An answer in its units.
-struct Held<'a> {
-    case: &'a RandomCase,
-    problem: &'a Problem,
-    answer: &'a Solution,
-    bound: ErrorBound,
-}
-
 impl Held<'_> {
-    fn asked(&self) -> Asked<'_> {
-        let Solution { u, flux, certified, .. } = self.answer;
-        let (scalar, bound) = (self.case.effort.scalar, Some(self.bound));
-        let total = Some(self.bound.total);
-        Asked {
-            number: self.case.number / 2,
-            most: if self.case.feature.is_some() { 1 } else { OUTPUTS },
-            problem: self.problem,
-            answer: Answered { certified, bound, scalar },
-            reading: Reading { scalar, u, flux, bound: total },
-            is_balanced: self.case.effort.way == Way::Condensed,
-        }
-    }
-
-    fn side(&self) -> MeshSolution<'_> {
-        let Solution { u, certified, .. } = self.answer;
-        MeshSolution { problem: self.problem, admissible: certified.admissible(), u }
-    }
-
     fn by_exact(&self) -> Result<Measured> {
-        let (problem, own) = (self.problem, self.side());
+        let (problem, own) = (self.problem, MeshSolution::of(self.problem, self.answer)?);
         let within = apart(&own, &own, &Nesting::default(), &gauss(POINTS))?;
         let mut found = Measured {
             bound: self.bound,
@@ -185,11 +149,11 @@ impl Held<'_> {
                 }
             }
             found.combined = distance.combined;
-            found.of_u = errors(exact, problem, own.u, &self.answer.flux)?.energy;
+            found.of_u = errors(exact, problem, &self.answer.u, &self.answer.flux)?.energy;
             let rounding = |error: f64| distance.rounding / error.max(distance.rounding.sqrt());
             found.uncertain = [found.combined, found.of_u].map(rounding);
             // The identity has the oscillation of f, g and q in it, with its sign, but not that of u_ext.
-            found.intervals = self.asked().by_exact();
+            found.intervals = self.intervals_by_exact();
             // Corners of a condensed model that rounding moves count in its oscillation.
             let gap = self.bound.duality_gap;
             let is_rounding = is_condensed && gap <= CORNERS * found.energy;
@@ -239,15 +203,14 @@ impl Held<'_> {
     }
 
     fn by_finer(&self) -> Result<Option<Measured>> {
-        let (problem, own) = (self.problem, self.side());
+        let (problem, own) = (self.problem, MeshSolution::of(self.problem, self.answer)?);
         let (mesh, nesting) = self.finer()?;
         let mut finer = Problem::new(&problem.scene, mesh)?;
         finer.set_time(problem.time)?;
         let Ok(solution) = solve_directly(&finer) else { return Ok(None) };
         let Some(its) = solution.bound else { return Ok(None) };
-        let Solution { u, certified, .. } = &solution;
-        let intervals = self.asked().by_finer((&finer, &solution));
-        let fine = MeshSolution { problem: &finer, admissible: certified.admissible(), u };
+        let intervals = self.intervals_by_finer((&finer, &solution));
+        let fine = MeshSolution::of(&finer, &solution)?;
         let most = [self.bound.total + its.total, self.bound.of_u + its.total];
         let is_above = |of: &Apart| of.combined > most[0] || of.of_u > most[1];
         let (mut found, mut uncertain) = (Apart::default(), [0.0; 2]);

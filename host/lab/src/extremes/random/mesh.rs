@@ -18,19 +18,15 @@ use signorini_scene::mesh::{Curve, Surface};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
-    /// Triangles alone.
     #[default]
     Triangles,
-    /// Quads alone.
     Quads,
-    /// Either, cell by cell.
     Both,
 }
 
 /// Which part of the rectangle is meshed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outline {
-    /// The whole rectangle.
     Whole,
     /// All but the upper right corner.
     Corner,
@@ -52,19 +48,14 @@ pub enum Regions {
 /// The properties of a mesh that is drawn.
 #[derive(Debug, Clone, Copy)]
 pub struct MeshPlan {
-    /// About how many cells.
     pub cells: u32,
-    /// The kind of cells.
     pub kind: Kind,
-    /// Which part of the rectangle.
     pub outline: Outline,
-    /// Which materials.
     pub regions: Regions,
     /// How far vertices move, in widths of their cells.
     pub moved: f64,
     /// Whether lines lie closer together on one side.
     pub graded: bool,
-    /// Whether sides consist of two curves.
     pub split: bool,
     /// The image of a place: (axx x + axy y, ayx x + ayy y).
     pub map: [[f64; 2]; 2],
@@ -73,13 +64,10 @@ pub struct MeshPlan {
 /// A mesh, and of each of its curves the outward normal.
 #[derive(Debug, Clone)]
 pub struct Drawn {
-    /// The mesh.
     pub mesh: Mesh,
-    /// n of each curve.
     pub normals: Vec<[f64; 2]>,
 }
 
-/// The lines of the grid.
 struct Lines {
     x: Vec<f64>,
     y: Vec<f64>,
@@ -155,7 +143,6 @@ fn growing(steps: u32, growth: f64) -> Vec<f64> {
     partition(&(0..steps).map(|step| growth.powf(f64::from(step))).collect::<Vec<_>>())
 }
 
-/// Draws a mesh.
 pub fn draw(random: &mut Random, plan: &MeshPlan) -> Drawn {
     let lines = Lines::draw(random, plan);
     let (columns, rows) = (lines.columns(), lines.rows());

@@ -1,16 +1,16 @@
 //! `signorini extremes --random N --seed S`: whole scenes drawn at random, each judged by a truth of its own.
 //!
 //! ```text
-//!   mesh, function ─► catalogue, made, data, feature ─► Case ─► attempt ─► measure (exact, or nested) ─► verdict ─► row ─► record
+//!   mesh, function ─► catalogue, made, data, feature ─► Case ─► attempt ─► measure (exact, or nested) ─► verdict ─► record
 //! ```
-//! Case k of a seed depends on nothing but k and the seed, so that each can be had alone. Every odd one has a [`feature`].
+//! Case k of a seed depends on nothing but k and the seed, so that each can be had alone. Every odd one has a `feature`.
 
 mod attempt;
 mod case;
 mod catalogue;
 mod cut;
 mod data;
-pub mod feature;
+mod feature;
 mod function;
 pub mod in_time;
 mod made;
@@ -19,18 +19,15 @@ mod mesh;
 mod nested;
 mod outputs;
 mod posed;
-pub mod record;
+mod record;
 mod residual;
-pub mod row;
 mod spot;
-pub mod step;
-#[cfg(test)]
-mod step_outputs;
+mod step;
 #[cfg(test)]
 mod tests;
-pub mod trajectory;
+mod trajectory;
 mod verdict;
-pub mod window;
+mod window;
 
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -39,44 +36,42 @@ use std::time::{Duration, Instant};
 use attempt::{Attempt, attempt};
 use case::RandomCase;
 use measure::measure;
-use row::Row;
+use record::{Record, Row};
 use verdict::{broken_by, ended};
 
 use super::judge::{Ended, Outcome, judge};
-use super::kept::Kept;
+use super::kept::{Findings, Kept};
 use super::watch::watched;
+use crate::record_file::{csv, indented};
 use signorini_files::atomic::write_atomically;
-use signorini_problem::threads::on_two_threads;
+use signorini_scene::Result;
 use signorini_scene::mesh::gmsh::write as msh;
-use signorini_scene::{Error, Result};
 
 /// A case without an answer by then hangs.
 const LIMIT: Duration = Duration::from_secs(1800);
 
 /// Draws these cases of a seed and runs in two threads those that are not yet `kept`; calls `done` after each. A case that breaks a
 /// promise is never kept, but run again.
-///
-/// # Errors
-/// Finished cases cannot be kept.
 pub fn run(
     seed: u64,
     cases: RangeInclusive<u32>,
     kept: &Kept,
     done: impl Fn() + Sync,
-) -> Result<Vec<Row>> {
-    let work = |&number: &u32| kept.row(&format!("{number} of {seed}"), || Ok(row(seed, number)));
-    let mut rows = on_two_threads(&cases.collect::<Vec<_>>(), work, done)?;
-    rows.sort_by_key(|row| row.case);
-    Ok(rows)
+) -> Result<Findings> {
+    let key = |number| format!("{number} of {seed}");
+    let rows = kept.rows(cases, key, |number| row(seed, number), done)?;
+    let record = Record::new(seed, kept.seconds(), &rows);
+    let files = vec![
+        ("random.json", indented(&record).into_bytes()),
+        ("random.csv", csv("random.csv", &rows)?),
+    ];
+    let wrong = record.violations.iter().map(|violation| violation.case).collect();
+    Ok(Findings { files, text: record.text(), wrong })
 }
 
 /// Writes the scene and the mesh of a case into `folder`.
-///
-/// # Errors
-/// Files that cannot be written.
 pub fn write(seed: u64, number: u32, folder: &Path) -> Result<()> {
     let case = RandomCase::draw(seed, number);
-    std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
     let effort = case.effort;
     let how = format!(
         "# case {number} of seed {seed}: {:?}, {:?}; at most {:?} sweeps\n# earlier ticks {:?}\n# tick {:?}\n",
@@ -86,7 +81,6 @@ pub fn write(seed: u64, number: u32, folder: &Path) -> Result<()> {
     write_atomically(&folder.join("mesh.msh"), msh::text(&case.mesh).as_bytes())
 }
 
-/// Draws, solves, measures and judges one case.
 fn row(seed: u64, number: u32) -> Row {
     let start = Instant::now();
     let left = watched(LIMIT, move || {

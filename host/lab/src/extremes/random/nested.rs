@@ -3,26 +3,13 @@
 //! A child's reference coordinates are an affine function of its parent's, on quads too: what both functions are
 //! is known at any point of the finer mesh, without a search. In a cut cell they follow from the point.
 
-use signorini_certify::admissible::{self, Admissible};
-use signorini_certify::cell::{Cell, Jet};
+use crate::mesh_solution::{MeshSolution, OnCell};
+use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::{Conductivity, inverse, product};
-use signorini_certify::curved::followed;
-use signorini_certify::deviation::Deviations;
 use signorini_certify::weighed::{minus, on_robin};
-use signorini_problem::field::CellField;
 use signorini_problem::quadrature::{Point, gauss};
 use signorini_problem::{Problem, Sum};
 use signorini_scene::{Error, Result};
-
-/// One of the two: its problem, s and τ, and u_h where that is asked for.
-pub struct MeshSolution<'a> {
-    /// Its mesh and data.
-    pub problem: &'a Problem,
-    /// s and τ.
-    pub admissible: Admissible<'a>,
-    /// Means of u_h over the edges.
-    pub u: &'a [f64],
-}
 
 /// The distance of two answers.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -49,48 +36,29 @@ pub struct Nesting {
     pub cut: Option<Vec<u32>>,
 }
 
-/// Both with what their boundary data add to s.
 struct NestedPair<'a> {
-    coarse: Part<'a>,
-    fine: Part<'a>,
+    coarse: &'a MeshSolution<'a>,
+    fine: &'a MeshSolution<'a>,
     nesting: &'a Nesting,
 }
 
-struct Part<'a> {
-    side: &'a MeshSolution<'a>,
-    deviations: Deviations<'a>,
-}
-
-/// A function on one cell.
-struct OnCell<'a> {
-    cell: Cell,
-    s: admissible::OnCell<'a, 'a>,
-    tau: CellField,
-    u: CellField,
-}
-
 /// The distance between `coarse` and `fine` by `rule` in both directions of a cell of the finer mesh.
-///
-/// # Errors
-/// Data that are not finite at a point.
 pub fn apart(
     coarse: &MeshSolution,
     fine: &MeshSolution,
     nesting: &Nesting,
     rule: &[[f64; 2]],
 ) -> Result<Apart> {
-    let (coarse, fine) = (Part::new(coarse)?, Part::new(fine)?);
     let study = NestedPair { coarse, fine, nesting };
-    let fine = study.fine.side;
     let mut squares = Apart::default();
     let mut last = None;
     for at in 0..fine.problem.cells() {
         let parent = study.parent(at);
-        let own = study.fine.on_cell(at);
+        let own = fine.on_cell(at);
         // Children of one cell follow each other.
         let of_parent = match last.take() {
             Some((known, of)) if known == parent => of,
-            _ => study.coarse.on_cell(parent),
+            _ => coarse.on_cell(parent),
         };
         study.add_cell(at, &own, &of_parent, rule, &mut squares)?;
         last = Some((parent, of_parent));
@@ -105,29 +73,6 @@ pub fn apart(
     let [combined, of_s, with_robin, of_u, energy] =
         [combined, of_s, with_robin, of_u, energy].map(f64::sqrt);
     Ok(Apart { combined, of_s, with_robin, of_u, energy })
-}
-
-impl<'a> Part<'a> {
-    fn new(side: &'a MeshSolution<'a>) -> Result<Self> {
-        let deviations = followed(side.problem, &side.admissible)?;
-        Ok(Self { side, deviations })
-    }
-
-    fn on_cell(&'a self, at: usize) -> OnCell<'a> {
-        let MeshSolution { problem, admissible, u } = self.side;
-        OnCell {
-            cell: Cell::of(problem, at),
-            s: admissible.on_cell(problem, at, &self.deviations),
-            tau: CellField::new(problem, at, admissible.tau, admissible.tau),
-            u: CellField::new(problem, at, u, u),
-        }
-    }
-}
-
-impl OnCell<'_> {
-    fn s(&self, reference: [f64; 3]) -> Result<Jet> {
-        self.s.at(&self.cell.local(reference))
-    }
 }
 
 impl NestedPair<'_> {
@@ -154,7 +99,7 @@ impl NestedPair<'_> {
     }
 
     fn in_halved(&self, at: usize, mut reference: [f64; 3]) -> [f64; 3] {
-        let triangles = self.fine.side.problem.mesh.triangles.len();
+        let triangles = self.fine.problem.mesh.triangles.len();
         let (mut number, quad) = match at.checked_sub(triangles) {
             None => (at, false),
             Some(quad) => (quad, true),
@@ -178,7 +123,7 @@ impl NestedPair<'_> {
         rule: &[[f64; 2]],
         squares: &mut Apart,
     ) -> Result<()> {
-        let problem = self.fine.side.problem;
+        let problem = self.fine.problem;
         let conductivity = Conductivity::of(problem, at);
         let step = problem.loads.step.as_ref();
         let area: f64 = own.cell.points(rule).iter().map(|point| point.weight).sum();
@@ -205,13 +150,13 @@ impl NestedPair<'_> {
 
     /// ∫h(s′ − s)² and ∫((τ′ − τ)·n)²/h over an edge of R, 0 on others.
     fn robin(&self, edge: usize) -> Result<[f64; 2]> {
-        let (fine, coarse) = (self.fine.side, self.coarse.side);
+        let (fine, coarse) = (self.fine, self.coarse);
         let Some(h) = Sum::transfer(fine.problem, edge, fine.problem.time) else {
             return Ok([0.0; 2]);
         };
         let (at, side) = fine.problem.topology.first_side(edge);
         let parent = self.parent(at);
-        let (own, of_parent) = (self.fine.on_cell(at), self.coarse.on_cell(parent));
+        let (own, of_parent) = (fine.on_cell(at), coarse.on_cell(parent));
         let middle = self.in_parent(at, &own, &of_parent, own.cell.side_point(side, 0.5, 0.0))?;
         let whole = edge_at(coarse.problem, parent, &of_parent.cell, middle);
         let density = |side: &MeshSolution, edge: usize| {

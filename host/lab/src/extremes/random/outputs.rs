@@ -3,6 +3,8 @@
 
 use std::collections::BTreeMap;
 
+use super::attempt::Held;
+use super::case::{RandomCase, Way};
 use signorini_bake::intervals::narrowed;
 use signorini_certify::cell::Cell;
 use signorini_intervals::known::Answers;
@@ -18,13 +20,13 @@ use signorini_solve::{ScalarKind, Solution};
 
 /// The part of the largest number that sums may round and quadrature of data may miss: intervals of controllers leave it out.
 const ROUNDED: f64 = 1e-6;
+/// Outputs that one case is asked for; one where the finer mesh is large.
+const OUTPUTS: usize = 3;
 /// Roundings that a sum over inputs may be off.
 const ROUNDINGS: f64 = 16.0;
 
-/// The intervals of a case.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Intervals {
-    /// How many there are.
     pub found: usize,
     /// The largest distance of the middle to what is known of the value, over the half-width; with a finer answer over both.
     pub worst: f64,
@@ -32,39 +34,23 @@ pub struct Intervals {
     pub name: String,
 }
 
-/// An answer of which outputs are asked.
-#[derive(Debug, Clone, Copy)]
-pub struct Asked<'a> {
-    /// The number of its case.
-    pub number: u32,
-    /// How many outputs it is asked for.
-    pub most: usize,
-    /// Its problem.
-    pub problem: &'a Problem,
-    /// s, τ and the bound.
-    pub answer: Answered<'a>,
-    /// The fields that its outputs are read off.
-    pub reading: Reading<'a>,
-    /// Whether all equations but those on contact edges hold.
-    pub is_balanced: bool,
-}
-
 /// A known output by its name: its value, and by how much that may be off.
 type Known = BTreeMap<String, [f64; 2]>;
 
-impl Asked<'_> {
-    /// Its intervals beside the exact solution.
-    pub fn by_exact(&self) -> Intervals {
-        let problem = with_outputs(self.problem, self, true);
+impl Held<'_> {
+    /// Intervals of outputs beside the exact solution.
+    pub fn intervals_by_exact(&self) -> Intervals {
+        let problem = with_outputs(self.problem, self.case, true);
         let value =
             |output: &Output| Some((output.name.value.clone(), exact_value(&problem, output)?));
         self.beside(&problem, &problem.scene.outputs.iter().filter_map(value).collect())
     }
 
-    /// Its intervals beside those of a finer answer.
-    pub fn by_finer(&self, finer: (&Problem, &Solution)) -> Intervals {
-        let problem = with_outputs(self.problem, self, false);
-        let its = of_answer(&with_outputs(finer.0, self, false), &finer.1.into(), Coverage::Small);
+    /// Intervals of outputs beside those of a finer answer.
+    pub fn intervals_by_finer(&self, finer: (&Problem, &Solution)) -> Intervals {
+        let problem = with_outputs(self.problem, self.case, false);
+        let its =
+            of_answer(&with_outputs(finer.0, self.case, false), &finer.1.into(), Coverage::Small);
         let known = its.into_iter().filter_map(|(name, found)| {
             let found = found.ok()?;
             Some((name, [found.center, found.plus_minus]))
@@ -73,35 +59,36 @@ impl Asked<'_> {
     }
 
     fn beside(&self, problem: &Problem, known: &Known) -> Intervals {
+        let Solution { certified, .. } = self.answer;
+        let (scalar, bound) = (self.case.effort.scalar, Some(self.bound));
+        let answered = Answered { certified, bound, scalar };
         let mut all = Intervals::default();
-        for (name, found) in of_answer(problem, &self.answer, Coverage::Small) {
-            if let (Ok(found), Some([value, slack])) = (found, known.get(&name)) {
-                all.add(name, (value - found.center).abs() - slack, found.plus_minus);
+        let mut add = |word: &str, name: &str, middle: f64, by: f64, rounded: f64| {
+            if let Some([value, slack]) = known.get(name) {
+                all.add(format!("{word}{name}"), (value - middle).abs() - slack - rounded, by);
             }
+        };
+        for (name, found) in of_answer(problem, &answered, Coverage::Small) {
+            let Ok(found) = found else { continue };
+            add("", &name, found.center, found.plus_minus, 0.0);
         }
         for (name, value, by) in self.as_a_controller(problem) {
-            if let Some([known, slack]) = known.get(&name) {
-                let off = (known - value).abs() - slack - self.rounded(problem, &name);
-                all.add(format!("weights of {name}"), off, by);
-            }
+            add("weights of ", &name, value, by, self.rounded(problem, &name));
         }
         for (name, [least, most]) in self.by_a_module(problem) {
-            if let Some([known, slack]) = known.get(&name) {
-                let (middle, by) = (0.5 * (least + most), 0.5 * (most - least));
-                let off = (known - middle).abs() - slack - self.rounded(problem, &name);
-                all.add(format!("midpoint of {name}"), off, by);
-            }
+            let (middle, by) = (0.5 * (least + most), 0.5 * (most - least));
+            add("midpoint of ", &name, middle, by, self.rounded(problem, &name));
         }
         all
     }
 
     /// Where a condensed module with these outputs says that they lie, in a first tick.
     fn by_a_module(&self, problem: &Problem) -> Vec<(String, [f64; 2])> {
-        if !self.is_balanced {
+        if self.case.effort.way != Way::Condensed {
             return Vec::new();
         }
         let inputs: Vec<f64> = problem.scene.inputs.iter().map(|input| input.default).collect();
-        let found = with_module(problem, Some(self.reading.scalar), |session, module| {
+        let found = with_module(problem, Some(self.case.effort.scalar), |session, module| {
             session.tick(&inputs)?;
             let answer = session.answer(problem)?;
             Ok(module.between(session, &answer.outputs, answer.bound.as_ref()))
@@ -115,8 +102,8 @@ impl Asked<'_> {
     fn rounded(&self, problem: &Problem, name: &str) -> f64 {
         let of_u = |output: &Output| output.name.value == name && output.quantity == Quantity::Mean;
         let numbers = match problem.scene.outputs.iter().any(of_u) {
-            true => self.reading.u,
-            false => self.reading.flux,
+            true => &self.answer.u,
+            false => &self.answer.flux,
         };
         ROUNDED * numbers.iter().fold(0.0_f64, |most, x| most.max(x.abs()))
     }
@@ -126,8 +113,8 @@ impl Asked<'_> {
         let mut touching = problem.clone();
         let gap = &mut touching.loads.gap;
         let size = gap.iter().fold(0.0_f64, |most, psi| most.max(psi.abs()));
-        let rounding = ROUNDINGS * self.reading.scalar.epsilon() * size;
-        let own = &self.reading.u[problem.topology.counts.free..];
+        let rounding = ROUNDINGS * self.case.effort.scalar.epsilon() * size;
+        let own = &self.answer.u[problem.topology.counts.free..];
         for (psi, u) in gap.iter_mut().zip(own).filter(|(psi, u)| (**psi - **u).abs() <= rounding) {
             *psi = *u;
         }
@@ -138,10 +125,9 @@ impl Asked<'_> {
     fn as_a_controller(&self, problem: &Problem) -> Vec<(String, f64, f64)> {
         let touching = self.touching(problem);
         // ψ is u there to the bit, whatever its scalar was.
-        let reading = Reading { scalar: ScalarKind::F64, ..self.reading };
-        let (Some(bound), Ok(values)) = (self.answer.bound, declared(&touching, reading)) else {
-            return Vec::new();
-        };
+        let (Solution { u, flux, .. }, bound) = (self.answer, self.bound);
+        let reading = Reading { scalar: ScalarKind::F64, u, flux, bound: Some(bound.total) };
+        let Ok(values) = declared(&touching, reading) else { return Vec::new() };
         let certificate = Certificate {
             total: bound.total,
             algebraic: bound.algebraic,
@@ -153,7 +139,8 @@ impl Asked<'_> {
             pressed: &[],
             columns: &[],
             total: 0.0,
-            are_balanced: self.is_balanced,
+            // All equations but those on contact edges hold.
+            are_balanced: self.case.effort.way == Way::Condensed,
         };
         let within = weights(problem, &answers)
             .iter()
@@ -176,8 +163,9 @@ impl Intervals {
 }
 
 /// The problem with some of the outputs that it may have; others for each number.
-fn with_outputs(problem: &Problem, asked: &Asked, probes: bool) -> Problem {
-    let (number, most) = (asked.number as usize, asked.most);
+fn with_outputs(problem: &Problem, case: &RandomCase, probes: bool) -> Problem {
+    let number = case.number as usize / 2;
+    let most = if case.feature.is_some() { 1 } else { OUTPUTS };
     let scene = &problem.scene;
     let named = |value: String| Located { value, key: "output".to_owned(), span: 0..0 };
     let mut all = Vec::new();

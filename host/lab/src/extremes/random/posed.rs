@@ -14,7 +14,6 @@ pub enum Hold {
     Dirichlet,
     /// A transfer law somewhere, no given values.
     Robin,
-    /// Contact alone.
     #[serde(rename = "contact alone")]
     Contact,
 }
@@ -24,7 +23,6 @@ pub(super) struct Posed {
     pub(super) scene: String,
     pub(super) mesh: Mesh,
     pub(super) hold: Hold,
-    /// Default values of the inputs.
     pub(super) inputs: Vec<f64>,
 }
 
@@ -40,7 +38,6 @@ pub enum Ends {
 }
 
 impl Ends {
-    /// Draws them.
     pub(super) fn draw(random: &mut Random) -> Self {
         random.pick(&[Self::Above, Self::Above, Self::Below, Self::Both, Self::Both])
     }

@@ -20,9 +20,6 @@ pub struct Residual {
 }
 
 /// The residual of edge means `u`.
-///
-/// # Errors
-/// Never for a problem that was solved.
 pub fn residual(problem: &Problem, u: &[f64]) -> Result<Residual, KernelError> {
     let assembled = Assembled::<f64>::new(problem)?;
     let counts = problem.topology.counts;

@@ -5,23 +5,22 @@ use std::path::Path;
 
 use super::cut::{Line, cut_along};
 use super::feature::Feature;
-use super::nested::{MeshSolution, Nesting, apart};
-use super::record::Record;
+use super::nested::{Nesting, apart};
 use super::residual::residual;
 use super::*;
-use crate::extremes::measure::solve_directly;
+use crate::mesh_solution::{MeshSolution, solve_directly};
 use signorini_certify::exact::distance;
 use signorini_problem::Problem;
 use signorini_problem::quadrature::gauss;
 use signorini_scene::mesh::adapted::adapted;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::{Mesh, Scene};
-use signorini_solve::Solution;
 
 fn record_of(seed: u64, cases: RangeInclusive<u32>) -> Record {
     let folder = tempfile::tempdir().unwrap();
-    let rows = run(seed, cases, &Kept::open(folder.path()).unwrap(), || {}).unwrap();
-    Record::new(seed, 0.0, &rows)
+    let kept = Kept::open(folder.path()).unwrap();
+    let rows = kept.rows(cases, |number| number.to_string(), |number| row(seed, number), || {});
+    Record::new(seed, 0.0, &rows.unwrap())
 }
 
 /// A fixed seed: whatever is mended stays mended.
@@ -96,20 +95,15 @@ fn scene(ambient: &str) -> Scene {
     Scene::parse(&text, Path::new("test.toml")).unwrap()
 }
 
-fn solved(problem: &Problem) -> Solution {
-    solve_directly(problem).unwrap()
-}
-
 /// Of a scene on a mesh and on one `levels` finer: the distance, and both bounds.
 fn distance_to_finer(scene: &Scene, cells: Cells, levels: u32) -> (f64, [f64; 2]) {
     let coarse = Problem::new(scene, grid(2, cells)).unwrap();
     let fine = adapted(Mesh::clone(&coarse.mesh), None, levels).unwrap();
     let fine = Problem::new(scene, fine).unwrap();
-    let (one, other) = (solved(&coarse), solved(&fine));
+    let (one, other) = (solve_directly(&coarse).unwrap(), solve_directly(&fine).unwrap());
     let bounds = [&one, &other].map(|of| of.bound.unwrap().total);
-    let of = MeshSolution { problem: &coarse, admissible: one.certified.admissible(), u: &one.u };
-    let its =
-        MeshSolution { problem: &fine, admissible: other.certified.admissible(), u: &other.u };
+    let [of, its] =
+        [(&coarse, &one), (&fine, &other)].map(|(of, by)| MeshSolution::of(of, by).unwrap());
     (apart(&of, &its, &Nesting { levels, cut: None }, &gauss(4)).unwrap().combined, bounds)
 }
 
@@ -137,11 +131,10 @@ fn what_eight_points_miss_of_u_ext_is_in_the_bound() {
 fn an_answer_is_no_distance_from_itself_and_a_wrong_one_leaves_a_residual() {
     let scene = scene("x");
     let problem = Problem::new(&scene, grid(3, Cells::Mixed)).unwrap();
-    let own = solved(&problem);
-    let side =
-        || MeshSolution { problem: &problem, admissible: own.certified.admissible(), u: &own.u };
-    RESIDUAL
-        .check("itself", apart(&side(), &side(), &Nesting::default(), &gauss(4)).unwrap().combined);
+    let own = solve_directly(&problem).unwrap();
+    let side = MeshSolution::of(&problem, &own).unwrap();
+    let itself = apart(&side, &side, &Nesting::default(), &gauss(4)).unwrap();
+    RESIDUAL.check("itself", itself.combined);
     let found = residual(&problem, &own.u).unwrap();
     RESIDUAL.check("scaled", found.scaled);
     RESIDUAL.check("rounding", found.rounding);

@@ -6,35 +6,27 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use super::function::{Frame, Function, Rough};
+use super::function::{Function, Rough};
 use super::mesh::{self, Kind, MeshPlan, Outline, Regions};
-use super::posed::{Ends, Hold};
+use super::posed::{Ends, Hold, turned};
+use signorini_problem::Problem;
 use signorini_problem::random::Random;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::Scene;
 use signorini_solve::ScalarKind;
 
-/// A scene over time.
 #[derive(Debug, Clone)]
 pub struct Trajectory {
-    /// The condition that holds it.
     pub hold: Hold,
-    /// The kind of its cells.
     pub kind: Kind,
-    /// In which scalar it is played.
     pub scalar: ScalarKind,
-    /// A limit on the sweeps of each step.
     pub sweeps: Option<u32>,
-    /// The scene without `[time]`.
     pub text: String,
-    /// dt
     pub step: f64,
     /// u at the start; nothing for a steady one.
     pub initial: Option<String>,
-    /// The mesh.
     pub mesh: Mesh,
-    /// Values of the inputs at each tick.
     pub log: Vec<Vec<f64>>,
     /// Whether gaps and values are linear along edges.
     pub is_affine: bool,
@@ -49,17 +41,16 @@ impl Trajectory {
         let kind = random.pick(&[Kind::Triangles, Kind::Quads, Kind::Both]);
         let plan = plan(&mut random, kind);
         let drawn = mesh::draw(&mut random, &plan);
-        let frame = Frame { centre: [0.0; 2], length: 1.0 };
         let (text, on_line) = (String::new(), Vec::new());
         let is_affine = random.chance(0.5);
-        let mut drawing = Drawing { random, frame, is_affine, text, on_line };
+        let mut drawing = Drawing { random, is_affine, text, on_line };
         let time = drawing.materials(&drawn.mesh);
         let names: Vec<&str> = drawn.mesh.curves.iter().map(|curve| curve.name.as_str()).collect();
         let hold = drawing.boundaries(&names);
         let Drawing { mut random, text, on_line, .. } = drawing;
         let is_stated = hold == Hold::Contact || random.chance(0.5);
         let initial = is_stated
-            .then(|| Function::draw(&mut random, frame, Rough::Kinked, 3.0).times(0.3).value());
+            .then(|| Function::draw(&mut random, 1.0, Rough::Kinked, 3.0).times(0.3).value());
         Self {
             hold,
             kind,
@@ -76,14 +67,10 @@ impl Trajectory {
     }
 
     /// The scene by steps of dt over `parts`.
-    ///
-    /// # Errors
-    /// Never for one that was drawn.
     pub fn scene(&self, parts: u32) -> Result<Scene> {
         Scene::parse(&self.scene_text(parts), Path::new("scene.toml"))
     }
 
-    /// Its text.
     pub fn scene_text(&self, parts: u32) -> String {
         let initial = self.initial.as_ref().map(|of| format!("initial = \"{of}\"\n"));
         let step = self.step / f64::from(parts);
@@ -91,8 +78,10 @@ impl Trajectory {
     }
 
     /// Inputs of tick `tick`, counted from 0, at the end of part `part` of `parts` of its step.
-    pub fn inputs(&self, tick: usize, [part, parts]: [u32; 2], defaults: &[f64]) -> Vec<f64> {
-        let last = tick.checked_sub(1).map_or(defaults, |last| &self.log[last]);
+    pub fn inputs(&self, tick: usize, [part, parts]: [u32; 2], problem: &Problem) -> Vec<f64> {
+        let inputs = problem.scene.inputs.iter();
+        let defaults = || inputs.map(|input| input.default).collect();
+        let last = tick.checked_sub(1).map_or_else(defaults, |last| self.log[last].clone());
         let share = f64::from(part) / f64::from(parts);
         let values = last.iter().zip(&self.log[tick]).zip(&self.on_line);
         let value = |((&from, &to), &on_line): ((&f64, &f64), &bool)| match on_line {
@@ -136,7 +125,6 @@ fn log(random: &mut Random, inputs: usize) -> Vec<Vec<f64>> {
 
 struct Drawing {
     random: Random,
-    frame: Frame,
     is_affine: bool,
     text: String,
     on_line: Vec<bool>,
@@ -152,18 +140,14 @@ impl Drawing {
         for (at, surface) in mesh.surfaces.iter().enumerate() {
             let size = random.log(1.0 / contrast, contrast.max(1.000_001));
             let ratio: f64 = if random.chance(0.3) { random.log(1.0, 30.0) } else { 1.0 };
-            let (sin, cos) = random.between(0.0, 3.0).sin_cos();
-            let [p, q] = [size * ratio.sqrt(), size / ratio.sqrt()];
-            let [xx, xy, yy] =
-                [p * cos * cos + q * sin * sin, (p - q) * sin * cos, p * sin * sin + q * cos * cos];
+            let along = random.between(0.0, 3.0).sin_cos();
+            let [xx, xy, yy] = turned([size * ratio.sqrt(), size / ratio.sqrt()], along);
             let own = random.log(1.0 / contrast, contrast.max(1.000_001));
             let capacity = if rare && at > 0 { 0.0 } else { own };
             time = time.max(capacity / size);
-            let _ = writeln!(
-                self.text,
-                "[material.{}]\nconductivity = [\"{xx:e}\", \"{xy:e}\", \"{yy:e}\"]\ncapacity = {capacity:e}",
-                surface.name
-            );
+            let _ = writeln!(self.text, "[material.{}]", surface.name);
+            let _ = writeln!(self.text, "conductivity = [\"{xx:e}\", \"{xy:e}\", \"{yy:e}\"]");
+            let _ = writeln!(self.text, "capacity = {capacity:e}");
         }
         time
     }
@@ -182,22 +166,18 @@ impl Drawing {
     fn input(&mut self, of: &str, field: &str, size: f64, rough: Rough) {
         let [a, b] = [0.2; 2].map(|most| size * self.random.between(-most, most));
         let pattern = match self.random.chance(0.4) {
-            true => Function::draw(&mut self.random, self.frame, rough, 5.0).times(size).value(),
+            true => Function::draw(&mut self.random, 1.0, rough, 5.0).times(size).value(),
             false => format!("{:e}+{a:e}*x+{b:e}*y", 0.6 * size),
         };
         self.input_of(of, field, &pattern);
     }
 
     fn input_of(&mut self, of: &str, field: &str, pattern: &str) {
-        let _ = writeln!(
-            self.text,
-            "[input.p{}]\nof = \"{of}\"\nfield = \"{field}\"\npattern = \"{pattern}\"\ndefault = 0",
-            self.on_line.len()
-        );
+        let _ = writeln!(self.text, "[input.p{}]\nof = \"{of}\"", self.on_line.len());
+        let _ = writeln!(self.text, "field = \"{field}\"\npattern = \"{pattern}\"\ndefault = 0");
         self.on_line.push(matches!(field, "value" | "gap"));
     }
 
-    /// The load and the conditions.
     fn boundaries(&mut self, names: &[&str]) -> Hold {
         let hold = match self.random.below(10) {
             0..6 => Hold::Dirichlet,
@@ -223,11 +203,14 @@ impl Drawing {
         hold
     }
 
+    fn boundary(&mut self, name: &str, kind: &str, data: &str) {
+        let _ = writeln!(self.text, "[boundary.{name}]\nkind = \"{kind}\"\n{data}");
+    }
+
     /// Above every gap.
     fn dirichlet(&mut self, name: &str) {
-        let bend = self.bend(0.3);
-        let _ =
-            writeln!(self.text, "[boundary.{name}]\nkind = \"dirichlet\"\nvalue = \"1.1{bend}\"");
+        let value = format!("value = \"1.1{}\"", self.bend(0.3));
+        self.boundary(name, "dirichlet", &value);
         if self.random.chance(0.6) {
             let pattern = self.bend(0.2);
             self.input_of(name, "value", &format!("0.5{pattern}"));
@@ -236,20 +219,15 @@ impl Drawing {
 
     fn robin(&mut self, name: &str) {
         let (h, ambient) = (self.random.log(0.03, 30.0), self.random.between(-0.5, 0.5));
-        let _ = writeln!(
-            self.text,
-            "[boundary.{name}]\nkind = \"robin\"\ncoefficient = {h:e}\nambient = {ambient:e}"
-        );
+        self.boundary(name, "robin", &format!("coefficient = {h:e}\nambient = {ambient:e}"));
         match self.random.below(3) {
             0 => self.input(name, "ambient", 1.0, Rough::Kinked),
             1 => {
-                let (of, number) = (name, self.on_line.len());
                 // h stays above a tenth of itself.
-                let _ = writeln!(
-                    self.text,
-                    "[input.p{number}]\nof = \"{of}\"\nfield = \"coefficient\"\npattern = {:e}\ndefault = 0\nrange = [-1, 1]",
-                    0.9 * h
-                );
+                let pattern = 0.9 * h;
+                let _ = writeln!(self.text, "[input.p{}]\nof = \"{name}\"", self.on_line.len());
+                let _ = writeln!(self.text, "field = \"coefficient\"\npattern = {pattern:e}");
+                self.text += "default = 0\nrange = [-1, 1]\n";
                 self.on_line.push(false);
             }
             _ => {}
@@ -258,7 +236,7 @@ impl Drawing {
 
     fn neumann(&mut self, name: &str) {
         let flux = self.random.between(-0.5, 0.5);
-        let _ = writeln!(self.text, "[boundary.{name}]\nkind = \"neumann\"\nflux = {flux:e}");
+        self.boundary(name, "neumann", &format!("flux = {flux:e}"));
         if self.random.chance(0.5) {
             self.input(name, "flux", 1.0, Rough::Jumping);
         }
@@ -271,15 +249,10 @@ impl Drawing {
         };
         let bend = self.bend(0.2);
         let limit = match ends {
-            Ends::Both => format!("flux = -0.3\nlimit = {:e}\n", self.random.log(0.1, 10.0)),
+            Ends::Both => format!("flux = -0.3\nlimit = {:e}", self.random.log(0.1, 10.0)),
             _ => String::new(),
         };
-        let _ = writeln!(
-            self.text,
-            "[boundary.{name}]\nkind = \"contact\"\ngap = \"-0.5{}\"\n{}",
-            bend,
-            limit.trim_end()
-        );
+        self.boundary(name, "contact", &format!("gap = \"-0.5{bend}\"\n{limit}"));
         if self.random.chance(0.5) {
             let pattern = self.bend(0.15);
             self.input_of(name, "gap", &format!("0.15{pattern}"));

@@ -27,9 +27,7 @@ const JUMP: f64 = 1.0 / (1_u64 << 38) as f64;
 /// Something that was promised and is not so.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Broken {
-    /// In one word.
     pub what: &'static str,
-    /// With its numbers.
     pub words: String,
 }
 
@@ -37,36 +35,34 @@ fn broken(what: &'static str, words: String) -> Option<Broken> {
     Some(Broken { what, words })
 }
 
-/// All that `attempt` breaks.
 pub fn broken_by(case: &RandomCase, attempt: &Attempt, measured: Option<&Measured>) -> Vec<Broken> {
     let by_measure = measured.map(|found| {
-        [bound(found), of_u(found), identity(case, found), outputs(found)]
-            .into_iter()
-            .flatten()
-            .collect::<Vec<_>>()
+        let Measured { bound, combined, of_u, .. } = found;
+        let [least, least_of_u] = found.least();
+        let combined = format!("combined {combined:.6e}");
+        let of_u = format!("of u_h {of_u:.6e}");
+        [
+            above(found, "bound", least, combined, bound.total),
+            above(found, "of_u", least_of_u, of_u, bound.of_u),
+            identity(case, found),
+            outputs(found),
+        ]
     });
     let others = [status(case, attempt), forces(case, attempt)];
-    by_measure.unwrap_or_default().into_iter().chain(others.into_iter().flatten()).collect()
+    by_measure.into_iter().flatten().chain(others).flatten().collect()
 }
 
-/// combined ≤ total + total′.
-fn bound(found: &Measured) -> Option<Broken> {
-    let most = found.bound.total + found.total;
-    if found.least()[0] <= most * (1.0 + INTEGRATED) {
-        return None;
-    }
-    let Measured { combined, total, .. } = found;
-    broken("bound", format!("combined {combined:.6e}, bounds {:.6e} + {total:.6e}", most - total))
-}
-
-/// ‖A^½∇_h(s′ − u_h)‖ ≤ of_u + total′.
-fn of_u(found: &Measured) -> Option<Broken> {
-    let most = found.bound.of_u + found.total;
-    if found.least()[1] <= most * (1.0 + INTEGRATED) {
-        return None;
-    }
-    let Measured { of_u, total, bound, .. } = found;
-    broken("of_u", format!("of u_h {of_u:.6e}, bounds {:.6e} + {total:.6e}", bound.of_u))
+/// combined ≤ total + total′, and ‖A^½∇_h(s′ − u_h)‖ ≤ of_u + total′.
+fn above(
+    found: &Measured,
+    what: &'static str,
+    least: f64,
+    distance: String,
+    own: f64,
+) -> Option<Broken> {
+    let is_within = least <= (own + found.total) * (1.0 + INTEGRATED);
+    let words = || format!("{distance}, bounds {own:.6e} + {:.6e}", found.total);
+    (!is_within).then(|| Broken { what, words: words() })
 }
 
 /// The value of every output is in its interval.

@@ -9,7 +9,6 @@
 use std::path::Path;
 
 use signorini_certify::CertifiedFields;
-use signorini_certify::admissible::Admissible;
 use signorini_condense::stepped;
 use signorini_problem::quadrature::gauss;
 use signorini_problem::{Problem, State};
@@ -19,42 +18,25 @@ use signorini_scene::scene::Scene;
 use signorini_session::tick::{Budget, ScheduledTick, TickRecord, play, replay};
 use signorini_solve::{ScalarKind, Solution};
 
-use super::nested::{MeshSolution, Nesting, apart};
-use super::step::{JudgedStep, judge};
+use super::nested::{Nesting, apart};
+
+use super::step::{Judged, judge};
 use super::trajectory::Trajectory;
+use crate::mesh_solution::MeshSolution;
 
 /// Steps of the finer play in a tick.
 pub const PARTS: u32 = 4;
-
-/// The bound over time at a tick, and what it stands against.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct JudgedWindow {
-    /// The bound.
-    pub window: f64,
-    /// The root of the mean of G² to the finer answer.
-    pub apart: f64,
-    /// The bound of the finer answer, in these weights.
-    pub finer: f64,
-}
-
-impl JudgedWindow {
-    /// Over 1 where the bound is broken.
-    pub fn least_over_bound(&self) -> f64 {
-        (self.apart - self.finer) / self.window
-    }
-}
 
 /// What a trajectory came to.
 #[derive(Debug, Clone)]
 pub struct JudgedTrajectory {
     /// λ dt
     pub rate: Option<f64>,
-    /// At each tick; empty where there is no bound over time.
-    pub windows: Vec<JudgedWindow>,
+    /// The bound over time at each tick; empty where there is none.
+    pub windows: Vec<Judged>,
     /// At each tick of the condensed controller; empty where there is none.
-    pub condensed: Vec<JudgedWindow>,
-    /// One of its steps.
-    pub step: Option<JudgedStep>,
+    pub condensed: Vec<Judged>,
+    pub step: Option<Judged>,
     /// Why the last tick has no bound.
     pub no_bound: Option<String>,
 }
@@ -62,15 +44,10 @@ pub struct JudgedTrajectory {
 /// One play: the start and all steps.
 struct Played {
     problem: Problem,
-    defaults: Vec<f64>,
     answers: Vec<Solution>,
     records: Vec<TickRecord>,
 }
 
-/// Plays and judges.
-///
-/// # Errors
-/// A scene that is refused.
 pub fn judged(case: &Trajectory) -> Result<JudgedTrajectory> {
     let own = played(case, 1)?;
     let ticks = case.log.len();
@@ -92,8 +69,8 @@ pub fn judged(case: &Trajectory) -> Result<JudgedTrajectory> {
     Ok(JudgedTrajectory { rate, windows, condensed: of_condensed, step, no_bound })
 }
 
-/// The problem of a trajectory whose condensed model with a few states has a bound over time, and s at its start.
-fn posed(case: &Trajectory) -> Result<Option<(Problem, CertifiedFields)>> {
+/// The problem of a trajectory, if its condensed model with a few states has a bound over time, and s at its start.
+pub(super) fn posed(case: &Trajectory) -> Result<Option<(Problem, CertifiedFields)>> {
     let memory = 2 + case.log.len() % 7;
     let text = format!("{}[setting]\nmemory = {memory}\n", case.scene_text(1));
     let problem = Problem::new(&Scene::parse(&text, Path::new("scene.toml"))?, case.mesh.clone())?;
@@ -103,31 +80,17 @@ fn posed(case: &Trajectory) -> Result<Option<(Problem, CertifiedFields)>> {
     Ok(start.map(|start| (problem, start)))
 }
 
-/// Whether a condensed controller plays this trajectory too.
-///
-/// # Errors
-/// A scene that is refused.
-pub fn may_be_condensed(case: &Trajectory) -> Result<bool> {
-    Ok(posed(case)?.is_some())
-}
-
 /// The same trajectory by its condensed controller; nothing where there is none.
 fn condensed(case: &Trajectory) -> Result<Option<Played>> {
     let Some((problem, start)) = posed(case)? else { return Ok(None) };
-    let defaults: Vec<f64> = problem.scene.inputs.iter().map(|input| input.default).collect();
-    let moment = |tick: usize| ScheduledTick {
-        time: (tick + 1) as f64 * case.step,
-        inputs: case.inputs(tick, [1, 1], &defaults).into_iter().enumerate().collect(),
-    };
-    let moments: Vec<_> = (0..case.log.len()).map(moment).collect();
+    let moments = schedule(case, 1, &problem);
     let mut answers = Vec::new();
     let (_, records) = replay(&problem, &moments, (Some(case.scalar), true), |_, solution| {
-        let answer = solution.ok_or_else(|| Error::Check("a tick was refused".to_owned()))?;
-        answers.push(answer.clone());
+        answers.push(answered(solution)?);
         Ok(())
     })?;
     answers[0].certified = start;
-    Ok(Some(Played { problem, defaults, answers, records }))
+    Ok(Some(Played { problem, answers, records }))
 }
 
 fn played(case: &Trajectory, parts: u32) -> Result<Played> {
@@ -144,22 +107,27 @@ fn played(case: &Trajectory, parts: u32) -> Result<Played> {
         },
         _ => Budget { scalar: ScalarKind::F64, intervals: false, ..own },
     };
-    let defaults: Vec<f64> = scene.inputs.iter().map(|input| input.default).collect();
-    let moment = |tick: usize, part: u32| ScheduledTick {
-        time: (tick as f64 + f64::from(part) / f64::from(parts)) * case.step,
-        inputs: case.inputs(tick, [part, parts], &defaults).into_iter().enumerate().collect(),
-    };
-    let moments: Vec<_> = (0..case.log.len())
-        .flat_map(|tick| (1..=parts).map(move |part| (tick, part)))
-        .map(|(tick, part)| moment(tick, part))
-        .collect();
+    let moments = schedule(case, parts, &problem);
     let mut answers = Vec::new();
     let records = play(&problem, None, &moments, &budget, |_, solution| {
-        let answer = solution.ok_or_else(|| Error::Check("a tick was refused".to_owned()))?;
-        answers.push(answer.clone());
+        answers.push(answered(solution)?);
         Ok(())
     })?;
-    Ok(Played { problem, defaults, answers, records })
+    Ok(Played { problem, answers, records })
+}
+
+/// All ticks of a trajectory, each in so many parts.
+fn schedule(case: &Trajectory, parts: u32, problem: &Problem) -> Vec<ScheduledTick> {
+    let moment = |(tick, part): (usize, u32)| ScheduledTick {
+        time: (tick as f64 + f64::from(part) / f64::from(parts)) * case.step,
+        inputs: case.inputs(tick, [part, parts], problem).into_iter().enumerate().collect(),
+    };
+    let places = (0..case.log.len()).flat_map(|tick| (1..=parts).map(move |part| (tick, part)));
+    places.map(moment).collect()
+}
+
+fn answered(solution: Option<&Solution>) -> Result<Solution> {
+    solution.cloned().ok_or_else(|| Error::Check("a tick was refused".to_owned()))
 }
 
 impl Played {
@@ -167,19 +135,19 @@ impl Played {
     fn at(&self, case: &Trajectory, tick: usize) -> Result<Problem> {
         let mut problem = self.problem.clone();
         let inputs: Vec<_> =
-            case.inputs(tick - 1, [1, 1], &self.defaults).into_iter().enumerate().collect();
+            case.inputs(tick - 1, [1, 1], &self.problem).into_iter().enumerate().collect();
         problem.set(&inputs, tick as f64 * case.step)?;
         Ok(problem)
     }
 
-    fn step(&self, case: &Trajectory, tick: usize) -> Result<JudgedStep> {
+    fn step(&self, case: &Trajectory, tick: usize) -> Result<Judged> {
         let begin: State<f64> = self.answers[tick - 1].state();
         let problem = self.at(case, tick)?.stepping(case.step, begin)?;
         judge(&problem, &self.answers[tick], 1)
     }
 
-    /// At every tick.
-    fn windows(&self, case: &Trajectory, finer: &Self, seconds: f64) -> Result<Vec<JudgedWindow>> {
+    /// At every tick the bound over time, the root of the mean of G², and the finer bound in these weights.
+    fn windows(&self, case: &Trajectory, finer: &Self, seconds: f64) -> Result<Vec<Judged>> {
         let was_steady = case.initial.is_none();
         let fading = |time: f64| (-time / seconds).exp();
         let part = case.step / f64::from(PARTS);
@@ -211,7 +179,7 @@ impl Played {
             let elapsed = case.step * (tick + 1) as f64;
             let older = (elapsed / its_seconds - elapsed / seconds).max(0.0).exp();
             let apart = (integral / weights).sqrt();
-            judged.push(JudgedWindow { window: own, apart, finer: its * older.sqrt() });
+            judged.push(Judged { bound: own, apart, finer: its * older.sqrt() });
         }
         Ok(judged)
     }
@@ -220,44 +188,28 @@ impl Played {
     fn square(&self, finer: &Self, posed: &[Problem; 2], tick: usize, at: f64) -> Result<f64> {
         let own = between(&self.answers[tick..], at / f64::from(PARTS));
         let its = between(&finer.answers[PARTS as usize * tick..], at);
-        let sides = [(&posed[0], &own), (&posed[1], &its)].map(|(problem, fields)| MeshSolution {
-            problem,
-            admissible: fields.admissible(),
-            u: &fields.tau,
-        });
+        let side =
+            |problem, of| MeshSolution::new(problem, CertifiedFields::admissible(of), &of.tau);
         let rule = gauss(3);
         let nesting = Nesting { levels: 1, cut: None };
-        let found = apart(&sides[0], &sides[1], &nesting, &rule)?;
+        let found = apart(&side(&posed[0], &own)?, &side(&posed[1], &its)?, &nesting, &rule)?;
         Ok(found.with_robin * found.with_robin)
     }
 }
 
 /// s between answers, linear in between.
-struct Between {
-    vertices: Vec<f64>,
-    bubbles: Vec<f64>,
-    tau: Vec<f64>,
-    following: signorini_certify::admissible::Following,
-}
-
-impl Between {
-    fn admissible(&self) -> Admissible<'_> {
-        let Self { vertices, bubbles, tau, following } = self;
-        Admissible { vertices, bubbles, tau, following }
-    }
-}
-
-fn between(answers: &[Solution], at: f64) -> Between {
+fn between(answers: &[Solution], at: f64) -> CertifiedFields {
     let first = (at.floor() as usize).min(answers.len() - 1);
     let share = at - first as f64;
     let [from, to] = [first, (first + 1).min(answers.len() - 1)].map(|at| &answers[at].certified);
     let mix = |a: &[f64], b: &[f64]| -> Vec<f64> {
         a.iter().zip(b).map(|(a, b)| (1.0 - share) * a + share * b).collect()
     };
-    Between {
+    CertifiedFields {
         vertices: mix(&from.vertices, &to.vertices),
         bubbles: mix(&from.bubbles, &to.bubbles),
         tau: from.tau.clone(),
         following: from.following.clone(),
+        ..CertifiedFields::default()
     }
 }

@@ -1,6 +1,7 @@
 //! A record with one axis, one pair and all outcomes, and what its files say of it.
 
 use super::*;
+use crate::record_file::{csv, json};
 
 /// Cases for tests: one axis, one pair, all outcomes.
 pub fn fixture() -> Record {
@@ -44,7 +45,7 @@ fn a_record_survives_its_file_and_a_broken_one_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("extremes.json");
     assert_eq!(Record::read(&path).unwrap(), None);
-    std::fs::write(&path, fixture().json()).unwrap();
+    std::fs::write(&path, json(&fixture())).unwrap();
     assert_eq!(Record::read(&path).unwrap(), Some(fixture()));
     std::fs::write(&path, "{").unwrap();
     let error = Record::read(&path).unwrap_err().to_string();
@@ -53,7 +54,7 @@ fn a_record_survives_its_file_and_a_broken_one_is_named() {
 
 #[test]
 fn the_contract_of_the_json() {
-    let json: serde_json::Value = serde_json::from_str(&fixture().json()).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&json(&fixture())).unwrap();
     let case = &json["cases"][1];
     assert_eq!((&case["axis"], &case["outcome"]), (&"contrast".into(), &"certified-poor".into()));
     assert!(case["axis2"].is_null() && case["value2"].is_null());
@@ -63,7 +64,7 @@ fn the_contract_of_the_json() {
 
 #[test]
 fn a_line_a_case() {
-    let text = String::from_utf8(fixture().csv().unwrap()).unwrap();
+    let text = String::from_utf8(csv("extremes.csv", &fixture().cases).unwrap()).unwrap();
     assert_eq!(text.lines().count(), 1 + fixture().cases.len());
     assert!(text.starts_with("axis,value,axis2,value2,scalar,outcome,error_over_bound,sweeps"));
     assert!(text.contains(",typed-error,,,"));

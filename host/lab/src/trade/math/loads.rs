@@ -3,14 +3,14 @@
 //! The patterns of inputs have no t and are tables on a device; their functions are not counted.
 
 use super::super::record::FunctionCost;
-use super::State;
+use crate::mesh_solution::solve_directly;
 use signorini_bake::costs::Costs;
 use signorini_problem::{Assembled, EdgeKind, Problem};
 use signorini_scene::expression::{Arithmetic, Elementary};
 use signorini_scene::scene::term::each_load;
 use signorini_scene::scene::{Field, Located};
 use signorini_scene::{Expression, Result, Scene};
-use signorini_solve::{Options, Solution, SolverKind, solve, unfit};
+use signorini_solve::{Solution, unfit};
 
 const FIELDS: [Field; 4] = [Field::Value, Field::Gap, Field::Flux, Field::Ambient];
 
@@ -19,61 +19,39 @@ const SINGLE: &str = "f32 with libm";
 
 /// A row for each function that the loads call, after one for f32 with libm, which any of them adds to.
 pub(super) fn rows(problem: &Problem) -> Result<Vec<FunctionCost>> {
-    let loads = loads(problem);
-    let mut uses: Vec<Use> =
-        Elementary::ALL.into_iter().filter_map(|function| Use::of(&loads, function)).collect();
+    let (loads, costs) = (loads(problem), Costs::measured());
+    let row = |name: &str, keys: Vec<&str>, calls: usize| FunctionCost {
+        function: name.to_owned(),
+        used_in: keys.join(", "),
+        calls: calls as u64,
+        saved: costs.saved_by(name).unwrap_or_default(),
+        ..FunctionCost::default()
+    };
+    let (mut uses, mut all) = (Vec::new(), Vec::new());
+    for function in Elementary::ALL {
+        let called = loads.iter().filter(|(load, _)| load.value.calls(function) > 0);
+        let keys: Vec<&str> = called.clone().map(|(load, _)| load.key.as_str()).collect();
+        let calls = called.map(|(load, places)| load.value.calls(function) * places).sum();
+        if !keys.is_empty() {
+            all.extend(keys.clone());
+            uses.push((Arithmetic::Fast(function), row(function.name(), keys, calls)));
+        }
+    }
     if uses.is_empty() {
         return Ok(Vec::new());
     }
-    uses.insert(
-        0,
-        Use { name: SINGLE, arithmetic: Arithmetic::Single, keys: all(&uses), calls: 0 },
-    );
+    all.sort_unstable();
+    all.dedup();
+    uses.insert(0, (Arithmetic::Single, row(SINGLE, all, 0)));
     let unfit = unfit::<f64>(&problem.scene);
     let assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
-    let before = State::from(solved(problem)?);
-    let costs = Costs::measured();
-    let row = |used: Use| -> Result<FunctionCost> {
-        let row = FunctionCost {
-            function: used.name.to_owned(),
-            used_in: used.keys.join(", "),
-            calls: used.calls,
-            saved: costs.saved_by(used.name).unwrap_or_default(),
-            ..FunctionCost::default()
-        };
-        match replaced(problem, used.arithmetic) {
-            Ok(solution) => row.changed(&assembled, &before, &solution.into()).map_err(&unfit),
+    let before = solve_directly(problem)?;
+    let changed =
+        |(arithmetic, row): (Arithmetic, FunctionCost)| match replaced(problem, arithmetic) {
+            Ok(solution) => row.changed(&assembled, &before, &solution).map_err(&unfit),
             Err(error) => Ok(FunctionCost { note: Some(error.reason()), ..row }),
-        }
-    };
-    uses.into_iter().map(row).collect()
-}
-
-/// Where a function is called, and how often a tick.
-struct Use<'s> {
-    name: &'static str,
-    arithmetic: Arithmetic,
-    keys: Vec<&'s str>,
-    calls: u64,
-}
-
-impl<'s> Use<'s> {
-    fn of(loads: &[(&'s Located<Expression>, usize)], function: Elementary) -> Option<Self> {
-        let called = loads.iter().filter(|(load, _)| load.value.calls(function) > 0);
-        let keys: Vec<_> = called.clone().map(|(load, _)| load.key.as_str()).collect();
-        let calls = called.map(|(load, places)| load.value.calls(function) * places).sum::<usize>();
-        let arithmetic = Arithmetic::Fast(function);
-        let found = Self { name: function.name(), arithmetic, keys, calls: calls as u64 };
-        (!found.keys.is_empty()).then_some(found)
-    }
-}
-
-/// The places of all uses, each once.
-fn all<'s>(uses: &[Use<'s>]) -> Vec<&'s str> {
-    let mut keys: Vec<_> = uses.iter().flat_map(|used| &used.keys).copied().collect();
-    keys.sort_unstable();
-    keys.dedup();
-    keys
+        };
+    uses.into_iter().map(changed).collect()
 }
 
 /// Every load, and the number of cells or edges that it stands on.
@@ -94,16 +72,5 @@ fn loads(problem: &Problem) -> Vec<(&Located<Expression>, usize)> {
 fn replaced(problem: &Problem, arithmetic: Arithmetic) -> Result<Solution> {
     let mut scene = Scene::clone(&problem.scene);
     each_load(&mut scene, |load| load.value = load.value.with_arithmetic(arithmetic));
-    solved(&problem.with_loads_of(scene)?)
-}
-
-fn solved(problem: &Problem) -> Result<Solution> {
-    solve(problem, &Options { solver: SolverKind::Direct, ..Options::default() })
-}
-
-impl From<Solution> for State {
-    fn from(solution: Solution) -> Self {
-        let Solution { u, contact_force: force, contact_length: length, .. } = solution;
-        Self { u, force, length }
-    }
+    solve_directly(&problem.with_loads_of(scene)?)
 }

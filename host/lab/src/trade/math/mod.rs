@@ -13,42 +13,30 @@ use super::record::FunctionCost;
 use signorini_kernel::{Error as KernelError, flux};
 use signorini_problem::{Assembled, Problem};
 use signorini_scene::Error;
+use signorini_solve::Solution;
 
 /// A row for every function that the loads of `problem` call, one for f32 alone where they call any, and
 /// those of the kernel's square root; at its time.
-///
-/// # Errors
-/// A scene that has no solution as it stands, or none in f32.
 pub fn of_scene(problem: &Problem) -> Result<Vec<FunctionCost>, Error> {
     let mut rows = loads::rows(problem)?;
     rows.extend(roots::rows(problem)?);
     Ok(rows)
 }
 
-/// The part of an answer that is compared.
-struct State {
-    /// Mean of u_h over each edge.
-    u: Vec<f64>,
-    /// ∫_C (σ·n − q)
-    force: f64,
-    /// Σ|E| over the active edges.
-    length: f64,
-}
-
 impl FunctionCost {
-    /// How far `after` is from `before`, relative to that, in the element matrices of `assembled`; nothing where
-    /// `before` has nothing to relate it to.
+    /// How far u, force and length of `after` are from those of `before`, relative to these, in the element matrices of
+    /// `assembled`; nothing where `before` has nothing to relate it to.
     fn changed(
         self,
         assembled: &Assembled<f64>,
-        before: &State,
-        after: &State,
+        before: &Solution,
+        after: &Solution,
     ) -> Result<Self, KernelError> {
         let moved: Vec<f64> = before.u.iter().zip(&after.u).map(|(a, b)| a - b).collect();
         Ok(Self {
             energy: relative(energy(assembled, &moved)?, energy(assembled, &before.u)?),
-            force: relative(after.force - before.force, before.force),
-            length: relative(after.length - before.length, before.length),
+            force: relative(after.contact_force - before.contact_force, before.contact_force),
+            length: relative(after.contact_length - before.contact_length, before.contact_length),
             ..self
         })
     }

@@ -9,11 +9,10 @@ use signorini_kernel::solver::{Settings, Solver, Status};
 use signorini_kernel::{Error, Libm, Math, Micromath, contact};
 
 use super::super::record::FunctionCost;
-use super::State;
 use signorini_bake::costs::Costs;
 use signorini_problem::{Assembled, Parts, Problem};
 use signorini_scene::Result;
-use signorini_solve::unfit;
+use signorini_solve::{Solution, unfit};
 
 const NAME: &str = "sqrt";
 
@@ -49,7 +48,7 @@ fn compared(
     let search = FunctionCost {
         sweeps: Some(i64::from(fast.sweeps) - i64::from(exact.sweeps)),
         note: ends(&exact, &fast),
-        ..row("search for ω", fast.calls).changed(wide, &exact.state, &fast.state)?
+        ..row("search for ω", fast.calls).changed(wide, &exact.answer, &fast.answer)?
     };
     let (mesh, edges, law) = (single.mesh()?, single.edges(), single.law());
     let is_active = |&at: &usize| contact::is_active(edges.counts(), law, &exact.u, at);
@@ -76,7 +75,7 @@ fn ends(exact: &Cold, fast: &Cold) -> Option<String> {
 /// A cold solve down to the rounding limit.
 struct Cold {
     u: Vec<f32>,
-    state: State,
+    answer: Solution,
     sweeps: u32,
     status: Status,
     /// Square roots that it took.
@@ -98,12 +97,13 @@ fn cold<M: Math<f32>, const WIDTH: usize>(
     assembled.recover(&u, &[], &mut flux)?;
     let length = contact::length::<_, _, Libm>(&assembled.mesh()?, edges, assembled.law(), &u);
     let boundary = assembled.boundary()?;
-    let state = State {
+    let answer = Solution {
         u: u.iter().copied().map(f64::from).collect(),
-        force: contact::force(edges.counts(), &boundary, assembled.law(), &u, &flux).into(),
-        length: length.into(),
+        contact_force: contact::force(edges.counts(), &boundary, assembled.law(), &u, &flux).into(),
+        contact_length: length.into(),
+        ..Solution::default()
     };
-    Ok(Cold { u, state, sweeps: outcome.sweeps, status: outcome.status, calls })
+    Ok(Cold { u, answer, sweeps: outcome.sweeps, status: outcome.status, calls })
 }
 
 thread_local! {

@@ -19,7 +19,6 @@ use std::collections::BTreeMap;
 use super::record::Skipped;
 use super::target::Target;
 use combination::Combination;
-use signorini_kernel::element::QuadElement;
 use signorini_scene::Goal;
 use signorini_scene::setting::{
     CellKind, MathKind, Method, ModelKind, Omega, Precision, Setting, Start,
@@ -53,25 +52,19 @@ const STOPS: [(Option<f64>, Option<u32>); 10] = [
 /// The facts of a scene that decide its plan.
 #[derive(Debug, Clone, Copy)]
 pub struct SceneFacts {
-    /// Whose cost decides.
     pub target: Target,
     /// The cells that the scene's mesh can be brought to beside its own.
     pub other_cells: Option<CellKind>,
-    /// The finest refinement.
     pub finest: u32,
-    /// Whether inputs change from tick to tick.
     pub has_inputs: bool,
-    /// Whether the data change with t.
     pub uses_time: bool,
     /// Whether contact alone or nothing holds a part.
     pub is_loose: bool,
-    /// Unknowns of the scene's mesh.
     pub unknowns: usize,
     /// The best fixed ω on the scene's mesh.
     pub tuned: Option<f64>,
 }
 
-/// The settings to measure, and what is left out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
     /// In the order of measurement.
@@ -81,7 +74,6 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The plan for a scene.
     pub fn new(ground: &SceneFacts) -> Self {
         let mut settings = Vec::new();
         let mut skipped = BTreeMap::<&str, usize>::new();
@@ -98,48 +90,46 @@ impl Plan {
     }
 }
 
-/// The full product.
-fn combinations(ground: &SceneFacts) -> impl Iterator<Item = Setting> {
-    let cells = [None, ground.other_cells];
-    let cells = cells.into_iter().take(if ground.other_cells.is_some() { 2 } else { 1 });
-    let finest = ground.finest;
-    let uniform = cells.flat_map(move |cells| (0..=finest).map(move |level| (cells, level, None)));
+/// The full product, whose first knob changes most slowly.
+fn combinations(ground: &SceneFacts) -> Vec<Setting> {
+    let cells = [None].into_iter().chain(ground.other_cells.map(Some));
+    let levels = 0..=ground.finest;
+    let uniform = cells.flat_map(|cells| levels.clone().map(move |refine| (cells, refine, None)));
     let meshes = uniform.chain(ERRORS.map(|error| (None, 0, Some(error))));
-    let models = [ModelKind::Full, ModelKind::Condensed];
-    let meshes = meshes.flat_map(move |mesh| models.map(|model| (mesh, model)));
-    let formats = meshes.flat_map(|of| {
-        [Precision::F32, Precision::F64, Precision::Mixed].map(|scalar| (of, scalar))
+    let mut all: Vec<Setting> = meshes
+        .map(|(cells, refine, error)| Setting { cells, refine, error, ..Setting::default() })
+        .collect();
+    all = crossed(&all, [ModelKind::Full, ModelKind::Condensed], |set, of| set.model = Some(of));
+    let scalars = [Precision::F32, Precision::F64, Precision::Mixed];
+    all = crossed(&all, scalars, |set, of| set.scalar = Some(of));
+    all = crossed(&all, STOPS, |set, (share, sweeps)| {
+        let factored = set.model == Some(ModelKind::Full) && (share, sweeps) == (None, None);
+        (set.share, set.sweeps) = (share, sweeps);
+        set.solver = factored.then_some(Method::Factor);
     });
-    let stops = formats.flat_map(|of| STOPS.map(|stop| (of, stop)));
-    let maths = stops.flat_map(|of| [MathKind::Libm, MathKind::Micromath].map(|math| (of, math)));
-    let starts = maths.flat_map(|of| [Start::Warm, Start::Cold].map(|start| (of, start)));
+    all = crossed(&all, [MathKind::Libm, MathKind::Micromath], |set, of| set.math = of);
+    all = crossed(&all, [Start::Warm, Start::Cold], |set, of| set.start = of);
     // Without a best ω contact alone holds the domain: no full model with a fixed one is measured there.
     let tuned = ground.tuned.unwrap_or(f64::NAN);
     let factors = [Omega::Auto, Omega::Fixed(tuned), Omega::Fixed(1.0)];
-    let factors = starts.flat_map(move |of| factors.map(|omega| (of, omega)));
-    let all = factors.flat_map(|of| [true, false].map(|certificate| (of, certificate)));
-    all.map(|(((((((mesh, model), scalar), stop), math), start), omega), certificate)| {
-        let ((cells, refine, error), (share, sweeps)) = (mesh, stop);
-        let factored = model == ModelKind::Full && stop == (None, None);
-        let solver = factored.then_some(Method::Factor);
-        let (model, scalar, element) = (Some(model), Some(scalar), QuadElement::default());
-        Setting {
-            refine,
-            error,
-            cells,
-            element,
-            scalar,
-            math,
-            model,
-            solver,
-            start,
-            omega,
-            sweeps,
-            share,
-            certificate,
-            memory: None,
-        }
-    })
+    all = crossed(&all, factors, |set, of| set.omega = of);
+    crossed(&all, [true, false], |set, of| set.certificate = of)
+}
+
+/// Each setting with each of these values of a knob.
+fn crossed<T: Copy, const N: usize>(
+    settings: &[Setting],
+    values: [T; N],
+    turn: impl Fn(&mut Setting, T),
+) -> Vec<Setting> {
+    let turned = |&setting: &Setting| {
+        values.map(|value| {
+            let mut setting = setting;
+            turn(&mut setting, value);
+            setting
+        })
+    };
+    settings.iter().flat_map(turned).collect()
 }
 
 #[cfg(test)]

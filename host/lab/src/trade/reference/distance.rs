@@ -5,12 +5,10 @@
 
 use super::certified;
 use super::finer_solve::Reference;
-use super::places::Places;
+use super::places::{OnEdge, Places};
+use crate::mesh_solution::MeshSolution;
 use crate::trade::record::PointError;
-use signorini_certify::admissible::{Admissible, OnCell};
-use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::{apply, dot, product};
-use signorini_certify::curved::followed;
 use signorini_certify::weighed::{in_cell, minus, on_robin};
 use signorini_problem::Problem;
 use signorini_problem::field::CellField;
@@ -19,21 +17,14 @@ use signorini_problem::search::LocatedPoint;
 use signorini_scene::Result;
 use signorini_solve::Solution;
 
-/// S and τ of an answer on one of its cells.
-struct Certified<'d, 's> {
-    cell: Cell,
-    s: OnCell<'d, 's>,
-    tau: CellField,
-}
-
 impl Reference {
     /// The norms over the domain; force and length are left 0.
     pub(super) fn errors(&self, problem: &Problem, answer: &Solution) -> Result<PointError> {
         let inside = self.points.iter().map(|point| point.x);
         let robin = self.robin.iter().map(|point| point.x);
         let places = self.places.on(&problem.mesh, || Places::find(problem, inside, robin))?;
-        let combined = |of| self.combined(problem, &places, of);
-        let combined = certified(answer).as_ref().map(combined).transpose()?;
+        let combined = |of| self.combined(&MeshSolution::new(problem, of, &answer.u)?, &places);
+        let combined = certified(answer).map(combined).transpose()?;
         Ok(PointError { combined, ..self.broken(problem, &places, answer) })
     }
 
@@ -55,25 +46,18 @@ impl Reference {
     }
 
     /// The distance of S and τ, as [`signorini_certify::exact`] has it.
-    fn combined(&self, problem: &Problem, places: &Places, admissible: &Admissible) -> Result<f64> {
-        let deviations = followed(problem, admissible)?;
-        let certified = |at| Certified {
-            cell: Cell::of(problem, at),
-            s: admissible.on_cell(problem, at, &deviations),
-            // Of this field only the flux is read, so that any numbers do for the means of u.
-            tau: CellField::new(problem, at, admissible.tau, admissible.tau),
-        };
-        let certified: Vec<_> = (0..problem.cells()).map(certified).collect();
+    fn combined(&self, answer: &MeshSolution, places: &Places) -> Result<f64> {
+        let MeshSolution { problem, admissible, .. } = answer;
+        let cells: Vec<_> = (0..problem.cells()).map(|at| answer.on_cell(at)).collect();
         let mut square = 0.0;
         for (known, place) in self.points.iter().zip(&places.cells) {
-            let at = &certified[place.cell as usize];
-            let s = at.s.at(&at.cell.local(place.reference))?;
+            let at = &cells[place.cell as usize];
+            let s = at.s(place.reference)?;
             let tau = at.tau.sample(&here(known.x, place)).flux;
             square += known.weight * in_cell(&known.conductivity, known.gradient, s.gradient, tau);
         }
-        for (known, place) in self.robin.iter().zip(&places.edges) {
-            let edge = place.edge;
-            let s = admissible.on_edge(problem, edge, deviations.on(edge), place.t)?;
+        for (known, &OnEdge { edge, t }) in self.robin.iter().zip(&places.edges) {
+            let s = answer.s_on_edge(edge, t)?;
             let tau = admissible.tau[edge] / problem.lengths[edge];
             square += known.weight * on_robin(known.transfer, known.u - s, known.sigma - tau);
         }

@@ -12,18 +12,15 @@ use super::Facts;
 use super::places::Places;
 use super::recovery::{self, Inside, points};
 use super::tables::Kept;
+use crate::mesh_solution::{MeshSolution, solve_directly};
 use crate::trade::digits::grouped;
 use signorini_certify::admissible::Admissible;
-use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::{Conductivity, apply, inverse, product};
-use signorini_certify::curved::followed;
-use signorini_certify::deviation::Deviations;
-use signorini_problem::field::CellField;
 use signorini_problem::quadrature::gauss;
 use signorini_problem::{Problem, Sum};
 use signorini_scene::scene::Field;
 use signorini_scene::{Mesh, Result, Scene};
-use signorini_solve::{Options, Solution, SolverKind, solve};
+use signorini_solve::Solution;
 
 const ON_EDGES: usize = 3;
 
@@ -52,8 +49,7 @@ impl Reference {
     /// Solves `scene` on `mesh` by the direct solver.
     pub(super) fn new(scene: &Scene, mesh: Mesh) -> Result<(Self, Facts)> {
         let problem = Problem::new(scene, mesh)?;
-        let options = Options { solver: SolverKind::Direct, ..Options::default() };
-        let solution = solve(&problem, &options)?;
+        let solution = solve_directly(&problem)?;
         let (mut points, robin) = sampled(&problem, &solution)?;
         let change = recovery::smooth(&problem, &mut points);
         let own = match solution.bound {
@@ -78,61 +74,47 @@ impl Reference {
 /// Values at the points of all cells and of the Robin boundary.
 fn sampled(problem: &Problem, solution: &Solution) -> Result<(Vec<Inside>, Vec<OnRobin>)> {
     let certified = solution.certified.admissible();
-    let deviations = followed(problem, &certified)?;
     // Without a bound nobody mended τ.
     let tau = if solution.bound.is_some() { certified.tau } else { &solution.flux };
-    let sampler =
-        Sampler { problem, u: &solution.u, s: Admissible { tau, ..certified }, deviations };
+    let answer = MeshSolution::new(problem, Admissible { tau, ..certified }, &solution.u)?;
     let mut inside = Vec::new();
     for at in 0..problem.cells() {
-        sampler.add_cell(at, &mut inside)?;
+        add_cell(&answer, at, &mut inside)?;
     }
     let mut robin = Vec::new();
     for edge in 0..problem.kinds.len() {
-        sampler.add_robin(edge, &mut robin)?;
+        add_robin(&answer, edge, &mut robin)?;
     }
     Ok((inside, robin))
 }
 
-struct Sampler<'a> {
-    problem: &'a Problem,
-    u: &'a [f64],
-    s: Admissible<'a>,
-    deviations: Deviations<'a>,
+fn add_cell(answer: &MeshSolution, at: usize, inside: &mut Vec<Inside>) -> Result<()> {
+    let (own, conductivity) = (answer.on_cell(at), Conductivity::of(answer.problem, at));
+    for point in points(&own.cell) {
+        let conductivity = conductivity.at(point.x);
+        let s = own.s(point.reference)?;
+        let other = apply(&inverse(&conductivity), own.tau.sample(&point).flux);
+        let gradient = [0, 1].map(|k| 0.5 * (s.gradient[k] + other[k]));
+        let u = 0.5 * (own.u.sample(&point).u + s.value);
+        inside.push(Inside { x: point.x, weight: point.weight, u, gradient, conductivity });
+    }
+    Ok(())
 }
 
-impl Sampler<'_> {
-    fn add_cell(&self, at: usize, inside: &mut Vec<Inside>) -> Result<()> {
-        let problem = self.problem;
-        let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
-        let field = CellField::new(problem, at, self.u, self.s.tau);
-        let s = self.s.on_cell(problem, at, &self.deviations);
-        for point in points(&cell) {
-            let conductivity = conductivity.at(point.x);
-            let (sample, s) = (field.sample(&point), s.at(&cell.local(point.reference))?);
-            let other = apply(&inverse(&conductivity), sample.flux);
-            let gradient = [0, 1].map(|k| 0.5 * (s.gradient[k] + other[k]));
-            let (x, weight, u) = (point.x, point.weight, 0.5 * (sample.u + s.value));
-            inside.push(Inside { x, weight, u, gradient, conductivity });
-        }
-        Ok(())
+/// σ·n = h(u_ext − u) there, with u = s.
+fn add_robin(answer: &MeshSolution, edge: usize, robin: &mut Vec<OnRobin>) -> Result<()> {
+    let problem = answer.problem;
+    let Some(transfer) = Sum::transfer(problem, edge, problem.time) else { return Ok(()) };
+    let ambient = Sum::on_edge(problem, edge, Field::Ambient, problem.time);
+    let Some(ambient) = ambient else { return Ok(()) };
+    let (length, [a, b]) = (problem.lengths[edge], problem.segment(edge));
+    for [t, weight] in gauss(ON_EDGES) {
+        let x = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
+        let transfer = transfer.finite(transfer.at(x[0], x[1]), x)?;
+        let ambient = ambient.finite(ambient.at(x[0], x[1]), x)?;
+        let u = answer.s_on_edge(edge, t)?;
+        let (weight, sigma) = (weight * length, transfer * (ambient - u));
+        robin.push(OnRobin { x, weight, transfer, u, sigma });
     }
-
-    /// σ·n = h(u_ext − u) there, with u = s.
-    fn add_robin(&self, edge: usize, robin: &mut Vec<OnRobin>) -> Result<()> {
-        let problem = self.problem;
-        let Some(transfer) = Sum::transfer(problem, edge, problem.time) else { return Ok(()) };
-        let ambient = Sum::on_edge(problem, edge, Field::Ambient, problem.time);
-        let Some(ambient) = ambient else { return Ok(()) };
-        let (length, [a, b]) = (problem.lengths[edge], problem.segment(edge));
-        for [t, weight] in gauss(ON_EDGES) {
-            let x = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
-            let transfer = transfer.finite(transfer.at(x[0], x[1]), x)?;
-            let ambient = ambient.finite(ambient.at(x[0], x[1]), x)?;
-            let u = self.s.on_edge(problem, edge, self.deviations.on(edge), t)?;
-            let (weight, sigma) = (weight * length, transfer * (ambient - u));
-            robin.push(OnRobin { x, weight, transfer, u, sigma });
-        }
-        Ok(())
-    }
+    Ok(())
 }

@@ -34,7 +34,6 @@ pub const FINER: u32 = 2;
 /// The words of a record whose scene has an exact solution.
 pub const EXACT: &str = "the exact solution";
 
-/// The facts of the truth that a record states.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Facts {
     /// How it was found, in words.
@@ -64,9 +63,6 @@ enum Source {
 impl ReferenceSolution {
     /// Takes the exact solution of `scene`, or solves it on `refined(mesh, times)`, [`FINER`] times
     /// finer than `finest`, the number of refinements of the finest mesh that is measured.
-    ///
-    /// # Errors
-    /// A scene that cannot be solved, an exact solution that is not finite somewhere.
     pub fn new(
         scene: &Scene,
         mesh: &Mesh,
@@ -87,9 +83,6 @@ impl ReferenceSolution {
 
     /// How far `answer`, found for `problem`, is from it. `problem` belongs to the scene that
     /// this was made for, in any setting, on any mesh, with the loads of t = 0.
-    ///
-    /// # Errors
-    /// Data that are not finite at a quadrature point.
     pub fn errors(&self, problem: &Problem, answer: &Solution) -> Result<PointError> {
         let inside = match &self.source {
             Source::Exact(exact, recent) => exactly(exact, recent, problem, answer)?,

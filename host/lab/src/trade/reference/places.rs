@@ -16,7 +16,6 @@ pub(super) struct Places {
 /// A point of the boundary as an edge sees it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct OnEdge {
-    /// The edge.
     pub(super) edge: usize,
     /// From 0 to 1 in the edge's direction.
     pub(super) t: f64,

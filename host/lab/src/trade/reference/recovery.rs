@@ -24,7 +24,6 @@ use signorini_problem::quadrature::{Point, gauss};
 const ON_TRIANGLES: usize = 2;
 const ON_QUADS: usize = 3;
 
-/// The solution at a point inside.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Inside {
     pub(super) x: [f64; 2],
@@ -35,7 +34,6 @@ pub(super) struct Inside {
     pub(super) conductivity: Tensor<f64>,
 }
 
-/// The points of a cell.
 pub(super) fn points(cell: &Cell) -> Vec<Point> {
     cell.points(&gauss(match cell {
         Cell::Triangle(_) => ON_TRIANGLES,

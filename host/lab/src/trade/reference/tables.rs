@@ -25,7 +25,6 @@ pub(super) struct Tables {
 }
 
 impl Tables {
-    /// Fills the tables on the mesh of `problem`.
     pub(super) fn new(exact: &Exact, problem: &Problem, deviations: &Deviations) -> Result<Self> {
         let solution = Solution { exact, problem };
         Ok(Self {

@@ -10,6 +10,7 @@ use std::f64::consts::PI;
 use super::ReferenceSolution;
 use super::finer_solve::Reference;
 use super::recovery::Inside;
+use crate::mesh_solution::solve_directly;
 use crate::trade::record::PointError;
 use crate::trade::tests::scene as read;
 use signorini_certify::conductivity::product;
@@ -19,13 +20,12 @@ use signorini_problem::fixtures::{SMOOTH, on_grid, with_four_sides};
 use signorini_problem::pointwise::exact_at;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::{Mesh, Scene, mesh};
+use signorini_solve::Solution;
 use signorini_solve::norms::of_solution;
-use signorini_solve::{Options, Solution, SolverKind, solve};
 
 fn solved(scene: &Scene, mesh: Mesh) -> (Problem, Solution) {
     let problem = Problem::new(scene, mesh).unwrap();
-    let options = Options { solver: SolverKind::Direct, ..Options::default() };
-    let solution = solve(&problem, &options).unwrap();
+    let solution = solve_directly(&problem).unwrap();
     (problem, solution)
 }
 

@@ -13,12 +13,10 @@ use signorini_scene::mesh::structured::{Cells, Trapezoids, grid, trapezoids};
 use signorini_scene::{Mesh, Scene};
 use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
 
-use super::step::finer;
-use super::step::tests::second_step;
+use super::super::finer;
+use super::{PLAIN, ROBIN, materials, second_step};
 
-const PLAIN: &str = "conductivity = 1\ncapacity = 1";
 const HELD: &str = "kind = \"dirichlet\"\nvalue = 0.1";
-const ROBIN: &str = "kind = \"robin\"\ncoefficient = 3\nambient = -0.1";
 const WALL: &str = "kind = \"neumann\"\nflux = 0.2";
 
 /// Outputs of every kind: the middle is a cell.
@@ -135,9 +133,7 @@ fn intervals_of_steps_hold_at_every_step_length() {
 /// Half of the domain may store nothing, sweeps may end anywhere, and contact alone may hold the domain.
 #[test]
 fn intervals_of_steps_hold_with_limits_layers_and_few_sweeps() {
-    let layer = "(1 + sign(y - 0.5))/2";
-    let layers = format!("conductivity = \"1 - 0.9*{layer}\"\ncapacity = \"1 + 19*{layer}\"");
-    let none_below = format!("conductivity = 1\ncapacity = \"{layer}\"");
+    let [layers, none_below] = materials();
     let mut ratios = Vec::new();
     for (name, material, contact, left) in [
         ("limits", PLAIN, "limit = 0.8", HELD),
