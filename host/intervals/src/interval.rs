@@ -84,7 +84,7 @@ impl Known<'_> {
             return Ok(Ok(self.around(&Goal { start, ..goal }, [0.0; 2])));
         }
         let mut dual = Dual::new(self.problem, &goal)?;
-        // The least part that may be the best one, and then larger ones as long as they are better.
+        // The least part that may be the best one, and then larger ones as long as weights ask for them.
         let mut rooms: Vec<f64> =
             self.contact.iter().map(|of| of.room).filter(|room| *room > 0.0).collect();
         rooms.sort_by(f64::total_cmp);
@@ -99,10 +99,9 @@ impl Known<'_> {
             if differ {
                 ends = self.braces(&goal, &weights, part, false)?.0.within(ends);
             }
-            let is_better = ends != best;
             best = ends;
-            // Below the part that suits its own weights no trial is the last.
-            if self.contact.is_empty() || (trial > 0 && !is_better && first.part < part) {
+            // Above the part that suits its own weights no larger one is better.
+            if self.contact.is_empty() || (trial > 0 && first.part < part) {
                 break;
             }
             part = if trial == 0 { first.part } else { STEP * part };
