@@ -1,6 +1,6 @@
 //! Workspaces by numbers that are exact: thresholds from both sides, means, ways out, and the errors of long edges.
 
-use super::{Edge, ONE, OPEN, Plate, SQUARE, TWO, UNIT, ZERO, sweeps};
+use super::{Edge, ONE, OPEN, Plate, SQUARE, TWO, UNIT, ZERO, beside, sweeps};
 use signorini_bound::certificate::{Certificate, Verdict};
 use signorini_device::condition::Condition;
 use signorini_device::tick::Deadline;
@@ -341,14 +341,9 @@ fn a_side_of_which_nothing_is_left_is_refused() -> Result<(), Error> {
 #[test]
 fn a_jump_of_rounding_is_none() -> Result<(), Error> {
     for (steps, jumps) in [(1.0, false), (2.0, true)] {
-        let value = 4.0 * (1.0 + steps * f64::EPSILON);
-        let jump = |edge: &Edge| {
-            Some(match edge.vertices {
-                [0, 1] => Condition::Dirichlet { value: 4.0 },
-                [1, 2] => Condition::Dirichlet { value },
-                _ => OPEN,
-            })
-        };
+        let values = [4.0, 4.0 * (1.0 + steps * f64::EPSILON)];
+        let [one, other] = values.map(|value| Condition::Dirichlet { value });
+        let jump = beside(one, other);
         let found = of_square((&TWO, &[]), UNIT, jump)?;
         assert_eq!(found.certificate().is_none(), jumps, "{steps}: {found:?}");
         assert_eq!(found == Verdict::Unavailable, jumps, "{steps}: {found:?}");
@@ -361,13 +356,8 @@ fn a_jump_of_rounding_is_none() -> Result<(), Error> {
 fn a_value_next_to_its_gap_is_on_it() -> Result<(), Error> {
     for (steps, is_below) in [(64.0, false), (65.0, true)] {
         let value = 1.0 - steps * f64::EPSILON;
-        let low = |edge: &Edge| {
-            Some(match edge.vertices {
-                [0, 1] => Condition::Dirichlet { value },
-                [1, 2] => Condition::Contact { gap: 1.0, flux: 0.0 },
-                _ => OPEN,
-            })
-        };
+        let contact = Condition::Contact { gap: 1.0, flux: 0.0 };
+        let low = beside(Condition::Dirichlet { value }, contact);
         let found = of_square((&TWO, &[]), UNIT, low)?;
         assert_eq!(found.certificate().is_none(), is_below, "{steps}: {found:?}");
         assert_eq!(found == Verdict::BelowGap, is_below, "{steps}: {found:?}");
