@@ -1,7 +1,7 @@
 //! The bound against its definition, integrated from coordinates; and what it says of poor input.
 
+use crate::numbering::{SIDES, Side};
 use crate::plate::foundation::{A, Foundation, GAP, LAW};
-use crate::plate::{SIDES, Side};
 use signorini_bound::certificate::{Buffers, Curved, Discretization, LoadCase, Verdict, certify};
 use signorini_bound::equilibrium::Iterate;
 use signorini_kernel::element::{crouzeix_raviart, rannacher_turek};

@@ -1,7 +1,8 @@
 //! An admissible flux from any iterate, converged or not, and who is told that there is none.
 
-use crate::owned::{NONE, Packed};
-use crate::plate::{Plate, SIDES, Side};
+use crate::numbering::{NONE, SIDES, Side};
+use crate::owned::Packed;
+use crate::plate::Plate;
 use signorini_bound::averages;
 use signorini_bound::cells::Either;
 use signorini_bound::equilibrium::{Iterate, impose, pulled, walk};

@@ -1,7 +1,7 @@
 //! Ticks on a factor: what sweeps find in the end, without sweeps; and sweeps where the factor is of no use.
 
+use crate::numbering::SIDES;
 use crate::owned::of_full;
-use crate::plate::SIDES;
 use crate::plate::factor::{Baked, Store};
 use crate::plate::foundation::{Foundation, GAP};
 use signorini_bound::certificate::LoadCase;

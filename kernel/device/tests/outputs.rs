@@ -1,7 +1,7 @@
 //! Outputs of a full model at the end of the range: finite, or said not to be.
 
+use crate::numbering::SIDES;
 use crate::owned::{TickArrays, of_full};
-use crate::plate::SIDES;
 use crate::plate::foundation::Foundation;
 use signorini_bound::certificate::Verdict;
 use signorini_device::full::{Contribution, DataMemory, Functional};

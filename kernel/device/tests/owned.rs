@@ -1,4 +1,4 @@
-//! Owned memory of what bounds and ticks borrow, and numbers of edges.
+//! Owned memory of what bounds and ticks borrow.
 
 use signorini_bound::cells::{CellBuffers, Cells, Quad, Triangle, pack};
 use signorini_bound::certificate::{Metric, Stability, stability};
@@ -7,48 +7,10 @@ use signorini_device::full::{self, DataMemory, HandedOn, Past};
 use signorini_device::tick::{Memory, Progress};
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::Boundary;
-use signorini_kernel::mesh::edges::{Block, EdgeCounts, Edges};
-use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
+use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::rows::{QUADS, Row, Rows};
 use signorini_kernel::stiffness::Stiffness;
 use signorini_kernel::{Error, Real};
-
-/// No half-edge.
-pub const NONE: u16 = u16::MAX;
-
-/// Numbers of the edges of a mesh.
-#[derive(Clone)]
-pub struct Numbering {
-    of_triangles: Vec<[u16; 3]>,
-    of_quads: Vec<[u16; 4]>,
-    half_edges: Vec<[u16; 2]>,
-    pub counts: EdgeCounts,
-}
-
-impl Numbering {
-    pub fn new<R: Real>(
-        mesh: &Mesh<R, u16>,
-        mut block: impl FnMut([u16; 2]) -> Block,
-    ) -> Result<Self, Error> {
-        let mut of_triangles = vec![[NONE; 3]; mesh.triangles().len()];
-        let mut of_quads = vec![[NONE; 4]; mesh.quads().len()];
-        let mut half_edges = vec![[NONE; 2]; mesh.half_edges()];
-        let buffers = NumberingBuffers {
-            of_triangles: &mut of_triangles,
-            of_quads: &mut of_quads,
-            half_edges: &mut half_edges,
-            at_vertex: &mut vec![[NONE; 2]; mesh.vertices().len()],
-            next: &mut vec![NONE; mesh.half_edges()],
-        };
-        let counts = number(mesh, buffers, |ends| Some(block(ends)))?.counts();
-        half_edges.truncate(counts.edges());
-        Ok(Self { of_triangles, of_quads, half_edges, counts })
-    }
-
-    pub fn edges(&self) -> Result<Edges<'_, u16>, Error> {
-        Edges::new(&self.of_triangles, &self.of_quads, &self.half_edges, self.counts)
-    }
-}
 
 /// Ways out of the cells, and the cells packed along them.
 pub struct Packed<R> {

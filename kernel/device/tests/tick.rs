@@ -2,8 +2,8 @@
 
 use std::cell::Cell;
 
+use crate::numbering::SIDES;
 use crate::owned::TickArrays;
-use crate::plate::SIDES;
 use crate::plate::foundation::{Foundation, GAP};
 use signorini_bound::certificate::{Certificate, Discretization, LoadCase, Verdict};
 use signorini_bound::conforming::VertexData;

@@ -5,35 +5,12 @@ pub mod foundation;
 
 use signorini_kernel::Error;
 use signorini_kernel::mesh::Mesh;
-use signorini_kernel::mesh::edges::{Block, Edges};
+use signorini_kernel::mesh::edges::Edges;
 
-use crate::owned::Numbering;
+use crate::numbering::{Numbering, Side};
 
 /// Squares along x and y, of side 1; every other one is cut into two triangles.
 const SQUARES: [usize; 2] = [5, 4];
-
-/// The condition on a side of the plate.
-#[derive(Clone, Copy, PartialEq)]
-pub enum Side {
-    Given,
-    Insulated,
-    Transfer,
-    Contact,
-}
-
-impl Side {
-    /// The block of its edges.
-    pub fn block(self) -> Block {
-        match self {
-            Self::Given => Block::Dirichlet,
-            Self::Contact => Block::Contact,
-            Self::Insulated | Self::Transfer => Block::Free,
-        }
-    }
-}
-
-/// One side of each kind.
-pub const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];
 
 /// The numbered mesh; sides are bottom, right, top, left.
 pub struct Plate {

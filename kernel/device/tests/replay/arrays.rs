@@ -13,8 +13,7 @@ use signorini_kernel::system::{Shifts, System};
 use signorini_kernel::{Error, Tensor};
 
 use super::scene::{Draw, Scalar, Scene};
-use crate::owned::{NONE, Numbering};
-use crate::plate::Side;
+use crate::numbering::{NONE, Numbering, Side};
 
 #[derive(Clone)]
 pub struct Arrays<R> {

@@ -1,6 +1,6 @@
 //! The problems: a grid whose inner vertices are moved at random, random data, and what makes it awkward.
 
-use crate::plate::Side::{self, Contact, Given, Insulated, Transfer};
+use crate::numbering::Side::{self, Contact, Given, Insulated, Transfer};
 use signorini_kernel::Real;
 
 /// A scalar that takes numbers of the host.
