@@ -1,6 +1,6 @@
 //! Conditions on edges that are not of length 1, and what is said of too many or none.
 
-use crate::workspace::UNIT;
+use crate::workspace::{OPEN, UNIT, ZERO, sides};
 use signorini_device::condition::{BoundaryEdge, Condition};
 use signorini_device::{Workspace, workspace};
 use signorini_kernel::error::{Array, CellId};
@@ -26,13 +26,7 @@ type Bar = workspace!(f64, u16: vertices 5, triangles 3, quads 0, boundary 5);
 fn bar(right: Condition<f64>) -> Result<(), Error> {
     let mesh = Mesh::new(&CORNERS, &CELLS, &[])?;
     let mut bar = Bar::new();
-    bar.build(&mesh, UNIT, |edge| {
-        Some(match edge.middle() {
-            [0.0, _] => Condition::Dirichlet { value: 0.0 },
-            [2.0, _] => right,
-            _ => Condition::Neumann { flux: 0.0 },
-        })
-    })?;
+    bar.build(&mesh, UNIT, sides(2.0, [ZERO, right, OPEN]))?;
     let outcome = bar.solve(Settings::default())?;
     assert!(matches!(outcome.status, Status::Converged | Status::RoundingLimit), "{outcome:?}");
     let highest = bar.u().iter().fold(0.0, |most: f64, u| most.max(*u));

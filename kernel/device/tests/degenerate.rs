@@ -1,6 +1,6 @@
 //! The smallest and strangest problems first: what they answer, and how they are refused.
 
-use crate::workspace::{Edge, OPEN, SQUARE, TWO, UNIT};
+use crate::workspace::{Edge, OPEN, SQUARE, TWO, UNIT, ZERO, sides};
 use signorini_device::condition::Condition;
 use signorini_device::workspace;
 use signorini_kernel::csr::Csr;
@@ -63,11 +63,7 @@ fn all_contact() {
 #[test]
 fn no_contact_is_a_linear_problem() {
     let mesh = Mesh::new(&SQUARE, &[], &[[0u16, 1, 2, 3]]).expect("valid");
-    let sides = |edge: &Edge| match edge.middle() {
-        [0.0, _] => Some(Condition::Dirichlet { value: 0.0 }),
-        [1.0, _] => Some(Condition::Neumann { flux: 3.0 }),
-        _ => Some(OPEN),
-    };
+    let sides = sides(1.0, [ZERO, Condition::Neumann { flux: 3.0 }, OPEN]);
     let mut bar = build(&mesh, sides).expect("fits");
     bar.solve(Settings::default()).expect("finite");
     let highest = bar.u().iter().fold(0.0, |most: f64, u| most.max(*u));
@@ -304,10 +300,8 @@ fn fast_math_costs_what_it_says() {
     let mesh = Mesh::<f32, u16>::new(&vertices, &[[0, 1, 2], [0, 2, 3]], &[]).expect("valid");
     let mut plate = <workspace!(f32, u16: vertices 4, triangles 2, quads 0, boundary 4)>::new();
     let unit = Coefficient::Uniform(Tensor::scalar(1.0));
-    let sides = |edge: &signorini_device::condition::BoundaryEdge<f32, u16>| match edge.middle() {
-        [0.0, _] => Some(Condition::Dirichlet { value: 0.0 }),
-        _ => Some(Condition::Contact { gap: 1.0, flux: 0.0 }),
-    };
+    let contact = Condition::Contact { gap: 1.0, flux: 0.0 };
+    let sides = sides(1.0, [Condition::Dirichlet { value: 0.0 }, contact, contact]);
     plate.build(&mesh, unit, sides).expect("fits");
     plate.solve(Settings::default()).expect("finite");
     let exact = plate.contact_length::<Libm>(&mesh).expect("built");

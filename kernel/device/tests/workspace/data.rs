@@ -1,6 +1,6 @@
 //! Workspaces whose data change: what stays, what is another mesh, what is too large, and what rounding of data costs.
 
-use super::{Edge, OPEN, Plate, SQUARE, TWO, UNIT, ZERO, beside, sweeps};
+use super::{Edge, OPEN, Plate, SQUARE, TWO, UNIT, ZERO, beside, sides, sweeps};
 use signorini_device::condition::Condition;
 use signorini_device::tick::Deadline;
 use signorini_kernel::error::Array;
@@ -12,13 +12,7 @@ use signorini_tolerances::kernel::BOUND;
 
 /// 0 on the left, `right` beyond x = 1, `rest` elsewhere.
 fn bar(right: Condition<f64>, rest: Condition<f64>) -> impl Fn(&Edge) -> Option<Condition<f64>> {
-    move |edge| {
-        Some(match edge.middle() {
-            [0.0, _] => ZERO,
-            [2.0, _] => right,
-            _ => rest,
-        })
-    }
+    sides(2.0, [ZERO, right, rest])
 }
 
 /// Two triangles and a square, 2 long.

@@ -1,6 +1,6 @@
 //! The short way through the layers: answers with a bound at a deadline, and what has none.
 
-use super::UNIT;
+use super::{OPEN, UNIT, ZERO, sides};
 use signorini_bound::certificate::Verdict;
 use signorini_device::condition::{BoundaryEdge, Condition};
 use signorini_device::tick::{Deadline, Limits, Report};
@@ -37,13 +37,7 @@ fn triangles() -> Vec<[u16; 3]> {
 
 /// −u″ = 2 with u(0) = 0 on the left, and `right` there; nothing passes the rest.
 fn bar(right: Condition<f64>) -> impl Fn(&BoundaryEdge<f64, u16>) -> Option<Condition<f64>> {
-    move |edge| {
-        Some(match edge.middle() {
-            [0.0, _] => Condition::Dirichlet { value: 0.0 },
-            [1.0, _] => right,
-            _ => Condition::Neumann { flux: 0.0 },
-        })
-    }
+    sides(1.0, [ZERO, right, OPEN])
 }
 
 /// Until more sweeps change this share of the bound.
@@ -208,13 +202,9 @@ fn what_has_no_bound_says_why() -> Result<(), Error> {
     plate.build(&mesh, UNIT, below)?;
     assert_eq!(plate.tick(&mesh, limits, &mut never)?.verdict, Verdict::BelowGap);
     // Contact alone holds the plate; a solve goes on.
-    let held = |edge: &BoundaryEdge<f64, u16>| {
-        Some(match edge.middle() {
-            [1.0, _] => Condition::Contact { gap: 0.0, flux: 0.0 },
-            _ => Condition::Neumann { flux: -0.1 },
-        })
-    };
-    plate.build(&mesh, UNIT, held)?;
+    let (contact, out) =
+        (Condition::Contact { gap: 0.0, flux: 0.0 }, Condition::Neumann { flux: -0.1 });
+    plate.build(&mesh, UNIT, sides(1.0, [out, contact, out]))?;
     assert!(matches!(plate.tick(&mesh, limits, &mut never), Err(Error::NoWayOut { .. })));
     plate.solve(Settings::default())?;
     assert!((plate.contact_force() - 0.3).abs() < 1e-9, "{}", plate.contact_force());
