@@ -453,14 +453,10 @@ fn a_coarser_mesh_saves_sweeps_at_the_first_tick() {
 #[test]
 fn ends_that_a_log_turns_round_are_blamed_on_its_line() {
     let folder = Folder::new();
+    let ends = "flux = \"-2\"\nlimit = \"0\"\n";
+    let cap = "[input.cap]\nof = \"contact\"\nfield = \"limit\"\npattern = \"1\"\ndefault = 1\n";
     let mesh = meshes("catalogue/square-tri-16.msh");
-    let text = format!(
-        "mesh = {mesh:?}\n[material.default]\nconductivity = \"1\"\n\
-         [boundary.dirichlet]\nkind = \"dirichlet\"\nvalue = \"0\"\n\
-         [boundary.contact]\nkind = \"contact\"\nflux = \"-2\"\nlimit = \"0\"\n\
-         [input.cap]\nof = \"contact\"\nfield = \"limit\"\npattern = \"1\"\ndefault = 1\n"
-    );
-    let scene = folder.write("l.toml", text);
+    let scene = folder.write("l.toml", in_time(&mesh, "0", "0", &format!("{ends}{cap}")));
     let log = folder.write("sagging.csv", "t,cap\n0,1\n1,-3\n2,1\n");
     let message = refused("tick", &scene, &["--log", &log]);
     says(&message, &["sagging.csv:3:", "at t = 1", "the limit is -3"]);

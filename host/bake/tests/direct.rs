@@ -9,8 +9,10 @@ use signorini_certify::admissible::Following;
 use signorini_certify::exact::distance;
 use signorini_device::tick::{Limits, Report};
 use signorini_problem::Problem;
+use signorini_problem::fixtures::on_grid;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
+use signorini_scene::mesh::Mesh;
 use signorini_session::tick::{Budget, ScheduledTick, TickRecord, play};
 use signorini_solve::outputs::outputs;
 use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
@@ -39,6 +41,12 @@ output.skin = { kind = "mean", of = "contact" }
 /// Limits of a tick that goes on until sweeps change nothing that counts.
 pub fn to_the_end<R: Scalar>() -> Limits<R> {
     Limits { share: R::narrow(1e-9), ..Limits::default() }
+}
+
+/// Why there is no full model of a scene.
+pub fn refusal(text: &str, mesh: Mesh) -> Result<String> {
+    let (_, problem) = on_grid(text, mesh)?;
+    Ok(Baked::<f64>::new(&problem).expect_err("no full model").to_string())
 }
 
 /// The problem at these inputs, its direct solution, and the outputs of that.

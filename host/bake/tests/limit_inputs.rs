@@ -1,7 +1,7 @@
 //! Full models with limits of the flux, and inputs on either end of it, tick after tick: against the direct solver and
 //! an exact solution, and where inputs leave no flux.
 
-use crate::direct::{Beside, HEATER, bounded, directly, played, to_the_end};
+use crate::direct::{Beside, HEATER, bounded, directly, played, refusal, to_the_end};
 use signorini_bake::full::{Baked, Controller, source};
 use signorini_bake::narrow::narrow;
 use signorini_kernel::Error;
@@ -237,8 +237,7 @@ fn ranges_that_leave_no_flux_are_refused_with_the_corner() -> Result<()> {
     assert!(text.contains("fluxes: &LEAK_TO_FLUXES, spans: &LEAK_TO_SPANS"));
     assert!(text.contains("Pattern::ContactFlux(&DRAIN_PATTERN)"));
     let wider = SUPPLY.replace("range = [-2.0, 4.0]", "range = [-2.5, 4.0]");
-    let (_, problem) = on_grid(&wider, grid(3, Cells::Triangles))?;
-    let error = Baked::<f64>::new(&problem).expect_err("no flux").to_string();
+    let error = refusal(&wider, grid(3, Cells::Triangles))?;
     let expected =
         "input.supply.range: with supply = 0 and leak = -2.5 the limit of boundary.contact";
     assert!(error.contains(expected) && error.contains("less than flux = "), "{error}");

@@ -43,7 +43,7 @@ fn compiled_by(compiler: &str, age: &str, text: &str) -> Result<(), String> {
     told(compiler, &format!("{age} -Wpedantic -fsyntax-only -x {language} main"), &[("main", text)])
 }
 
-/// What a compiler that takes every warning for an error says of these files.
+/// Words of a compiler on these files, for which every warning is an error.
 fn told(compiler: &str, words: &str, files: &[(&str, &str)]) -> Result<(), String> {
     let folder = tempfile::tempdir().expect("a folder");
     for (name, text) in files {

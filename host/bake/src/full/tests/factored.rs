@@ -138,14 +138,12 @@ fn the_module_has_the_bits_of_the_same_arrays() -> Result<()> {
 
 #[test]
 fn a_module_without_contact() -> Result<()> {
-    let text = unbounded().replace(
-        "kind = \"contact\", gap = \"x^3 - 0.3\", flux = \"-0.5*x^2\"",
-        "kind = \"dirichlet\", value = \"x\"",
-    );
-    let text = text.replace("field = \"gap\"", "field = \"value\"");
+    let contact = "kind = \"contact\", gap = \"x^3 - 0.3\", flux = \"-0.5*x^2\"";
     let rain = "input.rain = { of = \"contact\", field = \"flux\", pattern = \"-1 - x\" }\n";
     let force = "output.force = { kind = \"force\" }\noutput.length = { kind = \"length\" }\n";
-    let text = fixtures::changed(&text, &[(rain, ""), (force, "")]);
+    let given = (contact, "kind = \"dirichlet\", value = \"x\"");
+    let changes = [given, ("field = \"gap\"", "field = \"value\""), (rain, ""), (force, "")];
+    let text = fixtures::changed(unbounded(), &changes);
     let setting = Setting { certificate: false, ..factor() };
     let problem = scene(&text, Cells::Triangles, setting)?;
     same_bits_of::<f32, TRIANGLES>(&problem)

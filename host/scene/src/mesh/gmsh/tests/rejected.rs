@@ -59,10 +59,10 @@ fn cells_out_of_shape() {
     assert_eq!(quad([a, a, c, d]), degenerate);
 }
 
-/// A change of the model.
+/// Something done to a model.
 type Spoil = fn(&mut Model);
 
-/// What is done to the model, and the message.
+/// A change of the model, and the message about it.
 #[rustfmt::skip] // A table.
 const SPOILT: &[(Spoil, &str)] = &[
     (|m| m.nodes[5].1 = [1.0, 0.5, 0.5], "triangle 6 is degenerate: it has no area, or two corners in one place"),
