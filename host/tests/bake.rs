@@ -3,14 +3,13 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::command::{Folder, meshes, run, text};
+use crate::command::{Folder, meshes, run, says, text};
+
+/// Exit status, standard output, standard error, and the module.
+type Baked = (i32, String, String, Option<String>);
 
 /// Bakes `scene` of the repository with `changes` made to its text; the source where there is one.
-fn bake(
-    scene: &str,
-    changes: &[(&str, &str)],
-    more: &[&str],
-) -> (i32, String, String, Option<String>) {
+fn bake(scene: &str, changes: &[(&str, &str)], more: &[&str]) -> Baked {
     let folder = Folder::new();
     let changed = folder.scene("scene.toml", scene, changes);
     let run = run(&[&["bake", &changed, "-o", &folder.word("scene.rs")], more].concat());
@@ -33,12 +32,6 @@ fn refused(changes: &[(&str, &str)], more: &[&str]) -> String {
     let (status, _, stderr, source) = bake(LEVEE, changes, more);
     assert_eq!((status, source), (2, None), "{stderr}");
     stderr
-}
-
-/// Asserts that each part stands in the text.
-#[track_caller]
-fn says(text: &str, parts: &[&str]) {
-    parts.iter().for_each(|part| assert!(text.contains(part), "{part}: {text}"));
 }
 
 #[test]
@@ -158,14 +151,9 @@ fn a_bound_that_is_read_is_not_left_infinite_where_a_model_has_one() {
     says(&baked(&jump[..2], &[]), &[full]);
     // A model that is asked for and has none says why.
     let (_, _, stderr, source) = bake(LEVEE, &jump, &["--condensed"]);
-    says(
-        &source.expect("a module"),
-        &["without an error bound (the gaps of the contact boundaries that meet at"],
-    );
-    says(
-        &stderr,
-        &["warning: there is no error bound: the gaps of the contact boundaries that meet at"],
-    );
+    let gaps = "the gaps of the contact boundaries that meet at";
+    says(&source.expect("a module"), &[&format!("without an error bound ({gaps}")]);
+    says(&stderr, &[&format!("warning: there is no error bound: {gaps}")]);
     // Gaps that differ by what is known beforehand are no matter.
     let known = [("gap = \"-y\"\nflux", "gap = \"-y - 0.5\"\nflux"), jump[2]];
     let source = baked(&known, &[]);
@@ -191,10 +179,8 @@ fn a_key_for_the_full_model_alone_asks_for_it() {
 
 #[test]
 fn hints_do_not_promise_meshes_that_cannot_be() {
-    for (model, target) in
-        [("--condensed", "flash = 1000"), ("--full", "flash = 1000"), ("--full", "flash = 20000")]
-    {
-        let small = [("flash = 1048576", target), ("tick = 0.001", "tick = 1.0")];
+    for (model, flash) in [("--condensed", "1000"), ("--full", "1000"), ("--full", "20000")] {
+        let small = [("1048576", flash), ("tick = 0.001", "tick = 1.0")];
         says(&refused(&small, &[model]), &["no mesh is coarse enough"]);
     }
     let (status, _, stderr, _) = bake(LEVEE, &[("clock = 168e6", "")], &[]);
@@ -265,11 +251,8 @@ fn the_dependency_line_builds_as_printed() {
         "mod levee;\nfn main() {\n    let _ = levee::Controller::new();\n}\n",
     );
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("dependency-line");
-    let checked = Command::new(env!("CARGO"))
-        .args(["check", "--quiet", "--offline", "--target-dir"])
-        .arg(target)
-        .current_dir(package.path(""))
-        .output()
-        .expect("cargo");
+    let mut check = Command::new(env!("CARGO"));
+    check.args(["check", "--quiet", "--offline", "--target-dir"]).arg(target);
+    let checked = check.current_dir(package.path("")).output().expect("cargo");
     assert!(checked.status.success(), "{}", String::from_utf8_lossy(&checked.stderr));
 }

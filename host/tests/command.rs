@@ -1,7 +1,7 @@
 //! Runs of the command as users meet it, and the files that they need.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Output};
 
 use serde_json::Value;
 
@@ -14,6 +14,12 @@ pub struct Run {
 }
 
 impl Run {
+    fn of(output: Output) -> Self {
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        let (stdout, stderr) = (text(&output.stdout), text(&output.stderr));
+        Self { status: output.status.code().unwrap_or(-1), stdout, stderr }
+    }
+
     /// The run itself where its status is 0.
     #[track_caller]
     pub fn succeeds(self) -> Self {
@@ -40,11 +46,9 @@ pub fn signorini(words: &[&str]) -> Command {
 /// Runs the command with these words.
 #[track_caller]
 pub fn run(words: &[&str]) -> Run {
-    let output = signorini(words).output().expect("the binary runs");
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    let (status, stderr) = (output.status.code().unwrap_or(-1), text(&output.stderr));
-    assert!(!stderr.contains("panicked"), "{stderr}");
-    Run { status, stdout: text(&output.stdout), stderr }
+    let run = Run::of(signorini(words).output().expect("the binary runs"));
+    assert!(!run.stderr.contains("panicked"), "{}", run.stderr);
+    run
 }
 
 /// The message of a command that must refuse its scene or what follows it, and leave nothing behind.
@@ -55,6 +59,27 @@ pub fn refused(verb: &str, scene: &str, more: &[&str]) -> String {
     let message = run(&[&[verb, scene], more, &[to, &folder.word("out")]].concat()).refuses();
     assert!(!folder.path("out").exists(), "{verb} {more:?}: {message}");
     message
+}
+
+/// Asserts that each part stands in the text.
+#[track_caller]
+pub fn says(text: &str, parts: &[&str]) {
+    says_of("", text, parts);
+}
+
+/// Asserts that each part stands in the text, which is that of a case of a table.
+#[track_caller]
+pub fn says_of(case: &str, text: &str, parts: &[&str]) {
+    parts.iter().for_each(|part| assert!(text.contains(part), "{case} {part}: {text}"));
+}
+
+/// Asserts that each command is wrong input, and that its message has the words beside it.
+#[track_caller]
+pub fn each_refused(rows: &[(&[&str], &str)], message: impl Fn(&[&str]) -> String) {
+    for (words, expected) in rows {
+        let said = message(words);
+        assert!(said.contains(expected), "{words:?}, {expected}: {said}");
+    }
 }
 
 /// A file or a folder of the repository.
@@ -83,6 +108,21 @@ pub fn text(path: impl AsRef<Path>) -> String {
 #[track_caller]
 pub fn json(path: impl AsRef<Path>) -> Value {
     serde_json::from_str(&text(path)).expect("JSON")
+}
+
+/// Starts the command with these words, interrupts it once there is this file, and waits for its end.
+#[cfg(unix)]
+pub fn interrupted(words: &[&str], once: impl Fn() -> bool) -> Run {
+    use std::process::Stdio;
+    let mut command = signorini(words);
+    command.stdout(Stdio::null()).stderr(Stdio::piped());
+    let child = command.spawn().expect("the binary runs");
+    while !once() {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    let stop = Command::new("kill").arg("-INT").arg(child.id().to_string()).status();
+    assert!(stop.expect("kill").success());
+    Run::of(child.wait_with_output().expect("it ends"))
 }
 
 /// A folder that is gone after the test.

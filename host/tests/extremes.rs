@@ -21,6 +21,14 @@ fn cases(only: &str) -> Vec<Value> {
     cases
 }
 
+/// Error over bound of a case that is correct.
+fn correct(case: &Value) -> f64 {
+    assert_eq!(case["outcome"], "correct", "{case}");
+    let ratio = case["error_over_bound"].as_f64().expect("a ratio");
+    GUARANTEE.check_at_most(case, ratio, 1.0);
+    ratio
+}
+
 /// Outcomes by place, one letter a case: c, p(oor), t(yped), w(rong).
 fn outcomes(cases: &[Value], scalar: &str) -> String {
     let of_scalar = cases.iter().filter(|case| case["scalar"] == scalar);
@@ -49,12 +57,8 @@ fn quads_that_collapse_keep_their_bound_until_they_are_refused() {
 #[test]
 fn grazing_and_switching_contact_keep_their_bound() {
     for only in ["grazing", "switching edges"] {
-        let found = cases(only);
-        for case in &found {
-            assert_eq!(case["outcome"], "correct", "{case}");
-            let ratio = case["error_over_bound"].as_f64().expect("a ratio");
-            assert!(ratio >= 0.3, "{case}");
-            GUARANTEE.check_at_most(case, ratio, 1.0);
+        for case in &cases(only) {
+            assert!(correct(case) >= 0.3, "{case}");
         }
     }
 }
@@ -106,14 +110,9 @@ fn limits_of_any_size_keep_their_bound() {
     for scalar in ["f64", "f32"] {
         assert_eq!(outcomes(&infinite, scalar), "ctc", "{scalar}");
     }
-    let far = cases("greatest flux: A, triangles");
-    let ratio = |case: &Value| case["error_over_bound"].as_f64().expect("a ratio");
-    for case in &far {
-        assert_eq!(case["outcome"], "correct", "{case}");
-        GUARANTEE.check_at_most(case, ratio(case), 1.0);
-    }
-    for case in &cases("span of the flux: L, triangles") {
-        assert_eq!(case["outcome"], "correct", "{case}");
-        GUARANTEE.check_at_most(case, ratio(case), 1.0);
+    for only in ["greatest flux: A, triangles", "span of the flux: L, triangles"] {
+        for case in &cases(only) {
+            correct(case);
+        }
     }
 }

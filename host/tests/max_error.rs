@@ -1,11 +1,10 @@
 //! `signorini solve --max-error`: the files of all levels, and how it ends.
 
 use std::path::Path;
-use std::process::Stdio;
 
 use signorini_tolerances::command::REFINED;
 
-use crate::command::{Folder, Run, json, meshes, run, signorini, text};
+use crate::command::{self, Folder, Run, json, meshes, run, says, text};
 
 /// Solves into the folder `out`.
 fn solve(scene: &str, folder: &Folder, more: &[&str]) -> Run {
@@ -59,11 +58,8 @@ fn a_promised_error_gives_every_command_the_same_mesh() {
     let setting = [("[target]", "[setting]\nerror = \"25%\"\n[target]")];
     let scene = folder.scene("scene.toml", "scenes/levee.toml", &setting);
     let out = folder.path("out");
-    let commands: [&[&str]; 3] = [
-        &["solve", "--out", "out"],
-        &["bake", "-o", "out.rs"],
-        &["tick", "--ticks", "2", "--out", "out"],
-    ];
+    let tick = ["tick", "--ticks", "2", "--out", "out"];
+    let commands: [&[&str]; 3] = [&["solve", "--out", "out"], &["bake", "-o", "out.rs"], &tick];
     let notes = commands.map(|words| {
         let (last, rest) = words.split_last().expect("words");
         let said = run(&[&[rest[0], &scene], &rest[1..], &[&folder.word(last)]].concat());
@@ -76,7 +72,7 @@ fn a_promised_error_gives_every_command_the_same_mesh() {
     let [_, relative] = bounds(&out);
     assert!(relative <= 0.25, "{relative}");
     let said = solve(&scene, &folder, &["--max-error", "30%"]).stderr;
-    assert!(said.contains("takes the place of setting.error"), "{said}");
+    says(&said, &["takes the place of setting.error"]);
 }
 
 #[test]
@@ -106,22 +102,12 @@ fn an_interrupted_run_leaves_the_files_of_its_last_level() {
     let out = &folder.path("out");
     // Levels of an earlier run that went further.
     std::fs::create_dir_all(out.join("levels")).expect("a folder");
-    (0..40).for_each(|at| {
-        folder.write(&format!("out/levels/{at:02}.vtu"), "");
-    });
+    (0..40).for_each(|at| drop(folder.write(&format!("out/levels/{at:02}.vtu"), "")));
     let words = ["solve", &levee(), "--out", &folder.word("out"), "--max-error", "0.01%"];
-    let mut command = signorini(&words);
-    command.stdout(Stdio::null()).stderr(Stdio::piped());
-    let child = command.spawn().expect("the binary runs");
-    while std::fs::metadata(out.join("levels/02.vtu")).expect("a file").len() == 0 {
-        std::thread::sleep(std::time::Duration::from_millis(1));
-    }
-    let stop = std::process::Command::new("kill").arg("-INT").arg(child.id().to_string()).status();
-    assert!(stop.expect("kill").success());
-    let output = child.wait_with_output().expect("it ends");
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(3), "{said}");
-    assert!(said.contains("interrupted"), "{said}");
+    let third = out.join("levels/02.vtu");
+    let run = command::interrupted(&words, || std::fs::metadata(&third).expect("a file").len() > 0);
+    assert_eq!(run.status, 3, "{}", run.stderr);
+    says(&run.stderr, &["interrupted"]);
     let (rows, [total, _]) = (levels(out), bounds(out));
     let last: f64 = rows[rows.len() - 1][3].parse().expect("a number");
     assert_eq!(last, total);

@@ -1,6 +1,6 @@
 //! Inputs outside the ranges that a scene declares, as users and scripts meet them.
 
-use crate::command::{Folder, meshes, refused, run, text};
+use crate::command::{Folder, meshes, refused, run, says_of, text};
 
 /// Its rain is 0 to 5, its river −1 to 0.5.
 fn levee() -> String {
@@ -16,11 +16,9 @@ fn every_command_refuses_a_value_outside() {
             ("river=-1e300", "[-1, 0.5]"),
             ("river=0.6", "[-1, 0.5]"),
         ] {
-            let message = refused(verb, &levee(), &["--input", value]);
             let (name, _) = value.split_once('=').expect("a value");
-            for part in [name, range, "outside the range"] {
-                assert!(message.contains(part), "{verb} {value}: {message}");
-            }
+            let message = refused(verb, &levee(), &["--input", value]);
+            says_of(&format!("{verb} {value}"), &message, &[name, range, "outside the range"]);
         }
         for value in ["rain=nan", "rain=inf", "river=-inf"] {
             refused(verb, &levee(), &["--input", value]);
@@ -46,9 +44,8 @@ fn a_log_is_refused_with_the_line_of_the_value() {
     ] {
         let log = folder.write("inputs.csv", text);
         for more in [&["--log", &log][..], &["--log", &log, "--baked"]] {
-            let message = refused("tick", &levee(), more);
-            assert!(message.contains(&format!("inputs.csv:{line}:")), "{text:?}: {message}");
-            assert!(message.contains("outside the range"), "{text:?}: {message}");
+            let place = format!("inputs.csv:{line}:");
+            says_of(text, &refused("tick", &levee(), more), &[&place, "outside the range"]);
         }
     }
 }
@@ -72,10 +69,8 @@ fn wrong_ranges_are_refused_with_file_line_and_key() {
         let changed = [("range = [0.0, 5.0]", range)];
         let file = folder.scene("levee.toml", "scenes/levee.toml", &changed);
         for verb in ["solve", "tick", "bake"] {
-            let message = refused(verb, &file, &[]);
-            let place = format!("levee.toml:{line}:");
-            assert!(message.contains(&place), "{verb} {range}: {message}");
-            assert!(message.contains(key), "{verb} {range}: {message}");
+            let (case, place) = (format!("{verb} {range}"), format!("levee.toml:{line}:"));
+            says_of(&case, &refused(verb, &file, &[]), &[&place, key]);
         }
     }
 }

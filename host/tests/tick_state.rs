@@ -4,8 +4,8 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use crate::command::{Folder, Run, json as json_in, meshes, run, text};
-use crate::tick::Table;
+use crate::command::{self, Folder, Run, json as json_in, meshes, run, says, says_of, text};
+use crate::tick::{Table, pushed};
 
 const LEVEE: &str = "scenes/levee.toml";
 
@@ -40,10 +40,10 @@ fn one_of_two(scene: &str, folder: &Folder, [whole, first, second]: [&[&str]; 3]
     ran("second", &[second, &["--from", &state, "--save", &folder.word("next.json")]]);
     for name in ["ticks.csv", "output_bounds.csv"] {
         let rows = |out: &str| text(folder.path(out).join(name));
-        let (header, more) =
-            rows("second").split_once('\n').map(|(a, b)| (a.len(), b.to_owned())).expect("rows");
-        assert!(header > 0 && !more.contains("start"), "{more}");
-        assert_eq!(rows("first") + &more, rows("whole"), "{name} of {scene}: {whole:?}");
+        let second = rows("second");
+        let (header, more) = second.split_once('\n').expect("rows");
+        assert!(!header.is_empty() && !more.contains("start"), "{more}");
+        assert_eq!(rows("first") + more, rows("whole"), "{name} of {scene}: {whole:?}");
     }
     // The state of the second is that of the whole.
     ran("whole", &[whole, &["--save", &state]]);
@@ -67,12 +67,8 @@ fn steps_in_time_go_on_bit_for_bit() {
             [&["--ticks", "5"][..], &["--ticks", "2"], &["--ticks", "3"]].map(with);
         one_of_two(&scene, &folder, [&whole, &first, &second], 0);
         let state = json_in(folder.path("state.json"));
-        assert_eq!(
-            state["units"]["conductivity"] == 1.0,
-            conductivity == 1.0,
-            "{}",
-            state["units"]
-        );
+        let units = &state["units"];
+        assert_eq!(units["conductivity"] == 1.0, conductivity == 1.0, "{units}");
     }
     let scene = body(&folder, "tri", 1.0, "capacity = 2");
     // What a log said last stays.
@@ -83,12 +79,12 @@ fn steps_in_time_go_on_bit_for_bit() {
     let heat = &["--input", "heat=3"];
     one_of_two(&scene, &folder, [heat, &[heat, &["--ticks", "2"][..]].concat(), &[]], 0);
     assert_eq!(text(folder.path("second/ticks.csv")).lines().count(), 5);
-    let done = tick(&scene, &folder, "done", &["--from", &folder.word("state.json")]).refuses();
-    assert!(done.contains("time.end: 0.06 comes before the next tick"), "{done}");
+    let from = ["--from", &folder.word("state.json")];
+    let said = tick(&scene, &folder, "done", &from).refuses();
+    says(&said, &["time.end: 0.06 comes before the next tick"]);
     let log = folder.write("log.csv", "t,heat\n0.08,1\n");
-    let said = ["--log", &log, "--from", &folder.word("state.json")];
-    let said = tick(&scene, &folder, "done", &said).refuses();
-    assert!(said.contains("log.csv:2: t: 0.08 comes") && said.contains("after 0.06"), "{said}");
+    let said = tick(&scene, &folder, "done", &[&["--log", &log], &from[..]].concat()).refuses();
+    says(&said, &["log.csv:2: t: 0.08 comes", "after 0.06"]);
 }
 
 /// The error over time of a run that goes on is that of one run, in other units too.
@@ -126,15 +122,8 @@ fn ticks_of_steady_scenes_go_on_bit_for_bit() {
 #[test]
 fn a_log_goes_on_beyond_refused_rows() {
     let folder = Folder::new();
-    let scene = format!(
-        "mesh = {:?}\n[material.default]\nconductivity = 1\n\
-         [boundary.contact]\nkind = \"contact\"\n[boundary.default]\nkind = \"neumann\"\nflux = 0\n\
-         [boundary.dirichlet]\nkind = \"neumann\"\nflux = -1\n\
-         [input.push]\nof = \"dirichlet\"\nfield = \"flux\"\npattern = 1\n[input.side]\nof = \"default\"\n\
-         field = \"flux\"\npattern = \"y\"\n",
-        meshes("catalogue/square-tri-16.msh")
-    );
-    let scene = folder.write("free.toml", scene);
+    let side = "input.side = { of = \"default\", field = \"flux\", pattern = \"y\" }\n";
+    let scene = pushed(&folder, side);
     let rows = ["0,2", "1,-1", "2,2", "3,-1.5", "4,3", "5,-1"];
     let log =
         |name: &str, rows: &[&str]| folder.write(name, format!("t,push\n{}\n", rows.join("\n")));
@@ -188,16 +177,14 @@ fn states_of_anything_else_are_refused() {
     for (part, value, expected) in spoilt() {
         let mut spoilt: Value = serde_json::from_str(&whole).expect("JSON");
         *spoilt.pointer_mut(part).unwrap_or_else(|| panic!("{part}")) = value;
-        let message = said(&spoilt.to_string());
-        assert!(message.contains("other.json") && message.contains(expected), "{part}: {message}");
+        says_of(part, &said(&spoilt.to_string()), &["other.json", expected]);
     }
     let number = whole.find("\"u\":[").expect("means") + 5;
     let nan = format!("{}NaN,{}", &whole[..number], &whole[number..]);
     for (text, expected) in [("", "EOF"), (&whole[..number], "EOF"), (&nan, "expected value")] {
-        let message = said(text);
-        assert!(message.contains("other.json:") && message.contains(expected), "{message}");
+        says(&said(text), &["other.json:", expected]);
     }
-    assert!(refused(&folder.word("none.json"), &[]).contains("none.json"));
+    says(&refused(&folder.word("none.json"), &[]), &["none.json"]);
     for more in [&["--step", "0.02"][..], &["--scalar", "f32"], &["--tolerance", "1e-9"]] {
         assert!(refused(&state, more).contains("state.json"), "{more:?}");
     }
@@ -221,17 +208,9 @@ fn an_interrupted_run_leaves_its_files_and_its_state() {
     let scene = body(&folder, "tri", 1.0, "capacity = 2");
     let (out, state) = (folder.word("out"), folder.word("state.json"));
     let words = ["tick", &scene, "--out", &out, "--ticks", "100000", "--vtu", "--save", &state];
-    let mut command = crate::command::signorini(&words);
-    command.stdout(std::process::Stdio::null()).stderr(std::process::Stdio::piped());
-    let child = command.spawn().expect("the binary runs");
-    while !folder.path("out/ticks/0002.vtu").exists() {
-        std::thread::sleep(std::time::Duration::from_millis(1));
-    }
-    let stop = std::process::Command::new("kill").arg("-INT").arg(child.id().to_string()).status();
-    assert!(stop.expect("kill").success());
-    let output = child.wait_with_output().expect("it ends");
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(130), "{said}");
+    let run = command::interrupted(&words, || folder.path("out/ticks/0002.vtu").exists());
+    let said = run.stderr;
+    assert_eq!(run.status, 130, "{said}");
     let rows = text(folder.path("out/ticks.csv"));
     let ticks = rows.lines().count() - 2;
     assert!(said.contains(&format!("interrupted after {ticks} of 100000 ticks")), "{said}");

@@ -14,7 +14,7 @@ use signorini_session::request::SolveRequest;
 use signorini_solve::adaptive::mesh_of_scene;
 use signorini_solve::norms::errors;
 
-use crate::command::{Folder, Run, json as read, repository, run, text};
+use crate::command::{Folder, Run, each_refused, json as read, repository, run, says, text};
 
 /// A strip of 8 × 4 squares, cut, warmed from above, with an input.
 const SCENE: &str = r#"
@@ -187,20 +187,17 @@ fn a_promised_error_has_its_firmware_in_the_folder_of_the_scene() {
 #[test]
 fn wrong_words_are_named() {
     let bench = Bench::new();
-    for (more, part) in [
-        (&["--promise", "5%", "--target", "m4f"][..], "--promise"),
+    let rows: [(&[&str], &str); 5] = [
+        (&["--promise", "5%", "--target", "m4f"], "--promise"),
         (&["--shard", "3/2"], "--shard"),
         (&["--max-error", "-1%"], "expected a number > 0"),
         (&["--budget-cycles", "0"], "--budget-cycles"),
         (&["--target", "m3"], "m3"),
-    ] {
-        let stderr = bench.trade("out", more).refuses();
-        assert!(stderr.contains(part), "{part}: {stderr}");
-    }
-    let stderr = run(&["trade", &bench.scene, &bench.scene]).refuses();
-    assert!(stderr.contains("two scenes of one name"), "{stderr}");
-    let stderr = run(&["trade", "--no-peers"]).refuses();
-    assert!(stderr.contains("--no-peers without a scene"), "{stderr}");
+    ];
+    each_refused(&rows, |more| bench.trade("out", more).refuses());
+    let twice = run(&["trade", &bench.scene, &bench.scene]).refuses();
+    says(&twice, &["two scenes of one name"]);
+    says(&run(&["trade", "--no-peers"]).refuses(), &["--no-peers without a scene"]);
 }
 
 /// The studies of one target in the committed record, by their folders.
@@ -255,9 +252,8 @@ fn every_standard_scene_is_in_the_record() {
     let mut scenes = Vec::new();
     for folder in ["catalogue", "scenes"] {
         let steady = scenes_of(&repository("meshes").join(folder)).expect("scenes");
-        scenes.extend(
-            steady.iter().map(|path| path.file_stem().unwrap().to_string_lossy().into_owned()),
-        );
+        let stem = |path: &PathBuf| path.file_stem().unwrap().to_string_lossy().into_owned();
+        scenes.extend(steady.iter().map(stem));
     }
     scenes.sort();
     for target in ["host", "m4f"] {
@@ -325,10 +321,8 @@ fn the_page_quotes_the_record() {
             };
             let mut line = vec![size["unknowns"].to_string()];
             line.extend(SOLVERS.iter().map(cycles));
-            assert!(
-                lines.contains(&line.iter().map(|cell| &**cell).collect()),
-                "{start}: {line:?}"
-            );
+            let is_there = lines.contains(&line.iter().map(|cell| &**cell).collect());
+            assert!(is_there, "{start}: {line:?}");
         }
     }
 }

@@ -13,7 +13,7 @@ use signorini_device::tick::Limits;
 use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
-use signorini_scene::scene::{Input, Quantity, Scene};
+use signorini_scene::scene::{Input, Output, Quantity, Scene};
 use signorini_scene::setting::Setting;
 use signorini_solve::outputs::outputs;
 use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
@@ -102,9 +102,8 @@ fn solves_that_are_cut_off() {
                 assert!(force >= 0.0, "{what}: {force} {table:?}");
                 allowed.check(&what, (force - table.law) / table.size);
                 let values = outputs(&problem, &found).expect("outputs");
-                let values: Vec<_> =
-                    scene.outputs.iter().map(|output| values[&output.name.value]).collect();
-                let values: Vec<_> = values.into_iter().map(Option::unwrap_or_default).collect();
+                let value = |output: &Output| values[&output.name.value].unwrap_or_default();
+                let values: Vec<_> = scene.outputs.iter().map(value).collect();
                 for (output, value) in signed(&scene, &values) {
                     assert!(value >= 0.0, "{what}, {output}: {value}");
                 }

@@ -8,10 +8,10 @@ use std::path::Path;
 
 use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::condensed::{Baked, Controller, Work};
-use signorini_certify::ErrorBound;
 use signorini_certify::admissible::Following;
 use signorini_certify::curved::followed;
 use signorini_certify::exact::{Distance, distance};
+use signorini_certify::{CertifiedFields, ErrorBound};
 use signorini_condense::{CondensedModel, Recovery, condense, recoverable};
 use signorini_problem::fixtures::{
     EVERY_INPUT, PARABOLA, SMOOTH, distorted, on_grid, scatter, scene, with_four_sides,
@@ -20,7 +20,7 @@ use signorini_problem::{Problem, Sum};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{Curve, Mesh};
-use signorini_scene::scene::{Field, Scene};
+use signorini_scene::scene::{Exact, Field, Scene};
 use signorini_scene::setting::ModelKind;
 use signorini_session::tick::{ScheduledTick, replay};
 use signorini_solve::energy_norm::nonconformity;
@@ -43,10 +43,7 @@ struct Model {
 
 impl Model {
     fn new(text: &str, mesh: Mesh) -> Result<Self> {
-        let scene = scene(text)?;
-        let four = scene.boundaries.iter().any(|boundary| boundary.name.value == "left");
-        let mesh = if four { with_four_sides(mesh) } else { mesh };
-        let problem = Problem::new(&scene, mesh)?;
+        let (scene, problem) = on_grid(text, mesh)?;
         let (condensate, recovery) = recoverable(&problem)?;
         Ok(Self { scene, problem, condensate, recovery })
     }
@@ -55,12 +52,27 @@ impl Model {
         Self::new(&catalogue(file), mesh)
     }
 
+    fn exact(&self) -> &Exact {
+        self.scene.exact.as_ref().expect("an exact solution")
+    }
+
+    /// s and the mended τ of (p, x).
+    fn fields(&self, p: &[f64], x: &[f64]) -> CertifiedFields {
+        let answer = self.recovery.admissible(&self.condensate, &self.problem, p, x);
+        answer.expect("a certificate")
+    }
+
     /// The distance of s and the mended τ of (p, x).
     fn distance(&self, p: &[f64], x: &[f64]) -> Result<Distance> {
-        let answer = self.recovery.admissible(&self.condensate, &self.problem, p, x);
-        let answer = answer.expect("a certificate");
-        let exact = self.scene.exact.as_ref().expect("an exact solution");
-        distance(exact, &self.problem, &answer.admissible())
+        distance(self.exact(), &self.problem, &self.fields(p, x).admissible())
+    }
+
+    /// `bound` is no less than the distance and the identity of (p, x).
+    fn check_bound(&self, what: &str, p: &[f64], x: &[f64], bound: f64) -> Result<()> {
+        let found = self.distance(p, x)?;
+        GUARANTEE.check_at_most(what, found.combined, bound);
+        IDENTITY_BOUNDED.check_at_most(what, found.identity, bound);
+        Ok(())
     }
 
     /// x after some sweeps of projected Gauss–Seidel from nothing.
@@ -79,11 +91,8 @@ impl Model {
     /// The bound for u_h of (p, x) is the other one and the distance of s from u_h, or more, and it bounds.
     fn check_bound_of_u(&self, p: &[f64], x: &[f64]) -> Result<()> {
         let (u, flux) = self.recovery.field(&self.condensate, p, x);
-        let answer = self.recovery.admissible(&self.condensate, &self.problem, p, x);
-        let answer = answer.expect("a certificate");
-        let exact = self.scene.exact.as_ref().expect("an exact solution");
-        let energy = errors(exact, &self.problem, &u, &flux)?.energy;
-        let jump = nonconformity(&self.problem, &answer.admissible(), &u)?;
+        let energy = errors(self.exact(), &self.problem, &u, &flux)?.energy;
+        let jump = nonconformity(&self.problem, &self.fields(p, x).admissible(), &u)?;
         let bound = self.condensate.bound(p, x).expect("a bound");
         let of_u = self.condensate.bound_of_u(p, x).expect("a bound");
         GUARANTEE.check_at_most("energy", energy, of_u);
@@ -104,8 +113,7 @@ impl Model {
         let x = self.condensate.solve(p).expect("a solution");
         let bound = self.condensate.bound(p, &x).expect("a bound");
         let (problem, solution, _) = full_at(&self.problem, p)?;
-        let exact = self.scene.exact.as_ref().expect("an exact solution");
-        let energy = errors(exact, &problem, &solution.u, &solution.flux)?.energy;
+        let energy = errors(self.exact(), &problem, &solution.u, &solution.flux)?.energy;
         let found = self.distance(p, &x)?;
         self.check_bound_of_u(p, &x)?;
         Ok([energy, found.combined, found.identity, bound])
@@ -170,14 +178,8 @@ fn of_any_iterate() -> Result<()> {
             let swept = [0, 1, 2, 4, 8, 16].map(|sweeps| model.swept(p, sweeps));
             for x in swept.into_iter().chain([wild]) {
                 let bound = model.condensate.bound(p, &x).expect("a bound");
-                let found = model.distance(p, &x)?;
                 model.check_bound_of_u(p, &x)?;
-                IDENTITY_BOUNDED.check_at_most(
-                    format_args!("{file} {cells:?}"),
-                    found.identity,
-                    bound,
-                );
-                GUARANTEE.check_at_most(format_args!("{file} {cells:?}"), found.combined, bound);
+                model.check_bound(&format!("{file} {cells:?}"), p, &x, bound)?;
             }
         }
     }
@@ -235,14 +237,8 @@ fn of_a_tick_in_f32() -> Result<()> {
                 let (_, report) = controller.tick(&[0.0]).expect("a tick");
                 let x: Vec<f64> = controller.x().iter().map(|&x| f64::from(x)).collect();
                 let Some(&bound) = report.certificate() else { continue };
-                let found = model.distance(&[1.0, 0.0], &x)?;
-                let total = f64::from(bound.total);
-                GUARANTEE.check_at_most(format_args!("{cells:?} {work:?}"), found.combined, total);
-                IDENTITY_BOUNDED.check_at_most(
-                    format_args!("{cells:?} {work:?}"),
-                    found.identity,
-                    total,
-                );
+                let what = format!("{cells:?} {work:?}");
+                model.check_bound(&what, &[1.0, 0.0], &x, bound.total.into())?;
                 cut_off += usize::from(bound.algebraic > 0.1 * bound.duality_gap);
             }
         }
@@ -259,18 +255,8 @@ fn an_input_that_lifts_the_corner() -> Result<()> {
     let form = condensate.certificate.as_ref().expect("a certificate");
     assert!(form.corners.is_empty(), "the sides are Robin and Neumann");
     // With u_D all round.
-    let of_sides = |line: &&str| {
-        [
-            "boundary.left",
-            "boundary.right",
-            "input.wind",
-            "input.pull",
-            "output.right",
-            "output.left",
-        ]
-        .iter()
-        .all(|name| !line.starts_with(name))
-    };
+    let sides = "boundary.left boundary.right input.wind input.pull output.right output.left";
+    let of_sides = |line: &&str| !sides.split(' ').any(|name| line.starts_with(name));
     let text: String = EVERY_INPUT.lines().filter(of_sides).flat_map(|line| [line, "\n"]).collect();
     let (_, problem) = on_grid(&text, grid(4, Cells::Triangles))?;
     let condensate = condense(&problem)?;
@@ -325,8 +311,7 @@ fn two_parts(n: u32, cells: Cells) -> Mesh {
 #[test]
 fn of_one_part_held_by_contact_alone_among_others() -> Result<()> {
     for cells in [Cells::Triangles, Cells::Quads] {
-        let scene = scene(BESIDE)?;
-        let problem = Problem::new(&scene, two_parts(4, cells))?;
+        let problem = Problem::new(&scene(BESIDE)?, two_parts(4, cells))?;
         let (condensate, _) = recoverable(&problem)?;
         let alone = Model::new(HELD_BY_CONTACT, grid(4, cells))?;
         let form = condensate.certificate.as_ref().expect("a certificate");
@@ -343,8 +328,8 @@ fn of_one_part_held_by_contact_alone_among_others() -> Result<()> {
         let some: Vec<f64> = (0..n).map(|i| (0.1 * scatter(i)).max(0.0)).collect();
         let wide = condensate.bound(p, &some).expect("a bound");
         assert!(wide > bound, "{wide} {bound}");
-        let open: Vec<f64> =
-            (0..n).map(|i| f64::from(u8::from(form.floating.contains(&i)))).collect();
+        let is_floating = |i| f64::from(u8::from(form.floating.contains(&i)));
+        let open: Vec<f64> = (0..n).map(is_floating).collect();
         assert_eq!(condensate.bound(p, &open), None, "no way out");
         let mut above: Vec<f64> = vec![1.0; n];
         form.floating.iter().for_each(|&i| above[i] = 0.0);
@@ -416,7 +401,6 @@ fn where_nothing_touches_s_follows_no_curve() -> Result<()> {
         let choice = Choice::<f64>::new(&problem, Wanted::model(ModelKind::Condensed))?;
         let (_, origin) = choice.condensed().expect("a condensed model");
         let (model, p) = (origin.model(), &origin.whole.defaults);
-        let exact = plain.scene.exact.as_ref().expect("an exact solution");
         let of_plain = plain.condensate.solve(&[1.0]).expect("a solution");
         let of_plain = plain.condensate.bound(&[1.0], &of_plain).expect("a bound");
         let solution = model.solve(p).expect("a solution");
@@ -433,7 +417,7 @@ fn where_nothing_touches_s_follows_no_curve() -> Result<()> {
             let answer = answer.expect("a certificate");
             assert!(matches!(&answer.following, Following::Except(edges) if edges.len() > 2));
             let s = answer.admissible();
-            let found = distance(exact, &problem, &s)?;
+            let found = distance(plain.exact(), &problem, &s)?;
             GUARANTEE.check_at_most(format_args!("{cells:?} {at}"), found.combined, bound);
             if at == 0 {
                 assert!(bound < of_plain && bound < 1.02 * found.combined, "{cells:?}");
@@ -446,11 +430,8 @@ fn where_nothing_touches_s_follows_no_curve() -> Result<()> {
                     let t = f64::from(k) / 64.0;
                     let psi = gap.at(a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]));
                     let s = s.on_edge(&problem, edge, deviations.on(edge), t)?;
-                    GUARANTEE.check_at_most(
-                        format_args!("{cells:?} {at} {edge} {t}"),
-                        psi + 1.0,
-                        s + 1.0,
-                    );
+                    let what = format!("{cells:?} {at} {edge} {t}");
+                    GUARANTEE.check_at_most(what, psi + 1.0, s + 1.0);
                 }
             }
         }

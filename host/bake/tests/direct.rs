@@ -6,14 +6,18 @@ use signorini_bake::full::{Baked, Controller};
 use signorini_bake::narrow::narrow;
 use signorini_certify::CertifiedFields;
 use signorini_certify::admissible::Following;
+use signorini_certify::exact::distance;
 use signorini_device::tick::{Limits, Report};
 use signorini_problem::Problem;
+use signorini_problem::fixtures::on_grid;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
+use signorini_scene::mesh::Mesh;
 use signorini_session::tick::{Budget, ScheduledTick, TickRecord, play};
 use signorini_solve::outputs::outputs;
-use signorini_solve::{MOST_SWEEPS, Options, ScalarKind, Solution, SolverKind, solve};
+use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
 use signorini_tolerances::Tolerance;
+use signorini_tolerances::bake::GUARANTEE;
 
 /// A heated face below keeps 2 with at most 6 per length, less towards its ends, and may cool by 1; u ≤ 3 on the right, air
 /// on the left.
@@ -37,6 +41,12 @@ output.skin = { kind = "mean", of = "contact" }
 /// Limits of a tick that goes on until sweeps change nothing that counts.
 pub fn to_the_end<R: Scalar>() -> Limits<R> {
     Limits { share: R::narrow(1e-9), ..Limits::default() }
+}
+
+/// Why there is no full model of a scene.
+pub fn refusal(text: &str, mesh: Mesh) -> Result<String> {
+    let (_, problem) = on_grid(text, mesh)?;
+    Ok(Baked::<f64>::new(&problem).expect_err("no full model").to_string())
 }
 
 /// The problem at these inputs, its direct solution, and the outputs of that.
@@ -96,9 +106,7 @@ impl Beside<'_> {
 }
 
 /// s and τ of the last tick.
-pub fn certified<R: Scalar, const WIDTH: usize>(
-    controller: &Controller<R, WIDTH>,
-) -> CertifiedFields {
+fn certified<R: Scalar, const WIDTH: usize>(controller: &Controller<R, WIDTH>) -> CertifiedFields {
     let wide = |numbers: &[R]| -> Vec<f64> { numbers.iter().map(|x| x.wide()).collect() };
     let tau = wide(controller.tau());
     let bubbles = match controller.bubbles() {
@@ -116,18 +124,32 @@ pub fn certified<R: Scalar, const WIDTH: usize>(
     }
 }
 
+/// Ticks that are cut off after so many sweeps: a bound holds of any iterate, and is at most so many times the error.
+pub fn bounded<R: Scalar, const WIDTH: usize>(
+    controller: &mut Controller<R, WIDTH>,
+    now: &Problem,
+    inputs: &[f64],
+    cut_offs: &[(u32, f64)],
+) -> Result<()> {
+    let exact = now.scene.exact.as_ref().expect("an exact solution");
+    for &(sweeps, most) in cut_offs {
+        let limits = Limits { sweeps, ..to_the_end() };
+        let (_, report) = controller.tick_within(&narrow(inputs), limits).expect("a tick");
+        let bound = report.verdict.certificate().expect("a bound").total.wide();
+        let error = distance(exact, now, &certified(controller).admissible())?.combined;
+        let what = format!("{inputs:?}, {sweeps} sweeps");
+        GUARANTEE.check_at_most(&what, error, bound);
+        assert!(bound < most * error, "{what}: {bound} for {error}");
+    }
+    Ok(())
+}
+
 /// Ticks on the desk, in f64 and to the end.
 pub fn played(problem: &Problem, steps: &[Vec<f64>]) -> Result<Vec<TickRecord>> {
     let inputs = |values: &Vec<f64>| values.iter().copied().enumerate().collect();
     let moment = |(at, values)| ScheduledTick { time: at as f64, inputs: inputs(values) };
     let moments: Vec<_> = steps.iter().enumerate().map(moment).collect();
-    let budget = Budget {
-        scalar: ScalarKind::F64,
-        sweeps: MOST_SWEEPS,
-        error: 0.0,
-        tolerance: None,
-        intervals: false,
-        shows_start: false,
-    };
+    let scalar = ScalarKind::F64;
+    let budget = Budget { scalar, intervals: false, ..Budget::of(&problem.scene) };
     play(problem, None, &moments, &budget, |_, _| Ok(()))
 }

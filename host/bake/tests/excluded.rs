@@ -78,10 +78,8 @@ fn modules_look_where_no_range_proves_it_alone() {
             let choice = Choice::<f32>::new(&problem, Wanted::model(model)).expect("a model");
             emit(&problem, &choice).source
         };
-        assert!(
-            module("")
-                .contains("fn exclusions(&self) -> &[Scalar] {\n        &[4e-10, -0.4, 1.0, -0.5")
-        );
+        let looks = "fn exclusions(&self) -> &[Scalar] {\n        &[4e-10, -0.4, 1.0, -0.5";
+        assert!(module("").contains(looks));
         assert!(!module(", range = [-0.1, 0.1]").contains("exclusions"));
     }
 }

@@ -1,11 +1,9 @@
 //! Full models with limits of the flux, and inputs on either end of it, tick after tick: against the direct solver and
 //! an exact solution, and where inputs leave no flux.
 
-use crate::direct::{Beside, HEATER, certified, directly, played, to_the_end};
+use crate::direct::{Beside, HEATER, bounded, directly, played, refusal, to_the_end};
 use signorini_bake::full::{Baked, Controller, source};
 use signorini_bake::narrow::narrow;
-use signorini_certify::exact::distance;
-use signorini_device::tick::Limits;
 use signorini_kernel::Error;
 use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::Problem;
@@ -17,8 +15,7 @@ use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_tolerances::Tolerance;
 use signorini_tolerances::bake::{
-    GUARANTEE, LIMITED_DESK, LIMITED_INPUT_TICK, LIMITED_INPUT_TICK_NARROW, LIMITED_TICK,
-    LIMITED_TICK_NARROW,
+    LIMITED_DESK, LIMITED_INPUT_TICK, LIMITED_INPUT_TICK_NARROW, LIMITED_TICK, LIMITED_TICK_NARROW,
 };
 
 /// A heater below whose supply sags and whose least flux leaks, a limit from above on the right, air on the left.
@@ -44,11 +41,8 @@ output.skin = { kind = "mean", of = "contact" }
 /// The corners where both ends of the heater's flux meet, and inputs drawn within the ranges.
 fn steps(problem: &Problem, ticks: usize) -> Vec<Vec<f64>> {
     let corners = [[0.0, -2.0, 0.0, -3.0], [1.0, 0.0, 0.0, -3.0], [0.0, -2.0, 3.0, 6.0]];
-    corners
-        .map(Vec::from)
-        .into_iter()
-        .chain(drawn(&InputSpace::of(&problem.scene), ticks))
-        .collect()
+    let spaces = InputSpace::of(&problem.scene);
+    corners.map(Vec::from).into_iter().chain(drawn(&spaces, ticks)).collect()
 }
 
 /// Ticks as solves, in which each of two lengths vanishes at times, and not always.
@@ -175,23 +169,19 @@ exact = {{ u = \"{p}*({u})\", gradient = [\"{p}*({dx})\", \"{p}*({dy})\"] }}
     )
 }
 
+/// Where ticks are cut off, of which the last comes to the end.
+fn cut_offs(most: f64) -> [(u32, f64); 4] {
+    let any = f64::INFINITY;
+    [(0, any), (3, any), (30, any), (u32::MAX, most)]
+}
+
 fn bounds<R: Scalar, const WIDTH: usize>(cells: Cells) -> Result<()> {
     let (_, problem) = on_grid(&transitions(1.0), grid(6, cells))?;
     let baked = Baked::<R>::new(&problem)?;
     let mut controller = Controller::<R, WIDTH>::new(&baked);
     for p in [1.0, 0.02, 300.0, 0.7] {
         let (_, now) = on_grid(&transitions(p), grid(6, cells))?;
-        let exact = now.scene.exact.as_ref().expect("an exact solution");
-        // Cut off at first: a bound holds of any iterate.
-        for sweeps in [0, 3, 30, u32::MAX] {
-            let limits = Limits { sweeps, ..to_the_end() };
-            let (_, report) = controller.tick_within(&narrow(&[p, p]), limits).expect("a tick");
-            let bound = report.verdict.certificate().expect("a bound").total.wide();
-            let error = distance(exact, &now, &certified(&controller).admissible())?.combined;
-            GUARANTEE.check_at_most(format_args!("p = {p}, {sweeps}"), error, bound);
-            let is_sharp = sweeps < u32::MAX || bound < 1.05 * error;
-            assert!(is_sharp, "p = {p}, {sweeps}: {bound} for {error}");
-        }
+        bounded(&mut controller, &now, &[p, p], &cut_offs(1.05))?;
     }
     Ok(())
 }
@@ -247,8 +237,7 @@ fn ranges_that_leave_no_flux_are_refused_with_the_corner() -> Result<()> {
     assert!(text.contains("fluxes: &LEAK_TO_FLUXES, spans: &LEAK_TO_SPANS"));
     assert!(text.contains("Pattern::ContactFlux(&DRAIN_PATTERN)"));
     let wider = SUPPLY.replace("range = [-2.0, 4.0]", "range = [-2.5, 4.0]");
-    let (_, problem) = on_grid(&wider, grid(3, Cells::Triangles))?;
-    let error = Baked::<f64>::new(&problem).expect_err("no flux").to_string();
+    let error = refusal(&wider, grid(3, Cells::Triangles))?;
     let expected =
         "input.supply.range: with supply = 0 and leak = -2.5 the limit of boundary.contact";
     assert!(error.contains(expected) && error.contains("less than flux = "), "{error}");
@@ -260,20 +249,11 @@ fn ranges_that_leave_no_flux_are_refused_with_the_corner() -> Result<()> {
 
 fn fades<R: Scalar, const WIDTH: usize>(cells: Cells) -> Result<()> {
     let (_, problem) = on_grid(&fading(), grid(8, cells))?;
-    let exact = problem.scene.exact.as_ref().expect("an exact solution");
     let baked = Baked::<R>::new(&problem)?;
     let mut controller = Controller::<R, WIDTH>::new(&baked);
     for supply in [1.0, 0.05, 3.0] {
         let now = problem.with_inputs(&[supply])?;
-        for sweeps in [0, 3, 30, u32::MAX] {
-            let limits = Limits { sweeps, ..to_the_end() };
-            let (_, report) = controller.tick_within(&narrow(&[supply]), limits).expect("a tick");
-            let bound = report.verdict.certificate().expect("a bound").total.wide();
-            let error = distance(exact, &now, &certified(&controller).admissible())?.combined;
-            GUARANTEE.check_at_most(format_args!("{supply}, {sweeps}"), error, bound);
-            let is_sharp = sweeps < u32::MAX || bound < 3.0 * error;
-            assert!(is_sharp, "{supply}, {sweeps}: {bound} for {error}");
-        }
+        bounded(&mut controller, &now, &[supply], &cut_offs(3.0))?;
     }
     Ok(())
 }

@@ -30,25 +30,21 @@ output.skin = { kind = "mean", of = "contact" }
 /// The same, whose contact carries at most 0.3 on the right and 2 (0.5 + supply) below: only push > −0.9 − 2 supply is held.
 fn two_ends() -> String {
     let supply = "input.supply = { of = \"contact\", field = \"limit\", pattern = \"1\", range = [-0.4, 1] }\n";
-    changed(
-        FREE,
-        &[
-            ("flux = \"-0.2\"", "flux = \"-0.2\", limit = \"0.3\""),
-            ("gap = \"0.1*x^2\"", "gap = \"0.1*x^2\", flux = \"0\", limit = \"0.5\""),
-        ],
-    ) + supply
+    let limits = [
+        ("flux = \"-0.2\"", "flux = \"-0.2\", limit = \"0.3\""),
+        ("gap = \"0.1*x^2\"", "gap = \"0.1*x^2\", flux = \"0\", limit = \"0.5\""),
+    ];
+    changed(FREE, &limits) + supply
 }
 
 /// Nothing holds u from below: only push > −0.9 is held.
 fn from_above() -> String {
-    changed(
-        FREE,
-        &[
-            ("flux = \"-0.2\"", "flux = \"-inf\", limit = \"0.3\""),
-            ("gap = \"0.1*x^2\"", "gap = \"0.1*x^2\", flux = \"-inf\", limit = \"0.5\""),
-            ("range = [-3, 3]", "default = 1, range = [-3, 3]"),
-        ],
-    )
+    let limits = [
+        ("flux = \"-0.2\"", "flux = \"-inf\", limit = \"0.3\""),
+        ("gap = \"0.1*x^2\"", "gap = \"0.1*x^2\", flux = \"-inf\", limit = \"0.5\""),
+        ("range = [-3, 3]", "default = 1, range = [-3, 3]"),
+    ];
+    changed(FREE, &limits)
 }
 
 /// How a tick is refused, if it is.
@@ -71,9 +67,8 @@ fn end(error: Option<Error>) -> End {
 
 /// The host's verdict on the problem with these inputs.
 fn of_host(problem: &Problem, inputs: &[f64]) -> Result<End> {
-    Ok(end(Parts::examine(&problem.with_inputs(inputs)?)
-        .err()
-        .map(|error| error.cause().unwrap_or(Error::Degenerate(CellId::Triangle(0))))))
+    let error = Parts::examine(&problem.with_inputs(inputs)?).err();
+    Ok(end(error.map(|error| error.cause().unwrap_or(Error::Degenerate(CellId::Triangle(0))))))
 }
 
 /// Ticks of one controller, and those among them that it answers of another one, which has the same answers.

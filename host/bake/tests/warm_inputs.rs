@@ -1,10 +1,10 @@
 //! Inputs that change from tick to tick where contact alone holds the domain, and every tick is a warm solve.
 
+use crate::direct::played;
 use signorini_problem::fixtures::on_grid;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_session::tick::{Budget, ScheduledTick, play};
-use signorini_solve::{Options, ScalarKind, solve};
+use signorini_solve::{Options, solve};
 
 const HELD_BY_CONTACT: &str = r#"mesh = "grid"
 material.default.conductivity = "1"
@@ -18,17 +18,7 @@ input.rain = { of = "source", field = "f", pattern = "-x^2", default = 0.0 }
 #[test]
 fn a_bound_is_that_of_the_inputs_of_its_tick() -> Result<()> {
     let (_, problem) = on_grid(HELD_BY_CONTACT, grid(4, Cells::Triangles))?;
-    let moment = |time, rain| ScheduledTick { time, inputs: vec![(0, rain)] };
-    let budget = Budget {
-        scalar: ScalarKind::F64,
-        sweeps: 10_000,
-        error: 0.0,
-        tolerance: None,
-        intervals: false,
-        shows_start: false,
-    };
-    let ticks =
-        play(&problem, None, &[moment(0.0, 0.0), moment(1.0, 1.0)], &budget, |_, _| Ok(()))?;
+    let ticks = played(&problem, &[vec![0.0], vec![1.0]])?;
     let [dry, wet] = [0, 1].map(|at| ticks[at].bound.expect("a bound").oscillation);
     let found = solve(&problem.with_inputs(&[1.0])?, &Options::default())?;
     let expected = found.bound.expect("a bound").oscillation;

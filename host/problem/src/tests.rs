@@ -153,20 +153,10 @@ fn a_slit_with_a_table_is_meant() -> Result<()> {
 #[test]
 fn hanging_nodes_are_a_slit_too() -> Result<()> {
     // A square on two of half its size.
-    let vertices = vec![
-        [0.0, 0.0],
-        [1.0, 0.0],
-        [1.0, 1.0],
-        [0.0, 1.0],
-        [0.0, 1.0],
-        [0.5, 1.0],
-        [1.0, 1.0],
-        [1.0, 1.5],
-        [0.5, 1.5],
-        [0.0, 1.5],
-    ];
+    let below = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let above = [[0.0, 1.0], [0.5, 1.0], [1.0, 1.0], [1.0, 1.5], [0.5, 1.5], [0.0, 1.5]];
     let quads = vec![[0, 1, 2, 3], [4, 5, 8, 9], [5, 6, 7, 8]];
-    let mesh = Mesh { vertices, quads, ..Mesh::default() };
+    let mesh = Mesh { vertices: [&below[..], &above].concat(), quads, ..Mesh::default() };
     let sides = [[1, 2], [0, 3], [4, 9], [6, 7], [7, 8], [8, 9]];
     let mesh = with_curve(mesh, "dirichlet", sides.to_vec());
     let mesh = with_curve(mesh, "contact", vec![[0, 1]]);
@@ -180,13 +170,8 @@ fn hanging_nodes_are_a_slit_too() -> Result<()> {
 fn a_default_that_acts_nowhere_is_said_where_it_is_more_than_nothing() -> Result<()> {
     let contact =
         SCENE.replace("kind = \"neumann\", flux = \"0\"", "kind = \"contact\", gap = \"2\"");
-    let said = warnings(&contact, grid(2, Cells::Quads))?;
-    assert_eq!(
-        said,
-        [
-            "[boundary.default] (contact) acts nowhere: every boundary edge lies in a curve with a table of its own"
-        ]
-    );
+    let nowhere = "[boundary.default] (contact) acts nowhere: every boundary edge lies in a curve with a table of its own";
+    assert_eq!(warnings(&contact, grid(2, Cells::Quads))?, [nowhere]);
     assert_eq!(warnings(SCENE, grid(2, Cells::Quads))?, [""; 0]);
     let controlled = format!(
         "{SCENE}[input.rain]\nof = \"default\"\nfield = \"flux\"\npattern = \"1\"\n[output.q]\nkind = \"flux\"\nof = \"default\"\n"
@@ -212,10 +197,8 @@ fn the_hint_says_no_more_than_it_has_to() {
     assert_eq!(hint(&unbound, grid(2, Cells::Quads)), expected);
     let bare = Mesh { surfaces: Vec::new(), ..grid(2, Cells::Quads) };
     let left = fixtures::changed(SCENE, &[("material.default", "material.left")]);
-    assert_eq!(
-        hint(&left, grid(2, Cells::Quads)),
-        "add [material.right], or [material.default] for all that is left"
-    );
+    let expected = "add [material.right], or [material.default] for all that is left";
+    assert_eq!(hint(&left, grid(2, Cells::Quads)), expected);
     assert!(hint(&left, bare).starts_with("the mesh has no physical surface"));
 }
 
@@ -227,10 +210,8 @@ fn the_threshold_of_a_balance_is_said() -> Result<()> {
     let problem = Problem::new(&scene, grid(2, Cells::Quads))?;
     let error = super::Parts::examine(&problem).expect_err("no unique solution");
     let said = error.to_string();
-    assert!(
-        said.contains("balance by themselves (their sum is at most 1e-9 of the sum of their sizes"),
-        "{said}"
-    );
+    let balance = "balance by themselves (their sum is at most 1e-9 of the sum of their sizes";
+    assert!(said.contains(balance), "{said}");
     Ok(())
 }
 
@@ -242,10 +223,8 @@ fn a_part_that_nothing_holds_is_said() -> Result<()> {
     let text = text.replace("kind = \"dirichlet\", value = \"1\"", neumann);
     let said = warnings(&text, grid(2, Cells::Mixed))?;
     assert_eq!(said.len(), 1);
-    assert!(
-        said[0].starts_with("no Dirichlet, Robin or contact boundary holds the connected part"),
-        "{said:?}"
-    );
+    let nothing = "no Dirichlet, Robin or contact boundary holds the connected part";
+    assert!(said[0].starts_with(nothing), "{said:?}");
     assert!(said[0].ends_with("): u is determined up to a constant there"), "{said:?}");
     // Torn apart there are two of them.
     let said = warnings(&text, torn(grid(2, Cells::Mixed), |_| true))?;
@@ -272,12 +251,8 @@ fn stored(left: &str, right: &str, step: f64) -> Result<Vec<String>> {
     let material = |name: &str, capacity: &str| {
         format!("[material.{name}]\nconductivity = 2\ncapacity = \"{capacity}\"\n")
     };
-    let text = format!(
-        "{text}{}{}[time]\nstep = {step}\n",
-        material("left", left),
-        material("right", right)
-    );
-    warnings(&text, grid(4, Cells::Triangles))
+    let text = text + &material("left", left) + &material("right", right);
+    warnings(&format!("{text}[time]\nstep = {step}\n"), grid(4, Cells::Triangles))
 }
 
 #[test]
@@ -285,21 +260,16 @@ fn what_may_not_be_meant_of_a_capacity_is_said() -> Result<()> {
     assert_eq!(stored("1", "2", 1.0)?, [""; 0]);
     // Not the same in both halves, but in every cell.
     assert_eq!(stored("1 + sign(x)", "2 + sign(y - 0.5)", 1.0)?, [""; 0]);
-    let one = stored("1", "0", 1.0)?;
-    assert_eq!(
-        one,
-        ["[material.left] has a capacity, and [material.right] has none: u answers at once there"]
-    );
+    let at_once =
+        "[material.left] has a capacity, and [material.right] has none: u answers at once there";
+    assert_eq!(stored("1", "0", 1.0)?, [at_once]);
     let varying = stored("1", "1 + x", 1.0)?;
     assert!(varying[0].starts_with("a capacity varies inside 32 of 64 cells"), "{varying:?}");
     // h = ¼ and c/α = ½ or 1: k h²/α is 1e4 at dt = 3.1e−6 where it is least.
     assert_eq!(stored("1", "2", 3.2e-6)?, [""; 0]);
     let short = stored("1", "2", 3.0e-6)?;
-    assert!(
-        short[0].starts_with("time.step = 0.000003: no less than 1.0e4 such steps"),
-        "{short:?}"
-    );
-    assert_eq!(short.len(), 1);
+    let steps = "time.step = 0.000003: no less than 1.0e4 such steps";
+    assert!(short.len() == 1 && short[0].starts_with(steps), "{short:?}");
     let rest = "2\"\n[output.rest]\nkind = \"content\"\nof = \"default\"\n[material.default]\nconductivity = 1\n\
                 capacity = \"1";
     let idle = stored("1", rest, 1.0)?;

@@ -1,6 +1,6 @@
 //! The bound against its definition, integrated from coordinates; and what it says of poor input.
 
-use crate::plate::Side;
+use crate::numbering::{SIDES, Side};
 use crate::plate::foundation::{A, Foundation, GAP, LAW};
 use signorini_bound::certificate::{Buffers, Curved, Discretization, LoadCase, Verdict, certify};
 use signorini_bound::equilibrium::Iterate;
@@ -52,8 +52,9 @@ fn run_from(
         Buffers { vertices: &mut s, bubbles: &mut d, tau: &mut tau, indicators: &mut indicators };
     let iterate = Iterate { u: &u, law: Law::above(&foundation.lower) };
     let verdict = certify(&discretization, &given, iterate, buffers)?;
-    let expected = from_coordinates(&discretization, &s, &d, &tau)
-        + on_boundary(&discretization, &given, &s, &d, &tau);
+    let fields = [&s[..], &d, &tau];
+    let expected =
+        from_coordinates(&discretization, fields) + on_boundary(&discretization, &given, fields);
     Ok(Found { verdict, expected, indicators: indicators.iter().sum() })
 }
 
@@ -72,13 +73,8 @@ fn outward<const N: usize>(
 }
 
 /// Σ_T ∫ |A^½∇s − A^{−½}τ|² with 6×6 points a cell, by the chain rule in the plane.
-fn from_coordinates(
-    discretization: &Discretization<f64, u16>,
-    s: &[f64],
-    d: &[f64],
-    tau: &[f64],
-) -> f64 {
-    let (mesh, edges) = (discretization.mesh, discretization.edges);
+fn from_coordinates(of: &Discretization<f64, u16>, [s, d, tau]: [&[f64]; 3]) -> f64 {
+    let (mesh, edges) = (of.mesh, of.edges);
     let determinant = A.xx * A.yy - A.xy * A.xy;
     let square = |[gx, gy]: [f64; 2], field: [f64; 2]| {
         let r = [A.xx * gx + A.xy * gy - field[0], A.xy * gx + A.yy * gy - field[1]];
@@ -131,16 +127,13 @@ fn from_coordinates(
 }
 
 fn on_boundary(
-    discretization: &Discretization<f64, u16>,
+    of: &Discretization<f64, u16>,
     given: &LoadCase<f64, u16>,
-    s: &[f64],
-    d: &[f64],
-    tau: &[f64],
+    [s, d, tau]: [&[f64]; 3],
 ) -> f64 {
-    let counts = discretization.edges.counts();
+    let counts = of.edges.counts();
     let along = |edge: usize, f: &dyn Fn(f64) -> f64| {
-        let [a, b] =
-            discretization.edges.endpoints(&discretization.mesh, edge).map(|v| s[usize::from(v)]);
+        let [a, b] = of.edges.endpoints(&of.mesh, edge).map(|v| s[usize::from(v)]);
         let value = |t: f64| a * (1.0 - t) + b * t + 4.0 * t * (1.0 - t) * d[edge];
         f64::GAUSS[5].iter().map(|&[t, weight]| weight * f(value(t))).sum::<f64>()
     };
@@ -154,8 +147,6 @@ fn on_boundary(
     });
     contact.sum::<f64>() + transfer.sum::<f64>()
 }
-
-const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];
 
 #[test]
 fn the_bound_is_what_its_definition_says() {
@@ -171,26 +162,19 @@ fn the_bound_is_what_its_definition_says() {
             let ratio = certificate.duality_gap.powi(2) / found.expected;
             BOUND.check("gap²", ratio - 1.0);
             BOUND.check_relative("sum of the cells", found.indicators, found.expected);
-            assert!(
-                certificate.algebraic > 0.0
-                    && certificate.algebraic < 3.0 * certificate.duality_gap
-            );
-            assert!(certificate.rounding > 0.0);
-            BOUND.check_over("rounding", certificate.rounding, certificate.duality_gap);
-            assert_eq!(certificate.total, certificate.duality_gap + certificate.rounding);
+            let (gap, rounding) = (certificate.duality_gap, certificate.rounding);
+            assert!(certificate.algebraic > 0.0 && certificate.algebraic < 3.0 * gap);
+            assert!(rounding > 0.0);
+            BOUND.check_over("rounding", rounding, gap);
+            assert_eq!(certificate.total, gap + rounding);
         }
     }
 }
 
 #[test]
 fn overflow_is_no_bound() {
-    let curved = Curved {
-        edge: 0,
-        energy: f64::MAX,
-        mean: 1e200,
-        peak: f64::INFINITY,
-        coupling: [1e200; 8],
-    };
+    let (energy, peak) = (f64::MAX, f64::INFINITY);
+    let curved = Curved { edge: 0, energy, mean: 1e200, peak, coupling: [1e200; 8] };
     let found = run(SIDES, false, &[curved; 4]).expect("valid");
     assert_eq!(found.verdict, Verdict::NotFinite);
 }

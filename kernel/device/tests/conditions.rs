@@ -1,6 +1,6 @@
 //! Conditions on edges that are not of length 1, and what is said of too many or none.
 
-use crate::workspace::UNIT;
+use crate::workspace::{OPEN, UNIT, ZERO, sides};
 use signorini_device::condition::{BoundaryEdge, Condition};
 use signorini_device::{Workspace, workspace};
 use signorini_kernel::error::{Array, CellId};
@@ -26,13 +26,7 @@ type Bar = workspace!(f64, u16: vertices 5, triangles 3, quads 0, boundary 5);
 fn bar(right: Condition<f64>) -> Result<(), Error> {
     let mesh = Mesh::new(&CORNERS, &CELLS, &[])?;
     let mut bar = Bar::new();
-    bar.build(&mesh, UNIT, |edge| {
-        Some(match edge.middle() {
-            [0.0, _] => Condition::Dirichlet { value: 0.0 },
-            [2.0, _] => right,
-            _ => Condition::Neumann { flux: 0.0 },
-        })
-    })?;
+    bar.build(&mesh, UNIT, sides(2.0, [ZERO, right, OPEN]))?;
     let outcome = bar.solve(Settings::default())?;
     assert!(matches!(outcome.status, Status::Converged | Status::RoundingLimit), "{outcome:?}");
     let highest = bar.u().iter().fold(0.0, |most: f64, u| most.max(*u));
@@ -136,21 +130,20 @@ fn a_workspace_keeps_its_answer_where_it_refuses() -> Result<(), Error> {
     Ok(())
 }
 
+/// Edges of a triangle with three free sides.
+fn triangle() -> Result<Edges<'static, u16>, Error> {
+    let counts = EdgeCounts { free: 3, contact: 0, dirichlet: 0 };
+    Edges::new(&[[0, 1, 2]], &[], &[[0, u16::MAX], [1, u16::MAX], [2, u16::MAX]], counts)
+}
+
 #[test]
 fn a_part_floats_where_nothing_passes_its_boundary() -> Result<(), Error> {
-    let counts = EdgeCounts { free: 3, contact: 0, dirichlet: 0 };
-    let halves = [[0_u16, u16::MAX], [1, u16::MAX], [2, u16::MAX]];
-    let edges = Edges::new(&[[0, 1, 2]], &[], &halves, counts)?;
+    let edges = triangle()?;
     let found = |coefficient: f64, load: [f64; 3], slack: f64| {
         let laws = [Robin { edge: 0, coefficient, ambient: 0.0 }];
         let boundary = Boundary::new(&edges, &[], &laws, &[])?;
-        examine(
-            &edges,
-            DiagonalTerms::new(&boundary),
-            (&load, Spans::UNLIMITED),
-            slack,
-            &mut [Part::default()],
-        )
+        let (diagonal, load) = (DiagonalTerms::new(&boundary), (&load[..], Spans::UNLIMITED));
+        examine(&edges, diagonal, load, slack, &mut [Part::default()])
     };
     let counts = |held, floating| Ok(PartCounts { held, contact: 0, floating });
     assert_eq!(found(1.0, [1.0; 3], 1e-9), counts(1, 0));
@@ -162,9 +155,7 @@ fn a_part_floats_where_nothing_passes_its_boundary() -> Result<(), Error> {
 
 #[test]
 fn half_edges_end_with_the_cells() -> Result<(), Error> {
-    let counts = EdgeCounts { free: 3, contact: 0, dirichlet: 0 };
-    let halves = [[0_u16, u16::MAX], [1, u16::MAX], [2, u16::MAX]];
-    let edges = Edges::new(&[[0, 1, 2]], &[], &halves, counts)?;
+    let edges = triangle()?;
     assert_eq!([0, 2, 3, 4].map(|half| edges.cell_of(half)), [Some(0), Some(0), None, None]);
     Ok(())
 }

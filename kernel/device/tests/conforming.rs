@@ -1,7 +1,8 @@
 //! The continuous function of the error bound: exact where u is linear, and admissible everywhere.
 
+use crate::numbering::Side;
 use crate::owned::Packed;
-use crate::plate::{Plate, Side};
+use crate::plate::Plate;
 use signorini_bound::averages;
 use signorini_bound::conforming::{VertexData, impose};
 use signorini_kernel::Error;

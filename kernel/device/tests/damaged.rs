@@ -22,7 +22,7 @@ use signorini_kernel::rows::QUADS;
 use signorini_kernel::{Error, Libm};
 
 use crate::memory::bare;
-use crate::plate::Side;
+use crate::numbering::Side;
 use crate::plate::factor::Baked;
 use crate::plate::foundation::Foundation;
 use crate::strip::Strip;

@@ -1,10 +1,11 @@
 //! Ticks on a factor: what sweeps find in the end, without sweeps; and sweeps where the factor is of no use.
 
-use crate::plate::Side;
+use crate::numbering::SIDES;
+use crate::owned::of_full;
 use crate::plate::factor::{Baked, Store};
 use crate::plate::foundation::{Foundation, GAP};
 use signorini_bound::certificate::LoadCase;
-use signorini_device::full::{self, DataMemory, Functional, HandedOn, Past};
+use signorini_device::full::{DataMemory, Functional};
 use signorini_device::sparse::Exact;
 use signorini_device::tick::{
     CertifiedSweeps, Data, Deadline, Ended, IfStoring, Limits, Progress, Report, Running,
@@ -15,8 +16,6 @@ use signorini_kernel::mesh::boundary::{Boundary, Robin};
 use signorini_kernel::rows::QUADS;
 use signorini_kernel::{Error, Libm};
 use signorini_tolerances::kernel::{FACTORED, RESIDUAL, SWEPT};
-
-const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];
 
 /// Goes on by the factor, with a bound or without.
 fn advance(
@@ -38,6 +37,11 @@ fn certified<'e, 'a>(
     exact: &'e mut Exact<'a, f64, u16>,
 ) -> Substitutions<'e, 'a, f64, u16, CertifiedSweeps<Libm>> {
     Substitutions { exact, sweeps: CertifiedSweeps(Libm) }
+}
+
+/// A tick by sweeps, to the end.
+fn swept(tick: &mut Tick<f64, u16, QUADS>, data: Data<f64, u16>) -> Result<Report<f64>, Error> {
+    tick.begin(data)?.advance(CertifiedSweeps(Libm), TO_THE_END, &mut Deadline::never())
 }
 
 /// Data whose source is multiplied, and whose gap bends along the contact.
@@ -83,18 +87,14 @@ fn beside_sweeps(
 ) -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
     let baked = Baked::new(&foundation)?;
-    let (mut own, mut swept) = (Store::new(&foundation)?, Store::new(&foundation)?);
+    let (mut own, mut other) = (Store::new(&foundation)?, Store::new(&foundation)?);
     let (mut tick, mut exact) = own.of(&foundation, &baked)?;
-    let (mut reference, _) = swept.of(&foundation, &baked)?;
+    let (mut reference, _) = other.of(&foundation, &baked)?;
     let mut counts = Vec::new();
     for (source, bend) in INPUTS {
         let input = Input::new(&foundation, source, bend);
         let data = input.data(&foundation)?;
-        let expected = reference.begin(data)?.advance(
-            CertifiedSweeps(Libm),
-            TO_THE_END,
-            &mut Deadline::never(),
-        )?;
+        let expected = swept(&mut reference, data)?;
         let report = advance(&mut tick.begin(data)?, &mut exact, has_bound, NO_SWEEPS)?;
         assert_eq!((report.active, report.sweeps), (expected.active, 0), "{source} {bend}");
         assert_eq!(report.figures.changes, expected.figures.changes, "{source} {bend}");
@@ -208,13 +208,9 @@ fn a_matrix_that_changes_between_warm_ticks_is_noticed() -> Result<(), Error> {
             let data = second.data(&foundation)?;
             let data = Data { given: LoadCase { boundary, ..data.given }, ..data };
             solve(&mut tick, data)?;
-            let mut swept = Store::new(&foundation)?;
-            let (mut reference, _) = swept.of(&foundation, &baked)?;
-            reference.begin(data)?.advance(
-                CertifiedSweeps(Libm),
-                TO_THE_END,
-                &mut Deadline::never(),
-            )?;
+            let mut own = Store::new(&foundation)?;
+            let (mut reference, _) = own.of(&foundation, &baked)?;
+            swept(&mut reference, data)?;
             let off = off(tick.u(), reference.u());
             SWEPT.check(format_args!("{times:e} {source} {has_bound}"), off);
         }
@@ -228,14 +224,10 @@ fn a_factor_that_is_another_on_a_warm_tick_is_noticed() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
     let sound = Baked::new(&foundation)?;
     let [first, second] = [1.0, 1.001].map(|part| Input::new(&foundation, part, 0.02));
-    let mut swept = Store::new(&foundation)?;
-    let (mut reference, _) = swept.of(&foundation, &sound)?;
+    let mut own = Store::new(&foundation)?;
+    let (mut reference, _) = own.of(&foundation, &sound)?;
+    swept(&mut reference, second.data(&foundation)?)?;
     let never = &mut Deadline::never();
-    reference.begin(second.data(&foundation)?)?.advance(
-        CertifiedSweeps(Libm),
-        TO_THE_END,
-        never,
-    )?;
     for (times, has_bound) in [(1e4, true), (1e4, false), (1e9, true), (1e9, false)] {
         let mut other = Baked::new(&foundation)?;
         other.ldlt.inverse.iter_mut().for_each(|inverse| *inverse /= times);
@@ -294,25 +286,14 @@ fn a_full_model_begins_with_memory_of_any_contents() -> Result<(), Error> {
         let (mut store, mut progress) = (Store::new(&foundation)?, Progress::NONE);
         for round in 0..2 {
             let (tick, mut exact) = store.memory(&foundation, &baked)?;
-            let data = DataMemory::default();
-            let memory = full::Memory {
-                tick,
-                data,
-                past: Past::default(),
-                handed_on: HandedOn::default(),
-                progress: &mut progress,
-            };
+            let memory = of_full(tick, DataMemory::default(), &mut progress);
             let (never, mut outputs, exact) = (&mut Deadline::never(), [0.0; 2], &mut exact);
             let by_factor = Substitutions { exact, sweeps: UncertifiedSweeps(Libm) };
             let report = match has_bound {
-                true => full.tick(
-                    &[],
-                    certified(by_factor.exact),
-                    NO_SWEEPS,
-                    never,
-                    memory,
-                    &mut outputs,
-                )?,
+                true => {
+                    let by_factor = certified(by_factor.exact);
+                    full.tick(&[], by_factor, NO_SWEEPS, never, memory, &mut outputs)?
+                }
                 false => full.tick(&[], by_factor, NO_SWEEPS, never, memory, &mut outputs)?,
             };
             assert_eq!((report.ended, report.sweeps), (Ended::Exact, 0));

@@ -1,6 +1,6 @@
 //! The tests of the device as one program: `cargo test -p signorini-device --test main NAME`.
 //!
-//! `plate`, `strip`, `memory`, `owned` and `ldlt` are what the other files test on.
+//! `plate`, `strip`, `memory`, `numbering`, `owned` and `ldlt` are what the other files test on.
 
 #[path = "../../contact/tests/memory.rs"]
 #[allow(dead_code, reason = "the tests of condensed contact need the rest")]
@@ -20,6 +20,7 @@ mod factored_ticks;
 mod forces;
 mod ldlt;
 mod lengths;
+mod numbering;
 mod outputs;
 mod owned;
 mod plate;

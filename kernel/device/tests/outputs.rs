@@ -1,14 +1,12 @@
 //! Outputs of a full model at the end of the range: finite, or said not to be.
 
-use crate::owned::TickArrays;
-use crate::plate::Side;
+use crate::numbering::SIDES;
+use crate::owned::{TickArrays, of_full};
 use crate::plate::foundation::Foundation;
 use signorini_bound::certificate::Verdict;
-use signorini_device::full::{Contribution, DataMemory, Functional, HandedOn, Memory, Past};
+use signorini_device::full::{Contribution, DataMemory, Functional};
 use signorini_device::tick::{CertifiedSweeps, Deadline, Ended, Limits, Progress, Report};
 use signorini_kernel::{Error, Libm};
-
-const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];
 
 /// A tick of the plate with a bound or without, and the outputs that it leaves.
 fn tick<const N: usize>(
@@ -20,16 +18,8 @@ fn tick<const N: usize>(
     let edges = &full.discretization.edges;
     let mut arrays = TickArrays::new(edges, foundation.plate.vertices.len());
     let (mut progress, mut found) = (Progress::NONE, [0.0; N]);
-    let (tick, data) = (arrays.memory(edges)?, DataMemory::default());
-    let memory = Memory {
-        tick,
-        data,
-        past: Past::default(),
-        handed_on: HandedOn::default(),
-        progress: &mut progress,
-    };
-    let never = &mut Deadline::never();
-    let limits = Limits::default();
+    let memory = of_full(arrays.memory(edges)?, DataMemory::default(), &mut progress);
+    let (limits, never) = (Limits::default(), &mut Deadline::never());
     let report = full.tick(&[], CertifiedSweeps(Libm), limits, never, memory, &mut found)?;
     Ok((report, found))
 }

@@ -3,7 +3,8 @@
 use signorini_bound::cells::{CellBuffers, Cells, Quad, Triangle, pack};
 use signorini_bound::certificate::{Metric, Stability, stability};
 use signorini_bound::forest::{Forest, ForestBuffers, grow};
-use signorini_device::tick::Memory;
+use signorini_device::full::{self, DataMemory, HandedOn, Past};
+use signorini_device::tick::{Memory, Progress};
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::edges::Edges;
@@ -91,4 +92,14 @@ impl<R: Real> TickArrays<R> {
         let rows = Rows::new(edges, &mut self.rows)?;
         Ok(Memory { rows, load, active: &mut self.active, vertices, bubbles, tau, u })
     }
+}
+
+/// Memory of a full model that stores nothing.
+pub fn of_full<'a, R: Real>(
+    tick: Memory<'a, R, u16, QUADS>,
+    data: DataMemory<'a, R, u16>,
+    progress: &'a mut Progress<R>,
+) -> full::Memory<'a, R, u16, QUADS> {
+    let (past, handed_on) = (Past::default(), HandedOn::default());
+    full::Memory { tick, data, past, handed_on, progress }
 }

@@ -52,26 +52,15 @@ fn a_sound_cell_is_told() -> Result<(), Error> {
     Ok(())
 }
 
-/// 1/(4 det A) is the smallest number: times Σ|K| = 1.2 it is still one, times the ⅓ of the cost it is 0.
 #[test]
-fn a_cost_that_underflows_is_unknown() -> Result<(), Error> {
-    let smallest = f64::from_bits(1);
-    let found = of_triangle([-0.4; 3], smallest, None)?;
+fn what_the_scalar_has_lost_is_unknown() -> Result<(), Error> {
+    // 1/(4 det A) is the smallest number: times Σ|K| = 1.2 it is still one, times the ⅓ of the cost it is 0.
+    let found = of_triangle([-0.4; 3], f64::from_bits(1), None)?;
     assert_eq!(found.largest, f64::INFINITY);
-    Ok(())
-}
-
-/// 1/(4 det A) has underflown, and the way through the transfer edge is known: the cell on it is not.
-#[test]
-fn a_cell_without_compliance_is_unknown() -> Result<(), Error> {
+    // 1/(4 det A) has underflown, and the way through the transfer edge is known: the cell on it is not.
     let found = of_triangle([-1.0; 3], 0.0, Some(1.0))?;
     assert_eq!((found.largest, found.weighed), (f64::INFINITY, f64::INFINITY));
-    Ok(())
-}
-
-/// Rounded so that K₀₁K₁₂ + K₁₂K₂₀ + K₂₀K₀₁ = 4 det A is negative.
-#[test]
-fn a_matrix_of_no_tensor_has_no_share() -> Result<(), Error> {
+    // Rounded so that K₀₁K₁₂ + K₁₂K₂₀ + K₂₀K₀₁ = 4 det A is negative.
     let found = of_triangle([-1.0, -1.0, 0.6], 1.0, None)?;
     assert_eq!(found.oblique, f64::INFINITY);
     Ok(())

@@ -1,10 +1,9 @@
 //! Ticks: warm starts, what ends them, and input that is refused.
 
-use signorini_kernel::law::Law;
 use std::cell::Cell;
 
+use crate::numbering::SIDES;
 use crate::owned::TickArrays;
-use crate::plate::Side;
 use crate::plate::foundation::{Foundation, GAP};
 use signorini_bound::certificate::{Certificate, Discretization, LoadCase, Verdict};
 use signorini_bound::conforming::VertexData;
@@ -14,13 +13,12 @@ use signorini_device::tick::{
 };
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::error::Array;
+use signorini_kernel::law::Law;
 use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::rows::{OwnedRows, QUADS};
 use signorini_kernel::stiffness::Stiffness;
 use signorini_kernel::{Error, Libm, flux};
 use signorini_tolerances::kernel::{ALGEBRAIC, FORCE_OF_FLUX, RESIDUAL};
-
-const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];
 
 type PlateTick<'a> = Tick<'a, f64, u16, QUADS>;
 
@@ -142,10 +140,8 @@ fn a_tick_resumed_from_its_memory_has_the_bits_of_one_that_went_on() -> Result<(
     let none = resumed(&mut put_down, &foundation, &mut rows, Progress::NONE).map(|_| ());
     assert_eq!(none, Err(Error::Relaxation));
     let mut few = Own::<3>::new();
-    assert_eq!(
-        resumed(&mut put_down, &foundation, &mut few, progress).err(),
-        Some(Error::Length { of: Array::Rows, found: 3, expected: 55 })
-    );
+    let refused = resumed(&mut put_down, &foundation, &mut few, progress).err();
+    assert_eq!(refused, Some(Error::Length { of: Array::Rows, found: 3, expected: 55 }));
     Ok(())
 }
 
@@ -160,10 +156,8 @@ fn memory_of_another_size_is_refused() -> Result<(), Error> {
     }
     let mut store = arrays(&foundation)?;
     store.active.pop();
-    assert_eq!(
-        cold(&mut store, &foundation).err(),
-        Some(Error::Length { of: Array::Contact, found: 4, expected: 5 })
-    );
+    let refused = cold(&mut store, &foundation).err();
+    assert_eq!(refused, Some(Error::Length { of: Array::Contact, found: 4, expected: 5 }));
     Ok(())
 }
 
@@ -209,11 +203,8 @@ fn a_certificate_waits_until_the_sweeps_have_had_as_long() -> Result<(), Error> 
     let limits = Limits { share: f64::MAX, ..Limits::default() };
     for (sweep, certificate, sweeps) in [(0, 0, 4), (10, 25, 4), (10, 125, 12)] {
         let mut deadline = Deadline { remaining: || u32::MAX, sweep, certificate };
-        let report = tick.begin(foundation.data()?)?.advance(
-            CertifiedSweeps(Libm),
-            limits,
-            &mut deadline,
-        )?;
+        let mut running = tick.begin(foundation.data()?)?;
+        let report = running.advance(CertifiedSweeps(Libm), limits, &mut deadline)?;
         assert_eq!((report.ended, report.sweeps), (Ended::Settled, sweeps));
     }
     Ok(())
@@ -230,20 +221,12 @@ fn without_a_certificate_the_iterate_is_the_same_and_tau_is_the_flux_of_it() -> 
         let certified = certified(&mut with, foundation.data()?, limits)?;
         let found = uncertified(&mut without, foundation.data()?, limits)?;
         assert_eq!((found.ended, found.sweeps), (Ended::OutOfSweeps, sweeps));
-        assert_eq!(
-            (found.verdict, found.figures.residual),
-            (Verdict::NotAsked, certified.figures.residual)
-        );
+        assert_eq!(found.verdict, Verdict::NotAsked);
+        assert_eq!(found.figures.residual, certified.figures.residual);
         assert_eq!(without.u(), with.u());
         let (loads, mut flux) = (foundation.data()?.given.loads, vec![0.0; with.u().len()]);
-        flux::recover(
-            &discretization.edges,
-            discretization.stiffness,
-            loads,
-            with.u(),
-            &[],
-            &mut flux,
-        )?;
+        let Discretization { edges, stiffness, .. } = &discretization;
+        flux::recover(edges, *stiffness, loads, with.u(), &[], &mut flux)?;
         assert_eq!(without.tau(), flux);
         assert_ne!(without.tau(), with.tau());
     }
@@ -267,8 +250,8 @@ fn without_a_certificate_a_tick_ends_at_rounding_or_out_of_time() -> Result<(), 
     assert!(end.sweeps > 50, "{end:?}");
     RESIDUAL.check("the end", end.figures.residual);
     // What sweeps have left over is far below the error of the mesh.
-    let after =
-        running.advance(CertifiedSweeps(Libm), Limits { sweeps: 0, ..Limits::default() }, never)?;
+    let limits = Limits { sweeps: 0, ..Limits::default() };
+    let after = running.advance(CertifiedSweeps(Libm), limits, never)?;
     let (algebraic, total) = (certificate(&after).algebraic, certificate(&after).total);
     ALGEBRAIC.check_over("what sweeps have left", algebraic, total);
     Ok(())
@@ -306,10 +289,8 @@ fn forces_keep_their_sign_wherever_a_tick_is_stopped() -> Result<(), Error> {
         let by_law: f64 = multipliers(&foundation, tick.u(), &flux)?.iter().sum();
         for report in [certified, plain] {
             assert!(report.figures.force >= 0.0, "{sweeps}: {report:?}");
-            FORCE_OF_FLUX.check(
-                format_args!("{sweeps}: {by_law} {report:?}"),
-                report.figures.force - by_law,
-            );
+            let what = format!("{sweeps}: {by_law} {report:?}");
+            FORCE_OF_FLUX.check(what, report.figures.force - by_law);
         }
         let on_contact = (0..counts.contact).map(|at| flux[counts.free + at]);
         let given = foundation.boundary()?.contact_flux(0).base();
@@ -363,10 +344,8 @@ fn fluxes_that_overflow_are_said_to() -> Result<(), Error> {
     let mut tick = on(&mut store, Discretization { stiffness, ..foundation.discretization()? })?;
     let gap = Gap::at(f64::MAX / 1e33, &foundation);
     let report = uncertified(&mut tick, gap.data(&foundation)?, exactly(0))?;
-    assert!(
-        tick.u().iter().all(|u| u.is_finite()) && report.figures.residual.is_finite(),
-        "{report:?}"
-    );
+    let numbers = tick.u().iter().chain([&report.figures.residual]);
+    assert!(numbers.into_iter().all(|x| x.is_finite()), "{report:?}");
     assert_eq!(report.ended, Ended::NotFinite, "{report:?}");
     Ok(())
 }
@@ -381,15 +360,10 @@ fn takes(
     let (lower, dirichlet) = (times(&foundation.lower, gap), times(&foundation.dirichlet, given));
     let (triangles, quads) =
         (times(&foundation.loads.0, source), times(&foundation.loads.1, source));
-    let good = foundation.data()?;
     let loads = CellLoads { triangles: &triangles, quads: &quads };
-    let given = LoadCase { loads, ..good.given };
-    match tick.begin(Data {
-        given,
-        law: Law::above(&lower),
-        dirichlet: &dirichlet,
-        step: IfStoring::NOTHING,
-    }) {
+    let given = LoadCase { loads, ..foundation.given()? };
+    let (law, dirichlet, step) = (Law::above(&lower), &dirichlet, IfStoring::NOTHING);
+    match tick.begin(Data { given, law, dirichlet, step }) {
         Ok(mut running) => {
             running.advance(CertifiedSweeps(Libm), Limits::default(), &mut Deadline::never())?;
             Ok(true)

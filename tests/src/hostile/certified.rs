@@ -1,12 +1,10 @@
 //! The foundation of a certificate, for any sound numbering: owned arrays, filled from bytes.
 
-use signorini_bound::cells::{CellBuffers, Cells, Quad, Triangle, pack};
 use signorini_bound::certificate::{
-    self, Buffers, Certificate, Curved, Discretization, LoadCase, Metric, Verdict, certify,
+    Buffers, Certificate, Curved, Discretization, LoadCase, Metric, Stability, Verdict, certify,
 };
 use signorini_bound::conforming::VertexData;
 use signorini_bound::equilibrium::{Iterate, is_root};
-use signorini_bound::forest::{Forest, ForestBuffers, grow};
 use signorini_device::tick::{Data, IfStoring};
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::flux_range::Spans;
@@ -18,7 +16,8 @@ use signorini_kernel::stiffness::Stiffness;
 use signorini_kernel::{Error, Tensor};
 
 use super::bytes::{Bits, Bytes};
-use super::plate::NONE;
+use super::numbering::NONE;
+use super::owned::Packed;
 
 /// Conditions on the boundary.
 pub struct Conditions<R> {
@@ -57,11 +56,8 @@ pub struct Foundation<R> {
     pub stiffness: (Vec<[R; 3]>, Vec<[R; 6]>),
     points: Vec<[Tensor<R>; 64]>,
     place: Vec<u32>,
-    ways: [Vec<u16>; 3],
-    triangles: Vec<Triangle<R, u16>>,
-    quads: Vec<Quad<R, u16>>,
-    weights: [Vec<R>; 2],
-    stability: certificate::Stability<R>,
+    packed: Packed<R>,
+    stability: Stability<R>,
 }
 
 impl<R: Bits> Foundation<R> {
@@ -78,45 +74,22 @@ impl<R: Bits> Foundation<R> {
         let cells = edges.cells();
         let mut some = |count| if wild { bytes.reals(count) } else { vec![R::ONE; count] };
         let (cost, alpha, compliance) = (some(cells), some(t + q), some(t));
-        let mut foundation = Self {
-            points: Vec::new(),
-            place: Vec::new(),
-            ways: [(); 3].map(|()| vec![NONE; cells]),
-            triangles: vec![Triangle::EMPTY; t],
-            quads: vec![Quad::EMPTY; q],
-            weights: [vec![R::ZERO; mesh.vertices().len()], vec![R::ZERO; edges.counts().edges()]],
-            stability: certificate::Stability::default(),
-            stiffness,
-        };
+        let (mut points, mut place) = (Vec::new(), Vec::new());
         if wild && bytes.flag() {
             let point = |bytes: &mut Bytes| {
                 let [xx, xy, yy] = [(); 3].map(|()| bytes.real());
                 [Tensor { xx, xy, yy }; 64]
             };
-            foundation.points = (0..cells).map(|_| point(bytes)).collect();
-            foundation.place = (0..cells).map(|_| u32::from(bytes.byte()) % 9).collect();
+            points = (0..cells).map(|_| point(bytes)).collect();
+            place = (0..cells).map(|_| u32::from(bytes.byte()) % 9).collect();
         }
         let root = |edge| is_root(edges, boundary, edge);
-        let Self { stiffness, points, place: at, ways, triangles, quads, weights, stability } =
-            &mut foundation;
-        let [order, parent, place] = ways;
-        let mut distance = vec![R::ZERO; cells];
-        let buffers = ForestBuffers { order, parent, place, distance: &mut distance };
-        let forest = grow(edges, |cell| cost[cell], root, buffers)?;
-        let stiffness = Stiffness { triangles: &stiffness.0, quads: &stiffness.1 };
-        let [of_vertices, of_edges] = weights;
-        let buffers = CellBuffers { triangles, quads, of_vertices, of_edges };
-        let packed = pack(mesh, edges, stiffness, &alpha, &compliance, &forest, buffers)?;
-        let metric = Metric { at_points: points, place: at, ..Metric::default() };
-        *stability = certificate::stability(
-            edges,
-            &packed,
-            metric,
-            boundary,
-            &forest,
-            &mut vec![R::ZERO; cells],
-        )?;
-        Ok(foundation)
+        let k = Stiffness { triangles: &stiffness.0, quads: &stiffness.1 };
+        let a = [&alpha[..], &compliance];
+        let packed = Packed::new((mesh, edges), k, a, |cell| cost[cell], root)?;
+        let metric = Metric { at_points: &points, place: &place, ..Metric::default() };
+        let stability = packed.stability(edges, metric, boundary)?;
+        Ok(Self { stiffness, points, place, packed, stability })
     }
 
     /// The view that the kernel takes.
@@ -125,14 +98,11 @@ impl<R: Bits> Foundation<R> {
         mesh: Mesh<'a, R, u16>,
         edges: Edges<'a, u16>,
     ) -> Result<Discretization<'a, R, u16>, Error> {
-        let [order, parent, place] = &self.ways;
-        let forest = Forest::new(&edges, order, parent, place)?;
-        let [of_vertices, of_edges] = &self.weights;
         Ok(Discretization {
             mesh,
             edges,
             stiffness: Stiffness { triangles: &self.stiffness.0, quads: &self.stiffness.1 },
-            cells: Cells::new(&self.triangles, &self.quads, of_vertices, of_edges, &forest)?,
+            cells: self.packed.cells(&edges)?,
             metric: Metric { at_points: &self.points, place: &self.place, ..Metric::default() },
             stability: self.stability,
         })

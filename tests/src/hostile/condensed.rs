@@ -26,9 +26,8 @@ const MOST: usize = 18;
 fn matrix<R: Bits>(bytes: &mut Bytes, order: usize) -> Vec<Block<R>> {
     let blocks = if bytes.below(16) == 0 { bytes.below(8) } else { count(order) };
     if bytes.flag() {
-        return (0..blocks)
-            .map(|_| [(); SIDE].map(|()| [(); SIDE].map(|()| bytes.real())))
-            .collect();
+        let mut any = || [(); SIDE].map(|()| [(); SIDE].map(|()| bytes.real()));
+        return (0..blocks).map(|_| any()).collect();
     }
     let diagonal = |at: usize| (0..SIDE).any(|row| row * (row + 3) / 2 == at);
     let small = bytes.reals::<R>(8).into_iter().map(|x| if x.finite() { x } else { R::ZERO });
@@ -39,9 +38,8 @@ fn matrix<R: Bits>(bytes: &mut Bytes, order: usize) -> Vec<Block<R>> {
         false if diagonal(block) => small[(r * c) % 8],
         false => small[(block + r + 3 * c) % 8],
     };
-    (0..blocks)
-        .map(|block| std::array::from_fn(|r| std::array::from_fn(|c| entry(block, r, c))))
-        .collect()
+    let filled = |block| std::array::from_fn(|r| std::array::from_fn(|c| entry(block, r, c)));
+    (0..blocks).map(filled).collect()
 }
 
 /// A model of any arrays, some of them of the wrong length, ticked by each method.
@@ -92,11 +90,7 @@ pub fn of_any_arrays<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
     let start = InitialTableau { blocks: &matrix, exchanged: &exchanged };
     let certificate = bytes.flag().then_some(form);
     let x = bytes.reals(padded(n));
-    let limits: Vec<_> = if bytes.flag() {
-        bytes.reals(2 * n).chunks(2).map(|pair| [pair[0], pair[1]]).collect()
-    } else {
-        Vec::new()
-    };
+    let limits = if bytes.flag() { bytes.groups(n) } else { Vec::new() };
     let columns_of_spans = [0, 1, m][bytes.below(3)];
     let spans = bytes.reals(padded(n) * columns_of_spans);
     let model = Condensed {

@@ -19,7 +19,8 @@ use signorini_kernel::{Error, Libm, Tensor};
 use signorini_solve::prolongation::{Origin, prolong};
 
 use super::bytes::{Bits, Bytes};
-use super::plate::{NONE, Plate};
+use super::numbering::NONE;
+use super::plate::Plate;
 use super::{condensed, stages};
 
 /// The first byte chooses a constructor and the scalar; the rest fills arrays.

@@ -18,6 +18,12 @@ mod condensed;
 mod constructors;
 mod expression;
 mod mesh;
+#[path = "../../../kernel/device/tests/numbering.rs"]
+#[allow(dead_code, reason = "the tests of the device need the rest")]
+mod numbering;
+#[path = "../../../kernel/device/tests/owned.rs"]
+#[allow(dead_code, reason = "the tests of the device need the rest")]
+mod owned;
 mod plate;
 mod scene;
 mod scenes;

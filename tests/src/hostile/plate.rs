@@ -2,13 +2,10 @@
 
 use signorini_kernel::Error;
 use signorini_kernel::mesh::Mesh;
-use signorini_kernel::mesh::edges::{Block, EdgeCounts, Edges};
-use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
+use signorini_kernel::mesh::edges::{Block, Edges};
 
 use super::bytes::{Bits, Bytes};
-
-/// No half-edge.
-pub const NONE: u16 = u16::MAX;
+use super::numbering::Numbering;
 
 /// Squares along each side of a grid, at most.
 const MOST: usize = 3;
@@ -18,10 +15,7 @@ pub struct Plate<R> {
     pub vertices: Vec<[R; 2]>,
     pub triangles: Vec<[u16; 3]>,
     pub quads: Vec<[u16; 4]>,
-    of_triangles: Vec<[u16; 3]>,
-    of_quads: Vec<[u16; 4]>,
-    half_edges: Vec<[u16; 2]>,
-    counts: EdgeCounts,
+    numbering: Numbering,
 }
 
 impl<R: Bits> Plate<R> {
@@ -69,26 +63,15 @@ impl<R: Bits> Plate<R> {
         bytes: &mut Bytes,
     ) -> Result<Self, Error> {
         let mesh = Mesh::new(&vertices, &triangles, &quads)?;
-        let mut of_triangles = vec![[NONE; 3]; triangles.len()];
-        let mut of_quads = vec![[NONE; 4]; quads.len()];
-        let mut half_edges = vec![[NONE; 2]; mesh.half_edges()];
-        let buffers = NumberingBuffers {
-            of_triangles: &mut of_triangles,
-            of_quads: &mut of_quads,
-            half_edges: &mut half_edges,
-            at_vertex: &mut vec![[NONE; 2]; vertices.len()],
-            next: &mut vec![NONE; mesh.half_edges()],
-        };
         // The first one is given, whatever the others are.
         let mut first = true;
         let block = |_| match (std::mem::take(&mut first), bytes.below(8)) {
-            (true, _) | (_, 0) => Some(Block::Dirichlet),
-            (_, 1..=3) => Some(Block::Free),
-            _ => Some(Block::Contact),
+            (true, _) | (_, 0) => Block::Dirichlet,
+            (_, 1..=3) => Block::Free,
+            _ => Block::Contact,
         };
-        let counts = number(&mesh, buffers, block)?.counts();
-        half_edges.truncate(counts.edges());
-        Ok(Self { vertices, triangles, quads, of_triangles, of_quads, half_edges, counts })
+        let numbering = Numbering::new(&mesh, block)?;
+        Ok(Self { vertices, triangles, quads, numbering })
     }
 
     /// The mesh.
@@ -98,6 +81,6 @@ impl<R: Bits> Plate<R> {
 
     /// Its edges.
     pub fn edges(&self) -> Result<Edges<'_, u16>, Error> {
-        Edges::new(&self.of_triangles, &self.of_quads, &self.half_edges, self.counts)
+        self.numbering.edges()
     }
 }

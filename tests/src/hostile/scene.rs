@@ -31,17 +31,11 @@ fn read(text: &str) -> Result<Scene> {
 
 /// `mesh` with the groups that the scene names: its surfaces by turns, its boundary in stretches.
 fn suited(scene: &Scene, mesh: Mesh) -> Mesh {
-    let named = |name: &str| name != "default";
-    let surfaces = scene.materials.iter().map(|material| &material.name.value);
-    let mut surfaces: Vec<_> = surfaces
-        .filter(|name| named(name))
-        .map(|name| Surface { name: name.clone(), cells: Vec::new() })
-        .collect();
-    let curves = scene.boundaries.iter().map(|boundary| &boundary.name.value);
-    let mut curves: Vec<_> = curves
-        .filter(|name| named(name))
-        .map(|name| Curve { name: name.clone(), edges: Vec::new() })
-        .collect();
+    let named = |name: &String| (name != "default").then(|| name.clone());
+    let surfaces = scene.materials.iter().filter_map(|material| named(&material.name.value));
+    let mut surfaces: Vec<_> = surfaces.map(|name| Surface { name, cells: Vec::new() }).collect();
+    let curves = scene.boundaries.iter().filter_map(|boundary| named(&boundary.name.value));
+    let mut curves: Vec<_> = curves.map(|name| Curve { name, edges: Vec::new() }).collect();
     let parts = surfaces.len().max(1);
     for cell in 0..mesh.cells() {
         if let Some(surface) = surfaces.get_mut(cell % parts) {

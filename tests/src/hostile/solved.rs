@@ -75,14 +75,8 @@ fn judged(problem: &Problem, solution: &Solution) {
 /// The first ticks of its schedule.
 fn played(problem: &Problem) -> Result<Vec<TickRecord>> {
     let moments = schedule::moments(&problem.scene, problem.scene.time.is_none().then_some(2))?;
-    let budget = Budget {
-        scalar: ScalarKind::F64,
-        sweeps: SWEEPS / 2,
-        error: 0.0,
-        tolerance: None,
-        intervals: false,
-        shows_start: false,
-    };
+    let own = Budget { scalar: ScalarKind::F64, sweeps: SWEEPS / 2, ..Budget::of(&problem.scene) };
+    let budget = Budget { intervals: false, shows_start: false, ..own };
     play(problem, None, &moments[..moments.len().min(3)], &budget, |_, _| Ok(()))
 }
 
@@ -94,10 +88,13 @@ fn sane(tick: &TickRecord) {
     assert!(tick.bound.is_none_or(|bound| bound.total >= 0.0), "{tick:?}");
 }
 
+fn defaults<R: Scalar>(problem: &Problem) -> Vec<R> {
+    problem.scene.inputs.iter().map(|input| R::narrow(input.default)).collect()
+}
+
 fn baked_full<R: Scalar>(problem: &Problem) -> Result<()> {
     let baked = full::Baked::<R>::new(problem)?;
-    let inputs: Vec<_> =
-        problem.scene.inputs.iter().map(|input| R::narrow(input.default)).collect();
+    let inputs = defaults::<R>(problem);
     let limits = signorini_device::tick::Limits { sweeps: SWEEPS / 2, ..baked.limits() };
     let found = if baked.has_quads() {
         full::Controller::<R, QUADS>::new(&baked).tick_within(&inputs, limits)
@@ -116,8 +113,7 @@ fn baked_condensed<R: Scalar>(problem: &Problem) -> Result<()> {
     let work = condensed::Work { pivots: Some(40), sweeps: 10 };
     let baked = condensed::Baked::<R>::new(&condensate, work, true);
     let Ok(baked) = baked else { return Ok(()) };
-    let inputs: Vec<_> =
-        problem.scene.inputs.iter().map(|input| R::narrow(input.default)).collect();
+    let inputs = defaults::<R>(problem);
     if let Ok((values, report)) = condensed::Controller::new(&baked).tick(&inputs) {
         assert!(values.iter().all(no_nan), "{values:?} {report:?}");
     }

@@ -13,8 +13,7 @@ use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::rows::{QUADS, Row, Rows};
 use signorini_kernel::solver::{Outcome, Settings, Status};
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
-use signorini_kernel::system::Shifts;
-use signorini_kernel::system::System;
+use signorini_kernel::system::{Shifts, System};
 use signorini_kernel::{Error, Libm, Tensor, flux, psor};
 
 use super::bytes::{Bits, Bytes};
@@ -92,14 +91,8 @@ fn solved<R: Bits>(
     let cells = CellLoads { triangles: &triangles, quads: &quads };
     assembly::load(edges, cells, &boundary, &mut load)?;
     let spans = bytes.spans(counts.contact);
-    let spans = Spans::new(&spans)?;
-    let _ = examine(
-        edges,
-        diagonal,
-        (&load, spans),
-        bytes.real(),
-        &mut vec![Part::default(); edges.cells()],
-    );
+    let (spans, parts) = (Spans::new(&spans)?, &mut vec![Part::default(); edges.cells()]);
+    let _ = examine(edges, diagonal, (&load, spans), bytes.real(), parts);
     let matrix = Csr::new(&row_ptr, &col_idx, &values, counts.edges())?;
     let mut memory = vec![Row::EMPTY; counts.unknowns()];
     let rows = Rows::<R, u16, QUADS>::new(edges, &mut memory)?;

@@ -4,16 +4,17 @@ use std::cell::Cell;
 
 use signorini_bake::full::{Baked, Controller};
 use signorini_device::tick::{
-    CertifiedSweeps, Deadline, Ended, Limits, Memory, Report, Tick, UncertifiedSweeps,
+    CertifiedSweeps, Deadline, Ended, Limits, Report, Tick, UncertifiedSweeps,
 };
 use signorini_kernel::relaxation::Relaxation;
-use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_kernel::stiffness::{self, Coefficient};
 use signorini_kernel::{Error, Libm, Tensor};
 
 use super::bytes::{Bits, Bytes, bits, check_settled};
 use super::certified::{Conditions, Foundation, Loads, is_bound};
 use super::condensed;
+use super::owned::TickArrays;
 use super::plate::Plate;
 use super::scenes::{self, Kept};
 
@@ -47,17 +48,9 @@ fn held<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
     let first = Conditions::<R>::new(bytes, &edges, false);
     let foundation = Foundation::new(bytes, &mesh, &edges, &first.boundary(&edges)?, k, false)?;
     let discretization = foundation.discretization(mesh, edges)?;
-    let zeros = |length| vec![R::ZERO; length];
-    let mut rows = vec![Row::<R, u16, QUADS>::EMPTY; counts.unknowns()];
-    let memory = Memory {
-        rows: Rows::new(&edges, &mut rows)?,
-        load: &mut zeros(counts.unknowns()),
-        active: &mut vec![false; counts.contact],
-        vertices: &mut zeros(plate.vertices.len()),
-        bubbles: &mut zeros(counts.edges()),
-        tau: &mut zeros(counts.edges()),
-        u: &mut bytes.reals(counts.edges()),
-    };
+    let mut arrays = TickArrays::new(&edges, plate.vertices.len());
+    arrays.numbers[4] = bytes.reals(counts.edges());
+    let memory = arrays.memory(&edges)?;
     let omega = bytes.real();
     let relaxation =
         if bytes.flag() { Relaxation::Adaptive(R::ONE) } else { Relaxation::Fixed(omega) };

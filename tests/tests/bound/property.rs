@@ -172,12 +172,8 @@ fn units_of_length_and_of_u() {
         let expected = ratio(Units::ONE);
         for length in [1e-6, 1.0, 1e6] {
             for value in [1e-6, 1.0, 1e6] {
-                let found = ratio(Units { length, value });
-                UNITS.check_relative(
-                    format_args!("{cells:?}, {length:e}, {value:e}"),
-                    found,
-                    expected,
-                );
+                let what = format!("{cells:?}, {length:e}, {value:e}");
+                UNITS.check_relative(what, ratio(Units { length, value }), expected);
             }
         }
     }

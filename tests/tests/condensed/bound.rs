@@ -91,12 +91,8 @@ fn of_contrasts_units_levels_corners_and_floating_parts() {
     use Side::{Dirichlet, Neumann, Robin};
     let (mut all, mut has_corners, mut has_floating) = (Found::default(), false, false);
     let random = &mut Random::new(7);
-    let cases = [
-        TwoMaterials::jump(1e4),
-        TwoMaterials::jump(1e-4),
-        TwoMaterials::h(0.55),
-        TwoMaterials::b(),
-    ];
+    let [soft, stiff] = [1e4, 1e-4].map(TwoMaterials::jump);
+    let cases = [soft, stiff, TwoMaterials::h(0.55), TwoMaterials::b()];
     let smooth = [(); 4].map(|()| Smooth::random(random).written());
     let all_written = cases.map(|case| case.written()).into_iter().chain(smooth);
     for (at, written) in all_written.enumerate() {
@@ -128,9 +124,8 @@ fn of_contrasts_units_levels_corners_and_floating_parts() {
                     Err(error) if error.contains("no unique solution") => continue,
                     model => model.unwrap_or_else(|error| panic!("{error}\n{text}")),
                 };
-                let certificate = &model.condensate.certificate;
-                let form =
-                    certificate.as_ref().unwrap_or_else(|why| panic!("{}: {why}", model.what));
+                let form = model.condensate.certificate.as_ref();
+                let form = form.unwrap_or_else(|why| panic!("{}: {why}", model.what));
                 has_corners |= !form.corners.is_empty();
                 has_floating |= !form.floating.is_empty();
                 for level in [0.0, 1e4] {

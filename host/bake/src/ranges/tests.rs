@@ -27,11 +27,8 @@ fn runs_follow_each_other_and_have_all_edges() {
         let counts = found(baked, origin);
         let of = |side| runs.iter().filter(|run| run.side == side).map(|run| run.edges).sum();
         let along: [usize; 3] = ["open", "touching", "may change"].map(of);
-        assert_eq!(
-            along,
-            [counts.always_open, counts.always_touching, counts.may_change],
-            "{name}"
-        );
+        let expected = [counts.always_open, counts.always_touching, counts.may_change];
+        assert_eq!(along, expected, "{name}");
         assert_eq!(along.iter().sum::<usize>(), counts.contact);
         assert!(along.iter().all(|&count| count > 0), "{name}: {along:?}");
         assert_eq!(runs.iter().map(|run| run.kept).sum::<usize>(), baked.contact);
@@ -46,10 +43,8 @@ fn the_levee_touches_below_and_is_open_above() {
     let choice = choice(&problem, false);
     let runs = runs(&problem, choice.condensed().expect("condensed").1);
     let (first, last) = (&runs[0], &runs[runs.len() - 1]);
-    assert_eq!(
-        (first.side, first.from, &*first.boundary),
-        ("touching", [30.0, 0.0], "\"seepage face\"")
-    );
+    let seepage = ("touching", [30.0, 0.0], "\"seepage face\"");
+    assert_eq!((first.side, first.from, &*first.boundary), seepage);
     assert_eq!((last.side, last.to, &*last.boundary), ("open", [12.0, 6.0], "\"crest\""));
 }
 
@@ -101,10 +96,8 @@ fn what_is_not_proved_has_a_reason() {
     let text = |problem: &Problem, all| section(problem, &choice(problem, all));
     let levee = problem("levee", |_| ());
     let said = text(&levee, true);
-    assert!(
-        said.contains("--full-edges keeps all of them") && said.contains("proved for"),
-        "{said}"
-    );
+    assert!(said.contains("--full-edges keeps all of them"), "{said}");
+    assert!(said.contains("proved for"), "{said}");
     let without = problem("levee", |scene| scene.inputs[1].range = None);
     let said = text(&without, false);
     assert!(said.contains("Nothing is proved: \"river\" has no range"), "{said}");
@@ -201,20 +194,20 @@ fn ranges_that_a_scalar_cannot_hold_or_solve_for_are_refused() {
     let refused = |most: f64| {
         let problem = problem("levee", |scene| {
             scene.target = None;
-            let range = scene.inputs[0].range.as_mut().expect("a range");
-            range.value.hi = most;
+            scene.inputs[0].range.as_mut().expect("a range").value.hi = most;
         });
         let wanted = || Wanted::model(ModelKind::Condensed);
         let narrow = Choice::<f32>::new(&problem, wanted()).err().map(|error| error.to_string());
         let wide = Choice::<f64>::new(&problem, wanted()).err().map(|error| error.to_string());
         (narrow.unwrap_or_default(), wide.unwrap_or_default())
     };
-    let (narrow, wide) = refused(1e39);
-    assert!(narrow.contains("input.rain.range: f32 cannot hold its ends"), "{narrow}");
-    assert_eq!(wide, "");
-    let (narrow, wide) = refused(1e36);
-    assert!(narrow.contains("input.rain.range: its loads are too large for f32"), "{narrow}");
-    assert_eq!(wide, "");
+    for (most, expected) in [
+        (1e39, "input.rain.range: f32 cannot hold its ends"),
+        (1e36, "input.rain.range: its loads are too large for f32"),
+    ] {
+        let (narrow, wide) = refused(most);
+        assert!(narrow.contains(expected) && wide.is_empty(), "{most:e}: {narrow} {wide}");
+    }
     assert!(refused(1e306).1.contains("its loads are too large for f64"));
     assert_eq!(refused(1e20), (String::new(), String::new()));
 }

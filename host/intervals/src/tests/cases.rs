@@ -4,6 +4,11 @@ use super::*;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::structured::{Trapezoids, trapezoids};
 
+/// The interval of an output that has one.
+fn interval<'f>(found: &'f BTreeMap<String, Found>, name: &str) -> &'f OutputBound {
+    found[name].as_ref().unwrap_or_else(|why| panic!("{name}: {why}"))
+}
+
 /// u = x² − y² on (−1, 1) × (0, 1), heat through the left side by a transfer law, through the right one by a given u.
 const HARMONIC: &str = r#"
 mesh = "grid"
@@ -25,27 +30,16 @@ output.two = { kind = "flux", of = ["contact", "left"] }
 #[test]
 fn they_hold_the_values_of_an_exact_solution() -> Result<()> {
     // Means of x² − 1 over (−1, 1) and of 1 − y² over (0, 1); fluxes ±2x over sides of length 1.
-    let exact = [
-        ("top", -2.0 / 3.0),
-        ("bottom", 0.0),
-        ("cold", 2.0),
-        ("skin", 2.0 / 3.0),
-        ("warm", 2.0),
-        ("given", 2.0 / 3.0),
-        ("two", 2.0),
-    ];
+    let means = [("top", -2.0 / 3.0), ("skin", 2.0 / 3.0), ("given", 2.0 / 3.0)];
+    let fluxes = [("bottom", 0.0), ("cold", 2.0), ("warm", 2.0), ("two", 2.0)];
+    let exact: Vec<_> = means.into_iter().chain(fluxes).collect();
     for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
         let mut widths = Vec::new();
         for n in [4, 16] {
             let (_, problem) = on_grid(HARMONIC, grid(n, cells))?;
-            let solution = solve(&problem, &options())?;
-            let found = of_outputs(&problem, &solution, Coverage::Small);
-            for (name, value) in exact {
-                let interval = found[name].as_ref().unwrap_or_else(|why| panic!("{name}: {why}"));
-                check(name, interval, value);
-            }
-            let width =
-                |name: &str| found[name].as_ref().map_or(f64::NAN, |found| found.plus_minus);
+            let found = of_outputs(&problem, &solve(&problem, &options())?, Coverage::Small);
+            exact.iter().for_each(|&(name, value)| check(name, interval(&found, name), value));
+            let width = |name| interval(&found, name).plus_minus;
             assert!(width("two") <= width("bottom") + width("cold"), "{cells:?}: {found:?}");
             widths.push(width("warm"));
         }
@@ -73,7 +67,7 @@ setting.element = "nonparametric"
     }
     let (_, problem) = on_grid(TRAPEZOID, mesh)?;
     let found = of_outputs(&problem, &solve(&problem, &options())?, Coverage::Small);
-    let middle = found["middle"].as_ref().expect("an interval");
+    let middle = interval(&found, "middle");
     check("the area's", middle, -5.0 / 12.0 + 2.0 * 13.0 / 12.0);
     assert!(middle.plus_minus < 1e-6, "{middle:?}");
     Ok(())
@@ -102,8 +96,6 @@ output.wet = { kind = "length", of = ["contact"] }
 /// data that are given beside them do not widen.
 #[test]
 fn a_sum_has_an_interval_where_its_parts_have_none() -> Result<()> {
-    use crate::known::Answers;
-    use crate::weights::weights;
     for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
         let mut widths = Vec::new();
         for n in [4, 8] {
@@ -112,27 +104,22 @@ fn a_sum_has_an_interval_where_its_parts_have_none() -> Result<()> {
             let found = of_outputs(&problem, &solution, Coverage::Small);
             let values = outputs(&problem, &solution)?;
             for name in ["face", "weir", "force"] {
-                assert!(
-                    found[name].as_ref().is_err_and(|why| why.contains("from both sides")),
-                    "{name}"
-                );
+                let why = found[name].as_ref().expect_err(name);
+                assert!(why.contains("from both sides"), "{name}: {why}");
             }
             // −∫(x + 3) below, ∫(y + 2) on the right, −∫(y + 2) on the left, ∫(x + 3) on top.
             for (name, exact) in [("both", -3.5), ("more", 2.5), ("all", -6.0)] {
-                check(name, found[name].as_ref().expect("an interval"), exact);
+                check(name, interval(&found, name), exact);
             }
             let [face, weir, both] =
                 ["face", "weir", "both"].map(|name| values[name].expect("a value"));
             assert!((face + weir - both).abs() < 1e-12 * both.abs(), "{face} {weir} {both}");
-            let width =
-                |name: &str| found[name].as_ref().map_or(f64::NAN, |found| found.plus_minus);
+            let width = |name| interval(&found, name).plus_minus;
             assert!((width("more") - width("both")).abs() < 1e-6, "{cells:?}: {found:?}");
             assert!(width("all") < 1e-6 && width("both") > 1e-4, "{cells:?}: {found:?}");
             assert_eq!(values["wet"], Some(2.0));
             widths.push(width("both"));
-            let answers =
-                Answers { open: &[], pressed: &[], columns: &[], total: 0.0, are_balanced: true };
-            let own = weights(&problem, &answers);
+            let own = weights::of_all(&problem, true);
             for (output, weight) in scene.outputs.iter().zip(own) {
                 let has = ["both", "more"].contains(&output.name.value.as_str());
                 assert_eq!(weight.is_ok(), has, "{}: {weight:?}", output.name.value);
@@ -164,7 +151,7 @@ fn without_transfer_there_are_intervals_that_hold() -> Result<()> {
     let (_, problem) = on_grid(ROOF, grid(4, Cells::Triangles))?;
     let found = of_outputs(&problem, &solve(&problem, &options())?, Coverage::Small);
     for name in ["below", "side"] {
-        check(name, found[name].as_ref().expect("an interval"), exact[name].expect("a value"));
+        check(name, interval(&found, name), exact[name].expect("a value"));
     }
     Ok(())
 }
@@ -202,18 +189,15 @@ fn contents_and_means_over_materials_hold_and_shrink() -> Result<()> {
             for n in [4, 16] {
                 let (_, problem) = on_grid(&stores(c, zero), mesh(n))?;
                 let solution = solve(&problem, &options())?;
-                let (found, values) = (
-                    of_outputs(&problem, &solution, Coverage::Small),
-                    outputs(&problem, &solution)?,
-                );
+                let found = of_outputs(&problem, &solution, Coverage::Small);
+                let values = outputs(&problem, &solution)?;
                 for (name, exact) in [
                     ("heat", c * (1.0 + 3.0 * zero)),
                     ("cold", c * (zero - 1.0)),
                     ("both", c * (1.0 + 3.0 * zero)),
                     ("warm", 1.0 + zero),
                 ] {
-                    let interval =
-                        found[name].as_ref().unwrap_or_else(|why| panic!("{name}: {why}"));
+                    let interval = interval(&found, name);
                     check(&format!("{name}, {c}, {zero}, {cells:?}"), interval, exact);
                     let value = values[name].expect("a value");
                     let off = (value - exact).abs();
@@ -222,8 +206,7 @@ fn contents_and_means_over_materials_hold_and_shrink() -> Result<()> {
                     assert!((stated - exact).abs() < 1e-11 * size * (1.0 + zero.abs()), "{name}");
                     assert!(off < 0.05 * size, "{name}, {c}, {zero}, {cells:?}: {value} {exact}");
                 }
-                let width =
-                    |name: &str| found[name].as_ref().map_or(f64::NAN, |found| found.plus_minus);
+                let width = |name| interval(&found, name).plus_minus;
                 assert!(width("heat") < 0.6 * c && width("warm") < 0.3, "{cells:?}: {found:?}");
                 widths.push([width("heat"), width("warm")]);
             }

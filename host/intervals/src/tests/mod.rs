@@ -133,8 +133,8 @@ fn multigrid_weighs_as_the_factor_does() -> Result<()> {
 fn they_are_worked_out_where_they_are_asked_for() -> Result<()> {
     let (problem, solution) = solved(&scene("strip.toml")?, 0)?;
     assert!(of_outputs(&problem, &solution, Coverage::None).is_empty());
-    let count =
-        |asked| of_outputs(&problem, &solution, asked).values().filter(|of| of.is_ok()).count();
+    let of = |asked| of_outputs(&problem, &solution, asked);
+    let count = |asked| of(asked).values().filter(|of| of.is_ok()).count();
     assert_eq!(count(Coverage::All), count(Coverage::Small));
     let large = on_grid(signorini_problem::fixtures::SMOOTH, grid(200, Cells::Triangles))?.1;
     assert!(large.topology.counts.unknowns() > MOST_FACTORED);

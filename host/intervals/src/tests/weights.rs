@@ -1,7 +1,7 @@
 //! Weights of a controller beside those on paper.
 
 use super::super::known::Answers;
-use super::super::weights::weights;
+use super::super::weights::{Weighed, weights};
 use signorini_certify::Evaluated;
 use signorini_problem::Problem;
 use signorini_problem::fixtures::on_grid;
@@ -23,19 +23,19 @@ output.skin = { kind = "mean", of = "right" }
 output.roof = { kind = "mean", of = "dirichlet" }
 "#;
 
+/// Weights of a model without answers that are known beforehand.
+pub fn of_all(problem: &Problem, are_balanced: bool) -> Vec<Weighed> {
+    let answers = Answers { open: &[], pressed: &[], columns: &[], total: 0.0, are_balanced };
+    weights(problem, &answers)
+}
+
 /// z and ζ are known: z falls from 1 with the slope b, 3b = 2 (1 − 2b), and ‖A∇z‖² = 3 · 2 b² + 2 (1 − 2b)². ζ of the mean on the right
 /// is 1 − 2z there, with ‖ζ‖² = 2 ζ²/3 + (1 − ζ)²/2 where ζ = 3z/2.
 #[test]
 fn weights_of_a_bar_are_those_of_its_resistances() -> Result<()> {
     for cells in [Cells::Triangles, Cells::Quads] {
         let (_, problem) = on_grid(BAR, grid(4, cells))?;
-        let of_a = |are_balanced| {
-            weights(
-                &problem,
-                &Answers { open: &[], pressed: &[], columns: &[], total: 0.0, are_balanced },
-            )
-        };
-        let found = of_a(cells == Cells::Triangles);
+        let found = of_all(&problem, cells == Cells::Triangles);
         let slope: f64 = 2.0 / 7.0;
         let flux = (6.0 * slope * slope + 2.0 * (1.0 - 2.0 * slope).powi(2)).sqrt();
         let through: f64 = 3.0 / 7.0;
@@ -46,7 +46,7 @@ fn weights_of_a_bar_are_those_of_its_resistances() -> Result<()> {
         assert!(weight(2) > 0.0);
         if cells == Cells::Quads {
             // s of a condensed model does not keep the means of u_h between quads.
-            let of_u = of_a(true)[1].clone().expect("weights").of_u;
+            let of_u = of_all(&problem, true)[1].clone().expect("weights").of_u;
             OUTPUT_WEIGHTS.check_relative("mean of u_h", of_u, mean);
         }
     }
@@ -62,9 +62,7 @@ fn weights_have_what_is_missed_of_loads() -> Result<()> {
     let base = BAR.replace("source.f = \"0\"", &format!("source.f = \"{jump}\""));
     let total = |text: &str| -> Result<(Problem, f64)> {
         let (_, problem) = on_grid(text, grid(4, Cells::Triangles))?;
-        let answers =
-            Answers { open: &[], pressed: &[], columns: &[], total: 0.0, are_balanced: true };
-        let total = weights(&problem, &answers)[0].clone().expect("weights").total;
+        let total = of_all(&problem, true)[0].clone().expect("weights").total;
         Ok((problem, total))
     };
     let (_, plain) = total(BAR)?;

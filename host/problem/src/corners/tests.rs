@@ -32,21 +32,11 @@ fn with_curves(vertices: Vec<[f64; 2]>, quads: Vec<[u32; 4]>, curves: &[(&str, [
 
 /// Two squares that share the vertex (0, 0) alone.
 fn pinch() -> Mesh {
-    let vertices = vec![
-        [0.0, 0.0],
-        [1.0, 0.0],
-        [1.0, 1.0],
-        [0.0, 1.0],
-        [-1.0, 0.0],
-        [-1.0, -1.0],
-        [0.0, -1.0],
-    ];
+    let upper = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let lower = [[-1.0, 0.0], [-1.0, -1.0], [0.0, -1.0]];
     let quads = vec![[0, 1, 2, 3], [5, 6, 0, 4]];
-    with_curves(
-        vertices,
-        quads,
-        &[("one", [0, 1]), ("other", [0, 4]), ("far", [2, 3]), ("bottom", [5, 6])],
-    )
+    let curves = [("one", [0, 1]), ("other", [0, 4]), ("far", [2, 3]), ("bottom", [5, 6])];
+    with_curves([&upper[..], &lower].concat(), quads, &curves)
 }
 
 /// Four squares around (0, 0), the left ones apart along y = 0.
@@ -154,10 +144,9 @@ input.lift = {{ of = \"other\", field = \"gap\", pattern = \"1\"{lift} }}\n"
 
 #[test]
 fn ranges_within_which_gaps_exclude_each_other_are_refused() -> Result<()> {
-    let declared = |lo: f64, hi: f64| format!(", range = [{lo:?}, {hi:?}]");
     // 2 level ≤ 1 + lift
-    posed(&moved([&declared(-0.5, 3.0), &declared(-7.0, 0.25)]), slit())?;
-    let said = refusal(&moved([&declared(-0.5, 3.0), &declared(-7.0, 0.26)]), slit());
+    posed(&moved_within(["[-0.5, 3.0]", "[-7.0, 0.25]"]), slit())?;
+    let said = refusal(&moved_within(["[-0.5, 3.0]", "[-7.0, 0.26]"]), slit());
     assert!(
         said.contains("with level = 0.26 and lift = -0.5 boundary.one asks for u ≥ 0.52"),
         "{said}"

@@ -37,6 +37,11 @@ fn main() {{
     )
 }
 
+/// A tick without inputs.
+fn at(time: f64) -> ScheduledTick {
+    ScheduledTick { time, inputs: Vec::new() }
+}
+
 /// A slow drift with jumps and a tick that repeats another.
 fn log(inputs: usize) -> Vec<ScheduledTick> {
     let values = [0.0, 0.01, 0.02, 0.3, 0.3, 0.05, 0.04];
@@ -112,12 +117,8 @@ source.f = "6*sin(12*t + 4*x)"
 time = { step = 0.02, end = 0.5 }
 "#;
     let problem = on_grid(text, grid(10, cells))?.1;
-    let budget = Budget {
-        scalar,
-        tolerance: Some(tolerance),
-        intervals: false,
-        ..Budget::of(&problem.scene)
-    };
+    let own = Budget { scalar, tolerance: Some(tolerance), ..Budget::of(&problem.scene) };
+    let budget = Budget { intervals: false, ..own };
     let moments = schedule::moments(&problem.scene, None)?;
     let (mut reference, mut found) = (problem.clone(), (0.0_f64, 0));
     let mut before = 0;
@@ -223,11 +224,8 @@ fn same(what: &str, near: &[Vec<f64>], far: &[Vec<f64>], allowed: Tolerance) {
     for (tick, (near, far)) in near.iter().zip(far).enumerate() {
         assert_eq!(near.len(), far.len(), "{near:?} {far:?}");
         for (near, far) in near.iter().zip(far) {
-            allowed.check_over(
-                format_args!("{what}, tick {tick}: {far} and {near}"),
-                far - near,
-                near.abs().max(1.0),
-            );
+            let what = format!("{what}, tick {tick}: {far} and {near}");
+            allowed.check_over(what, far - near, near.abs().max(1.0));
         }
     }
 }
@@ -259,9 +257,7 @@ fn stored(right: f64, zero: f64, (n, parts): (u32, u32)) -> Result<Vec<TickRecor
     let scene = storing(right, zero, dt / f64::from(parts));
     let problem = Problem::new(&scene, grid(n, Cells::Triangles))?;
     let moments = (1..=ticks).flat_map(|tick| (0..parts).map(move |_| tick));
-    let moments: Vec<_> = moments
-        .map(|tick| ScheduledTick { time: f64::from(tick) * dt, inputs: Vec::new() })
-        .collect();
+    let moments: Vec<_> = moments.map(|tick| at(f64::from(tick) * dt)).collect();
     let budget = Budget { shows_start: false, ..Budget::of(&scene) };
     let ticks = play(&problem, None, &moments, &budget, |_, _| Ok(()))?;
     Ok(ticks.into_iter().skip(parts as usize - 1).step_by(parts as usize).collect())
@@ -299,12 +295,10 @@ fn contents_and_means_lie_between_what_the_bound_of_the_evolution_says() -> Resu
 #[test]
 fn the_content_follows_the_balance_of_its_steps() -> Result<()> {
     let scene = storing(1.0, 0.0, 0.1);
-    let text = format!(
-        "{}\noutput.out = {{ kind = \"flux\", of = [\"dirichlet\", \"contact\"] }}\n",
-        scene.text
-    );
+    let out = "\noutput.out = { kind = \"flux\", of = [\"dirichlet\", \"contact\"] }\n";
+    let text = scene.text.to_string() + out;
     let problem = Problem::new(&Scene::parse(&text, Path::new("a.toml"))?, grid(4, Cells::Mixed))?;
-    let moments = [0.1, 0.2, 0.5].map(|time| ScheduledTick { time, inputs: Vec::new() });
+    let moments = [0.1, 0.2, 0.5].map(at);
     let budget = Budget { intervals: false, ..Budget::of(&problem.scene) };
     let ticks = play(&problem, None, &moments, &budget, |_, _| Ok(()))?;
     for (before, after) in ticks.iter().zip(&ticks[1..]) {
@@ -336,8 +330,7 @@ output.out = {{ kind = "flux", of = "dirichlet" }}
         20.0 * a
     );
     let (scene, problem) = on_grid(&text, grid(4, Cells::Mixed))?;
-    let moments: Vec<_> =
-        [0.1, 0.2, 0.3].map(|time| ScheduledTick { time, inputs: Vec::new() }).into();
+    let moments = [0.1, 0.2, 0.3].map(at);
     let ticks = play(&problem, None, &moments, &Budget::of(&scene), |_, _| Ok(()))?;
     let names = String::from_utf8(bounds_csv(&scene, &ticks).expect("a table")).expect("text");
     let header = "t,skin_step_least,skin_step_most,inside_cell_step_least,inside_cell_step_most";

@@ -13,7 +13,8 @@ use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::{Error, Real, Tensor};
 
-use super::{NONE, Plate, Side};
+use super::Plate;
+use crate::numbering::{NONE, Side};
 use crate::owned::Packed;
 
 pub const A: Tensor<f64> = Tensor { xx: 3.0, xy: -1.2, yy: 1.5 };

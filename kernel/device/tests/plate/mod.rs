@@ -5,22 +5,12 @@ pub mod foundation;
 
 use signorini_kernel::Error;
 use signorini_kernel::mesh::Mesh;
-use signorini_kernel::mesh::edges::{Block, EdgeCounts, Edges};
-use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
+use signorini_kernel::mesh::edges::Edges;
 
-/// No half-edge.
-pub const NONE: u16 = u16::MAX;
+use crate::numbering::{Numbering, Side};
+
 /// Squares along x and y, of side 1; every other one is cut into two triangles.
 const SQUARES: [usize; 2] = [5, 4];
-
-/// The condition on a side of the plate.
-#[derive(Clone, Copy, PartialEq)]
-pub enum Side {
-    Given,
-    Insulated,
-    Transfer,
-    Contact,
-}
 
 /// The numbered mesh; sides are bottom, right, top, left.
 pub struct Plate {
@@ -28,10 +18,7 @@ pub struct Plate {
     pub vertices: Vec<[f64; 2]>,
     pub triangles: Vec<[u16; 3]>,
     pub quads: Vec<[u16; 4]>,
-    of_triangles: Vec<[u16; 3]>,
-    of_quads: Vec<[u16; 4]>,
-    half_edges: Vec<[u16; 2]>,
-    counts: EdgeCounts,
+    numbering: Numbering,
 }
 
 impl Plate {
@@ -41,26 +28,8 @@ impl Plate {
         let place = |at: usize| [(at % (nx + 1)) as f64, (at / (nx + 1)) as f64];
         let vertices: Vec<_> = (0..(nx + 1) * (ny + 1)).map(place).collect();
         let mesh = Mesh::new(&vertices, &triangles, &quads)?;
-        let mut of_triangles = vec![[NONE; 3]; triangles.len()];
-        let mut of_quads = vec![[NONE; 4]; quads.len()];
-        let mut half_edges = vec![[NONE; 2]; mesh.half_edges()];
-        let buffers = NumberingBuffers {
-            of_triangles: &mut of_triangles,
-            of_quads: &mut of_quads,
-            half_edges: &mut half_edges,
-            at_vertex: &mut vec![[NONE; 2]; vertices.len()],
-            next: &mut vec![NONE; mesh.half_edges()],
-        };
-        let numbered = number(&mesh, buffers, |ends| {
-            Some(match side(&vertices, ends, sides) {
-                Side::Given => Block::Dirichlet,
-                Side::Contact => Block::Contact,
-                Side::Insulated | Side::Transfer => Block::Free,
-            })
-        })?;
-        let counts = numbered.counts();
-        half_edges.truncate(counts.edges());
-        Ok(Self { sides, vertices, triangles, quads, of_triangles, of_quads, half_edges, counts })
+        let numbering = Numbering::new(&mesh, |ends| side(&vertices, ends, sides).block())?;
+        Ok(Self { sides, vertices, triangles, quads, numbering })
     }
 
     pub fn mesh(&self) -> Result<Mesh<'_, f64, u16>, Error> {
@@ -68,7 +37,7 @@ impl Plate {
     }
 
     pub fn edges(&self) -> Result<Edges<'_, u16>, Error> {
-        Edges::new(&self.of_triangles, &self.of_quads, &self.half_edges, self.counts)
+        self.numbering.edges()
     }
 
     pub fn side(&self, ends: [u16; 2]) -> Side {

@@ -7,25 +7,20 @@ use signorini_kernel::law::Law;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
-use signorini_kernel::mesh::edges::{Block, EdgeCounts, Edges};
-use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
+use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
-use signorini_kernel::system::Shifts;
-use signorini_kernel::system::System;
+use signorini_kernel::system::{Shifts, System};
 use signorini_kernel::{Error, Tensor};
 
-use super::scene::{Draw, Scalar, Scene, Side};
-
-const NONE: u16 = u16::MAX;
+use super::scene::{Draw, Scalar, Scene};
+use crate::numbering::{NONE, Numbering, Side};
 
 #[derive(Clone)]
 pub struct Arrays<R> {
     pub vertices: Vec<[R; 2]>,
     pub triangles: Vec<[u16; 3]>,
     pub quads: Vec<[u16; 4]>,
-    pub of_triangles: Vec<[u16; 3]>,
-    pub of_quads: Vec<[u16; 4]>,
-    pub half_edges: Vec<[u16; 2]>,
+    numbering: Numbering,
     pub counts: EdgeCounts,
     /// Of the cells.
     pub tensors: Vec<Tensor<R>>,
@@ -54,25 +49,8 @@ impl<R: Scalar> Arrays<R> {
         let (vertices, triangles, quads) = scene.mesh();
         let vertices: Vec<_> = vertices.iter().map(|v| v.map(R::of)).collect();
         let mesh = Mesh::new(&vertices, &triangles, &quads)?;
-        let sides = mesh.half_edges();
-        let mut of_triangles = vec![[NONE; 3]; triangles.len()];
-        let (mut of_quads, mut half_edges) = (vec![[NONE; 4]; quads.len()], vec![[NONE; 2]; sides]);
-        let buffers = NumberingBuffers {
-            of_triangles: &mut of_triangles,
-            of_quads: &mut of_quads,
-            half_edges: &mut half_edges,
-            at_vertex: &mut vec![[NONE; 2]; vertices.len()],
-            next: &mut vec![NONE; sides],
-        };
-        let counts = number(&mesh, buffers, |ends| {
-            Some(match scene.side(ends) {
-                Side::Given => Block::Dirichlet,
-                Side::Contact => Block::Contact,
-                Side::Insulated | Side::Transfer => Block::Free,
-            })
-        })?
-        .counts();
-        half_edges.truncate(counts.edges());
+        let numbering = Numbering::new(&mesh, |ends| scene.side(ends).block())?;
+        let counts = numbering.counts;
         let cells = triangles.len() + quads.len();
         let mut arrays = Self {
             tensors: vec![Tensor::scalar(R::ONE); cells],
@@ -93,9 +71,7 @@ impl<R: Scalar> Arrays<R> {
             vertices,
             triangles,
             quads,
-            of_triangles,
-            of_quads,
-            half_edges,
+            numbering,
             counts,
         };
         arrays.draw(scene)?;
@@ -114,7 +90,7 @@ impl<R: Scalar> Arrays<R> {
         self.loads.0.iter_mut().for_each(|f| *f = load() * R::HALF);
         self.loads.1.iter_mut().for_each(|f| *f = load());
         for edge in 0..self.counts.edges() {
-            if self.half_edges[edge][1] != NONE {
+            if self.edges()?.half_edges()[edge][1] != NONE {
                 continue;
             }
             let ends = self.edges()?.endpoints(&self.mesh()?, edge);
@@ -171,7 +147,7 @@ impl<R: Scalar> Arrays<R> {
     }
 
     pub fn edges(&self) -> Result<Edges<'_, u16>, Error> {
-        Edges::new(&self.of_triangles, &self.of_quads, &self.half_edges, self.counts)
+        self.numbering.edges()
     }
 
     pub fn boundary(&self) -> Result<Boundary<'_, R, u16>, Error> {

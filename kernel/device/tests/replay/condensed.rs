@@ -9,8 +9,7 @@ use signorini_contact::factor::Factor;
 use signorini_contact::method::{Method, Pivots, Sweeps};
 use signorini_contact::outputs::Measure;
 use signorini_contact::sides::Sides;
-use signorini_contact::spans::SpanBuffer;
-use signorini_contact::spans::SpanColumns;
+use signorini_contact::spans::{SpanBuffer, SpanColumns};
 use signorini_contact::{Condensed, Memory};
 use signorini_kernel::Error;
 use signorini_kernel::limits::Deadline;
@@ -85,12 +84,9 @@ impl<R: Scalar> Model<R> {
         work: impl FnOnce(&Condensed<R>) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let order = self.strip.order;
-        let corner = |edge: usize, at: usize| Corner {
-            edge: edge as u16,
-            excess: &self.excess[at],
-            energy: R::ZERO,
-        };
-        let corners = [corner(0, 0), corner(order - 1, 1)];
+        let [first, last] = &self.excess;
+        let corner = |edge, excess| Corner { edge, excess, energy: R::ZERO };
+        let corners = [corner(0, &first[..]), corner(order as u16 - 1, last)];
         let certificate = Form {
             jump: None,
             factor: Factor { columns: &self.columns, norms: &self.norms },
@@ -166,19 +162,16 @@ fn worn<R: Scalar>(strip: &Strip<R>, journal: &mut Journal) -> Result<(), Error>
     let mut draw = Draw(29);
     for at in 0..30 {
         let pull = [-0.25, 0.01, -0.125, 0.5, 1e4][at % 5];
-        let load: Vec<_> = (0..size)
-            .map(|i| R::of(if i < order { pull + 0.5 * draw.signed() } else { 0.0 }))
-            .collect();
+        let mut entry = |i| R::of(if i < order { pull + 0.5 * draw.signed() } else { 0.0 });
+        let load: Vec<_> = (0..size).map(&mut entry).collect();
         let (mut tableau, iterate) = dense.parts()?;
         if at == 0 {
             tableau.reset(&start)?;
         }
         let sweeps = Sweeps { omega: R::ONE, tolerance: R::ZERO, most: 3 };
         let mut pivots = Pivots { tableau, start, most: 1000, sweeps };
-        journal.line(
-            "worn",
-            pivots.solve(&strip.matrix()?, Given::above(&load), iterate, &mut Deadline::never())?,
-        );
+        let (given, never) = (Given::above(&load), &mut Deadline::never());
+        journal.line("worn", pivots.solve(&strip.matrix()?, given, iterate, never)?);
         journal.digest("x and residual", [&dense.x, &dense.residual]);
         // By 4 ε at first, then by more.
         let off = R::ONE + R::EPSILON * R::of(4.0_f64.powi(1 + at as i32 / 2));

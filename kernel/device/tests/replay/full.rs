@@ -4,7 +4,7 @@ use signorini_bound::certificate::Curved;
 use signorini_bound::conforming::VertexData;
 use signorini_device::full::{
     Along, Base, Contribution, CurvedPart, CurvedSum, DataMemory, EdgeTrace, Full, Functional,
-    HandedOn, Lengths, Memory, Past, Pattern, Points, Product, Storage,
+    Lengths, Pattern, Points, Product, Storage,
 };
 use signorini_device::tick::{
     CertifiedSweeps, Deadline, IfStoring, Limits, Progress, UncertifiedSweeps,
@@ -18,7 +18,7 @@ use super::arrays::Arrays;
 use super::bound::EquilibrationForest;
 use super::journal::Journal;
 use super::scene::{Draw, Scalar};
-use crate::owned::TickArrays;
+use crate::owned::{TickArrays, of_full};
 
 /// Every third place, with a random weight.
 fn shares<R: Scalar>(count: usize, draw: &mut Draw) -> Vec<Contribution<R, u16>> {
@@ -52,11 +52,8 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
         Pattern::Value(&value),
         Pattern::Ambient { integrals: &laws, points: &points },
     ];
-    let transfer: Vec<_> = arrays
-        .robin
-        .iter()
-        .map(|law| [[law.coefficient, law.ambient / law.coefficient]; 8])
-        .collect();
+    let stated = |law: &Robin<R, u16>| [[law.coefficient, law.ambient / law.coefficient]; 8];
+    let transfer: Vec<_> = arrays.robin.iter().map(stated).collect();
     let part = |input: u16, size: f64| CurvedPart {
         input,
         mean: R::of(0.01 * size),
@@ -176,26 +173,21 @@ fn play<R: Scalar>(
         let inputs = &inputs[..full.patterns.len()];
         let [triangles, quads, contact_flux, gap, dirichlet] = &mut own.numbers;
         let [gap_ends, dirichlet_ends] = &mut own.ends;
-        let memory = Memory {
-            tick: own_arrays.memory(edges)?,
-            data: DataMemory {
-                triangles,
-                quads,
-                neumann: &mut neumann,
-                robin: &mut robin,
-                contact_flux,
-                gap,
-                gap_ends,
-                dirichlet,
-                dirichlet_ends,
-                curved: &mut own.curved,
-                transfer: &mut own.transfer,
-                spans: &mut [],
-            },
-            past: Past::default(),
-            handed_on: HandedOn::default(),
-            progress: &mut progress,
+        let data = DataMemory {
+            triangles,
+            quads,
+            neumann: &mut neumann,
+            robin: &mut robin,
+            contact_flux,
+            gap,
+            gap_ends,
+            dirichlet,
+            dirichlet_ends,
+            curved: &mut own.curved,
+            transfer: &mut own.transfer,
+            spans: &mut [],
         };
+        let memory = of_full(own_arrays.memory(edges)?, data, &mut progress);
         let limits = Limits { share: R::of(0.0625), error: R::ZERO, sweeps: 10 + 30 * (at % 4) };
         let never = &mut Deadline::never();
         let report = match at % 3 {

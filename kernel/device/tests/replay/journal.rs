@@ -54,11 +54,8 @@ impl Journal {
 
     /// FNV-1a over the digits.
     pub fn digest(&mut self, name: &str, value: impl Debug) {
-        let hash = nameless(&format!("{value:?}"))
-            .bytes()
-            .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-                (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-            });
+        let mix = |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        let hash = nameless(&format!("{value:?}")).bytes().fold(0xcbf2_9ce4_8422_2325, mix);
         writeln!(self.text, "{name} {hash:016x}").unwrap();
     }
 
@@ -103,11 +100,8 @@ impl Journal {
             fs::write(&self.path, &self.text).expect("a file that can be written");
             return;
         }
-        assert_eq!(
-            self.text.lines().count(),
-            self.recorded.lines().count(),
-            "the record is longer"
-        );
+        let [own, recorded] = [&self.text, &self.recorded].map(|text| text.lines().count());
+        assert_eq!(own, recorded, "the record is longer");
     }
 }
 

@@ -24,11 +24,9 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
     for points in 1..=4 {
         let mut k = (vec![[R::ZERO; 3]; triangles], vec![[R::ZERO; 6]; quads]);
         // Neighbours' tensors in turn.
-        let tensors: Vec<_> = arrays.tensors[..triangles]
-            .iter()
-            .chain(arrays.tensors[triangles..].iter().cycle().take(quads * points * points))
-            .copied()
-            .collect();
+        let (own, others) = arrays.tensors.split_at(triangles);
+        let others = others.iter().cycle().take(quads * points * points);
+        let tensors: Vec<_> = own.iter().chain(others).copied().collect();
         stiffness::fill(&mesh, Coefficient::PerPoint(&tensors), points, &mut k.0, &mut k.1)?;
         journal.digest("element matrices from points", &k);
         stiffness::fill(&mesh, Coefficient::Uniform(tensors[0]), points, &mut k.0, &mut k.1)?;
@@ -43,13 +41,8 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
         journal.digest("load of triangles", &load);
     }
     let mut parts = vec![Part::default(); edges.cells()];
-    let found = examine(
-        &edges,
-        arrays.diagonal()?,
-        (&arrays.load, Spans::UNLIMITED),
-        R::of(1e-4),
-        &mut parts,
-    );
+    let load = (&arrays.load[..], Spans::UNLIMITED);
+    let found = examine(&edges, arrays.diagonal()?, load, R::of(1e-4), &mut parts);
     journal.line("parts", found);
     journal.digest("parts", &parts);
     ways(arrays, journal)
@@ -89,17 +82,17 @@ fn of_width<R: Scalar, const WIDTH: usize>(
     for omega in [0.75, 1.0, 1.625] {
         let omega = R::of(omega);
         rows.set(&system, omega)?;
-        let mut of_matrix = arrays.start.clone();
-        psor::sweep(&rows, Law::above(&arrays.lower), &mut of_matrix)?;
+        let (law, mut of_matrix) = (Law::above(&arrays.lower), arrays.start.clone());
+        psor::sweep(&rows, law, &mut of_matrix)?;
         // Nothing is left of the rows from CSR.
         let mut memory = vec![Row::<R, u16, WIDTH>::EMPTY; arrays.counts.unknowns()];
         let mut rows = Rows::new(&edges, &mut memory)?;
         rows.gather(&edges, arrays.stiffness(), diagonal, &arrays.load, omega)?;
         let mut u = arrays.start.clone();
-        journal.line("defect", psor::defect(&rows, Law::above(&arrays.lower), &u)?);
-        psor::sweep(&rows, Law::above(&arrays.lower), &mut u)?;
+        journal.line("defect", psor::defect(&rows, law, &u)?);
+        psor::sweep(&rows, law, &mut u)?;
         journal.digest("swept", [&of_matrix, &u]);
-        journal.line("defect", psor::defect(&rows, Law::above(&arrays.lower), &u)?);
+        journal.line("defect", psor::defect(&rows, law, &u)?);
         journal.digest("residual", system.residual(&u));
         let mut free = arrays.start.clone();
         psor::sweep_free(&rows, &mut free)?;
@@ -111,7 +104,7 @@ fn of_width<R: Scalar, const WIDTH: usize>(
 
 fn fluxes<R: Scalar>(arrays: &Arrays<R>, u: &[R], journal: &mut Journal) -> Result<(), Error> {
     let (mesh, edges, boundary) = (arrays.mesh()?, arrays.edges()?, arrays.boundary()?);
-    let (k, loads, lower) = (arrays.stiffness(), arrays.cell_loads(), &arrays.lower);
+    let (k, loads, law) = (arrays.stiffness(), arrays.cell_loads(), Law::above(&arrays.lower));
     let mut triangles = vec![[R::ZERO; 3]; arrays.triangles.len()];
     let mut quads = vec![[R::ZERO; 4]; arrays.quads.len()];
     flux::of_triangles(&edges, k, loads.triangles, u, &mut triangles)?;
@@ -120,14 +113,12 @@ fn fluxes<R: Scalar>(arrays: &Arrays<R>, u: &[R], journal: &mut Journal) -> Resu
     let mut of_edges = vec![R::ZERO; u.len()];
     journal.line("recovered", flux::recover(&edges, k, loads, u, &[], &mut of_edges)?);
     journal.digest("flux", &of_edges);
-    journal
-        .line("force", contact::force(arrays.counts, &boundary, Law::above(lower), u, &of_edges));
+    journal.line("force", contact::force(arrays.counts, &boundary, law, u, &of_edges));
     let low: Vec<_> = u.iter().map(|&u| u * R::EPSILON).collect();
     journal.line("recovered", flux::recover(&edges, k, loads, u, &low, &mut of_edges)?);
     journal.digest("flux with the low part", &of_edges);
-    let of_cells =
-        contact::force_of_cells(&edges, &boundary, Law::above(lower), u, &triangles, &quads);
+    let of_cells = contact::force_of_cells(&edges, &boundary, law, u, &triangles, &quads);
     journal.line("force of cells", of_cells);
-    journal.line("length", contact::length::<R, u16, Libm>(&mesh, &edges, Law::above(lower), u));
+    journal.line("length", contact::length::<R, u16, Libm>(&mesh, &edges, law, u));
     Ok(())
 }

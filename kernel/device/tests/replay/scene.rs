@@ -1,5 +1,6 @@
 //! The problems: a grid whose inner vertices are moved at random, random data, and what makes it awkward.
 
+use crate::numbering::Side::{self, Contact, Given, Insulated, Transfer};
 use signorini_kernel::Real;
 
 /// A scalar that takes numbers of the host.
@@ -25,17 +26,6 @@ pub enum Cells {
     Quads,
     Mixed,
 }
-
-/// The condition on a side.
-#[derive(Clone, Copy, PartialEq)]
-pub enum Side {
-    Given,
-    Insulated,
-    Transfer,
-    Contact,
-}
-
-use Side::{Contact, Given, Insulated, Transfer};
 
 pub struct Scene {
     pub name: &'static str,

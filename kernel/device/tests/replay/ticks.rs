@@ -26,8 +26,8 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
     let mut tick = Tick::new(discretization, memory, relaxation)?;
     let mut draw = Draw(13);
     for at in 0..14 {
-        let input =
-            Input::new(arrays, R::of(0.5 * draw.signed()), R::of(1.0 + 0.5 * draw.signed()));
+        let [shift, part] = [0.0, 1.0].map(|middle| R::of(middle + 0.5 * draw.signed()));
+        let input = Input::new(arrays, shift, part);
         let mut running = tick.begin(input.data(arrays)?)?;
         let mut left = 40 * at;
         let remaining = || {
@@ -53,16 +53,11 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
     for parts in [&[(3000, 1e-30)][..], &[(9, 0.0), (40, 1e-3), (40, 1e-3)]] {
         let input = Input::new(arrays, R::of(0.5 * draw.signed()), R::of(1.0 + draw.next()));
         let mut running = tick.begin(input.data(arrays)?)?;
-        let reports: Result<Vec<_>, _> = parts
-            .iter()
-            .map(|&(sweeps, share)| {
-                running.advance(
-                    CertifiedSweeps(Libm),
-                    limits(sweeps, share),
-                    &mut Deadline::never(),
-                )
-            })
-            .collect();
+        let advance = |&(sweeps, share): &(u32, f64)| {
+            let limits = limits(sweeps, share);
+            running.advance(CertifiedSweeps(Libm), limits, &mut Deadline::never())
+        };
+        let reports: Result<Vec<_>, _> = parts.iter().map(advance).collect();
         reports?.into_iter().for_each(|report| tell(&tick, report, journal));
     }
     // Squares overflow, and then the numbers themselves might.
@@ -71,11 +66,8 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
         let input = Input::new(arrays, R::ZERO, part);
         match tick.begin(input.data(arrays)?) {
             Ok(mut running) => {
-                let report = running.advance(
-                    CertifiedSweeps(Libm),
-                    limits(60, 1e-2),
-                    &mut Deadline::never(),
-                )?;
+                let (limits, never) = (limits(60, 1e-2), &mut Deadline::never());
+                let report = running.advance(CertifiedSweeps(Libm), limits, never)?;
                 tell(&tick, report, journal);
             }
             Err(error) => journal.line("refused", error),

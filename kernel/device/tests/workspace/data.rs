@@ -1,6 +1,6 @@
 //! Workspaces whose data change: what stays, what is another mesh, what is too large, and what rounding of data costs.
 
-use super::{Edge, OPEN, Plate, SQUARE, TWO, UNIT, ZERO, sweeps};
+use super::{Edge, OPEN, Plate, SQUARE, TWO, UNIT, ZERO, beside, sides, sweeps};
 use signorini_device::condition::Condition;
 use signorini_device::tick::Deadline;
 use signorini_kernel::error::Array;
@@ -12,13 +12,7 @@ use signorini_tolerances::kernel::BOUND;
 
 /// 0 on the left, `right` beyond x = 1, `rest` elsewhere.
 fn bar(right: Condition<f64>, rest: Condition<f64>) -> impl Fn(&Edge) -> Option<Condition<f64>> {
-    move |edge| {
-        Some(match edge.middle() {
-            [0.0, _] => ZERO,
-            [2.0, _] => right,
-            _ => rest,
-        })
-    }
+    sides(2.0, [ZERO, right, rest])
 }
 
 /// Two triangles and a square, 2 long.
@@ -113,13 +107,8 @@ fn a_gap_that_rounding_lifts_costs_what_it_lifts() -> Result<(), Error> {
     for steps in [0.0, 2.0, 16.0, 64.0] {
         let value = 1.0 - steps * f64::EPSILON;
         let mut plate = Plate::new();
-        plate.build(&mesh, UNIT, |edge| {
-            Some(match edge.vertices {
-                [0, 1] => Condition::Dirichlet { value },
-                [1, 2] => Condition::Contact { gap: 1.0, flux: 0.0 },
-                _ => OPEN,
-            })
-        })?;
+        let contact = Condition::Contact { gap: 1.0, flux: 0.0 };
+        plate.build(&mesh, UNIT, beside(Condition::Dirichlet { value }, contact))?;
         let report = plate.tick(&mesh, sweeps(100), &mut Deadline::never())?;
         let rounding = report.verdict.certificate().expect("a bound").rounding;
         // Both edges have the cell with Σ|K| = 4. Storing moves each by 2 ε, and ψ follows s by `steps` ε.

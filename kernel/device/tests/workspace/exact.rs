@@ -1,6 +1,6 @@
 //! Workspaces by numbers that are exact: thresholds from both sides, means, ways out, and the errors of long edges.
 
-use super::{Edge, ONE, OPEN, Plate, SQUARE, TWO, UNIT, ZERO, sweeps};
+use super::{Edge, ONE, OPEN, Plate, SQUARE, TWO, UNIT, ZERO, beside, sides, sweeps};
 use signorini_bound::certificate::{Certificate, Verdict};
 use signorini_device::condition::Condition;
 use signorini_device::tick::Deadline;
@@ -98,15 +98,8 @@ fn integrals_that_overflow_are_refused() -> Result<(), Error> {
 #[test]
 fn a_law_that_moves_is_another_law() -> Result<(), Error> {
     let mesh = Mesh::new(&SQUARE, &TWO, &[])?;
-    let law = |left: f64, right: f64| {
-        move |edge: &Edge| {
-            Some(match edge.vertices {
-                [3, 0] => Condition::Robin { coefficient: left, ambient: 2.0 },
-                [1, 2] => Condition::Robin { coefficient: right, ambient: 2.0 },
-                _ => OPEN,
-            })
-        }
-    };
+    let robin = |coefficient| Condition::Robin { coefficient, ambient: 2.0 };
+    let law = |left: f64, right: f64| sides(1.0, [robin(left), robin(right), OPEN]);
     let (mut moved, mut new) = (Plate::new(), Plate::new());
     moved.build(&mesh, UNIT, law(1.0, 0.0))?;
     moved.set_conditions(&mesh, law(0.0, 1.0))?;
@@ -164,10 +157,7 @@ fn surplus_leaves_through_stiff_cells() -> Result<(), Error> {
     let vertices: Vec<_> = (0..10_u16).map(|k| [f64::from(k / 2), f64::from(k % 2)]).collect();
     let quads: Vec<_> = (0..4).map(|k| [2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1]).collect();
     let mesh = Mesh::new(&vertices, &[], &quads)?;
-    let ends = |edge: &Edge| {
-        let [x, _] = edge.middle();
-        Some(if x == 0.0 || x == 4.0 { ZERO } else { OPEN })
-    };
+    let ends = sides(4.0, [ZERO, ZERO, OPEN]);
     let a = [8.0, 8.0, 1.0, 1.0].map(Tensor::scalar);
     let mut plate = Plate::new();
     plate.build(&mesh, Coefficient::PerCell(&a), ends)?;
@@ -223,13 +213,7 @@ fn a_mapped_problem_has_the_same_bound() -> Result<(), Error> {
 fn an_exact_answer_has_a_bound_of_rounding() -> Result<(), Error> {
     let vertices: Vec<_> = (0..6_u16).map(|k| [f64::from(k / 2), f64::from(k % 2)]).collect();
     let mesh = Mesh::new(&vertices, &[[0, 2, 3], [0, 3, 1]], &[[2, 4, 5, 3]])?;
-    let ends = |edge: &Edge| {
-        Some(match edge.middle()[0] {
-            0.0 => ZERO,
-            2.0 => Condition::Dirichlet { value: 5.0 },
-            _ => OPEN,
-        })
-    };
+    let ends = sides(2.0, [ZERO, Condition::Dirichlet { value: 5.0 }, OPEN]);
     let a = [1.0, 1.0, 4.0].map(Tensor::scalar);
     let mut plate = Plate::new();
     plate.build(&mesh, Coefficient::PerCell(&a), ends)?;
@@ -341,14 +325,9 @@ fn a_side_of_which_nothing_is_left_is_refused() -> Result<(), Error> {
 #[test]
 fn a_jump_of_rounding_is_none() -> Result<(), Error> {
     for (steps, jumps) in [(1.0, false), (2.0, true)] {
-        let value = 4.0 * (1.0 + steps * f64::EPSILON);
-        let jump = |edge: &Edge| {
-            Some(match edge.vertices {
-                [0, 1] => Condition::Dirichlet { value: 4.0 },
-                [1, 2] => Condition::Dirichlet { value },
-                _ => OPEN,
-            })
-        };
+        let values = [4.0, 4.0 * (1.0 + steps * f64::EPSILON)];
+        let [one, other] = values.map(|value| Condition::Dirichlet { value });
+        let jump = beside(one, other);
         let found = of_square((&TWO, &[]), UNIT, jump)?;
         assert_eq!(found.certificate().is_none(), jumps, "{steps}: {found:?}");
         assert_eq!(found == Verdict::Unavailable, jumps, "{steps}: {found:?}");
@@ -361,13 +340,8 @@ fn a_jump_of_rounding_is_none() -> Result<(), Error> {
 fn a_value_next_to_its_gap_is_on_it() -> Result<(), Error> {
     for (steps, is_below) in [(64.0, false), (65.0, true)] {
         let value = 1.0 - steps * f64::EPSILON;
-        let low = |edge: &Edge| {
-            Some(match edge.vertices {
-                [0, 1] => Condition::Dirichlet { value },
-                [1, 2] => Condition::Contact { gap: 1.0, flux: 0.0 },
-                _ => OPEN,
-            })
-        };
+        let contact = Condition::Contact { gap: 1.0, flux: 0.0 };
+        let low = beside(Condition::Dirichlet { value }, contact);
         let found = of_square((&TWO, &[]), UNIT, low)?;
         assert_eq!(found.certificate().is_none(), is_below, "{steps}: {found:?}");
         assert_eq!(found == Verdict::BelowGap, is_below, "{steps}: {found:?}");

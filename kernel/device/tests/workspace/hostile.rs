@@ -1,6 +1,6 @@
 //! Workspaces where the scalar or the caller fails them: no bound that is none, no answer to another question.
 
-use super::{Plate, SQUARE, TWO, UNIT, sweeps};
+use super::{OPEN, Plate, SQUARE, TWO, UNIT, sides, sweeps};
 use signorini_bound::certificate::Verdict;
 use signorini_device::condition::{BoundaryEdge, Condition};
 use signorini_device::tick::Deadline;
@@ -130,14 +130,9 @@ fn bounds_hold_where_shape_and_tensor_cancel() -> Result<(), Error> {
 #[test]
 fn a_condition_that_changes_its_mind() -> Result<(), Error> {
     let mesh = Mesh::<f64, u16>::new(&SQUARE, &TWO, &[])?;
-    let law = |h: f64, value: f64| {
-        move |edge: &BoundaryEdge<f64, u16>| {
-            Some(match edge.middle()[0] {
-                0.0 => Condition::Robin { coefficient: h, ambient: 0.0 },
-                1.0 => Condition::Dirichlet { value },
-                _ => Condition::Neumann { flux: 0.0 },
-            })
-        }
+    let law = |coefficient: f64, value: f64| {
+        let robin = Condition::Robin { coefficient, ambient: 0.0 };
+        sides(1.0, [robin, Condition::Dirichlet { value }, OPEN])
     };
     let (mut plate, mut plain) = (Plate::<f64>::new(), Plate::<f64>::new());
     plate.build(&mesh, UNIT, law(1.0, 1.0))?;
@@ -189,13 +184,7 @@ fn a_workspace_answers_for_the_mesh_that_it_has() -> Result<(), Error> {
 fn the_last_answer_outlives_new_conditions() -> Result<(), Error> {
     let mesh = Mesh::<f64, u16>::new(&SQUARE, &TWO, &[])?;
     let at_least = |gap: f64, value: f64| {
-        move |edge: &BoundaryEdge<f64, u16>| {
-            Some(match edge.middle()[0] {
-                0.0 => Condition::Dirichlet { value },
-                1.0 => Condition::Contact { gap, flux: 0.0 },
-                _ => Condition::Neumann { flux: 0.0 },
-            })
-        }
+        sides(1.0, [Condition::Dirichlet { value }, Condition::Contact { gap, flux: 0.0 }, OPEN])
     };
     let mut plate = Plate::<f64>::new();
     plate.build(&mesh, UNIT, at_least(2.0, 0.0))?;

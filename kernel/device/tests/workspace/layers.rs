@@ -1,6 +1,6 @@
 //! The short way through the layers: answers with a bound at a deadline, and what has none.
 
-use super::UNIT;
+use super::{OPEN, UNIT, ZERO, sides};
 use signorini_bound::certificate::Verdict;
 use signorini_device::condition::{BoundaryEdge, Condition};
 use signorini_device::tick::{Deadline, Limits, Report};
@@ -37,13 +37,7 @@ fn triangles() -> Vec<[u16; 3]> {
 
 /// −u″ = 2 with u(0) = 0 on the left, and `right` there; nothing passes the rest.
 fn bar(right: Condition<f64>) -> impl Fn(&BoundaryEdge<f64, u16>) -> Option<Condition<f64>> {
-    move |edge| {
-        Some(match edge.middle() {
-            [0.0, _] => Condition::Dirichlet { value: 0.0 },
-            [1.0, _] => right,
-            _ => Condition::Neumann { flux: 0.0 },
-        })
-    }
+    sides(1.0, [ZERO, right, OPEN])
 }
 
 /// Until more sweeps change this share of the bound.
@@ -67,33 +61,38 @@ fn error_of_s(s: &[f64]) -> f64 {
     triangles().into_iter().map(of).sum::<f64>().sqrt()
 }
 
-#[test]
-fn the_bound_is_one_and_no_more_than_twice_the_error() -> Result<(), Error> {
+/// Report, bound, and error of s of a tick of the bar that touches nothing.
+fn insulated(
+    of: &mut Triangles,
+    deadline: &mut Deadline<impl FnMut() -> u32>,
+) -> Result<(Report<f64>, [f64; 2]), Error> {
     let (nodes, cells) = (nodes(), triangles());
     let mesh = Mesh::new(&nodes, &cells, &[])?;
-    let mut bar_of_triangles = Triangles::new();
-    let insulated = bar(Condition::Contact { gap: -1.0, flux: 0.0 });
-    bar_of_triangles.build(&mesh, UNIT, insulated)?;
-    bar_of_triangles.set_source(&[2.0 / (2 * N * N) as f64; 2 * N * N], &[])?;
-    let (limits, mut never) = (until(1e-6), Deadline::never());
-    let report = bar_of_triangles.tick(&mesh, limits, &mut never)?;
+    of.build(&mesh, UNIT, bar(Condition::Contact { gap: -1.0, flux: 0.0 }))?;
+    of.set_source(&[2.0 / (2 * N * N) as f64; 2 * N * N], &[])?;
+    let report = of.tick(&mesh, until(1e-6), deadline)?;
     let bound = report.verdict.certificate().expect("a bound").total;
-    let error = error_of_s(bar_of_triangles.vertices());
+    Ok((report, [bound, error_of_s(of.vertices())]))
+}
+
+#[test]
+fn the_bound_is_one_and_no_more_than_twice_the_error() -> Result<(), Error> {
+    let mut bar_of_triangles = Triangles::new();
+    let (report, [bound, error]) = insulated(&mut bar_of_triangles, &mut Deadline::never())?;
     println!("bound {bound:e}, error of s {error:e}");
     assert!(bound >= error && bound < 2.0 * error, "{bound} {error}");
     assert_eq!(report.active, 0);
     // Cut off before the first sweep: wrong by far more, and it says so.
-    bar_of_triangles.build(&mesh, UNIT, bar(Condition::Contact { gap: -1.0, flux: 0.0 }))?;
-    bar_of_triangles.set_source(&[2.0 / (2 * N * N) as f64; 2 * N * N], &[])?;
     let mut late = Deadline { remaining: || 0, sweep: 1, certificate: 1 };
-    let report = bar_of_triangles.tick(&mesh, limits, &mut late)?;
-    let (bound, error) = (
-        report.verdict.certificate().expect("a bound").total,
-        error_of_s(bar_of_triangles.vertices()),
-    );
+    let (report, [bound, error]) = insulated(&mut bar_of_triangles, &mut late)?;
     assert_eq!((report.ended, report.sweeps), (Ended::OutOfTime, 0));
     assert!(bound >= error && error > 0.5, "{bound} {error}");
     Ok(())
+}
+
+/// The largest difference.
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
 }
 
 /// Both models of a cell, with and without the matrix, give the solution that a solve gives.
@@ -112,13 +111,8 @@ fn a_tick_to_the_end_is_a_solve() -> Result<(), Error> {
     let (limits, mut never) = (until(1e-12), Deadline::never());
     let report = lean.tick(&mesh, limits, &mut never)?;
     let needed = whole.edges()?.nonzeros();
-    assert_eq!(
-        lean.solve(Settings::default()),
-        Err(Error::Capacity { of: Array::MatrixValues, needed, limit: 0 })
-    );
-    let apart = |a: &[f64], b: &[f64]| {
-        a.iter().zip(b).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
-    };
+    let refused = Error::Capacity { of: Array::MatrixValues, needed, limit: 0 };
+    assert_eq!(lean.solve(Settings::default()), Err(refused));
     assert!(apart(whole.u(), lean.u()) < 1e-9, "{}", apart(whole.u(), lean.u()));
     assert!((whole.contact_force() - lean.contact_force()).abs() < 1e-9);
     assert!((report.figures.force - lean.contact_force()).abs() < 1e-12);
@@ -172,11 +166,11 @@ fn data_that_change_are_data_that_were_there() -> Result<(), Error> {
         let total = |report: &Report<f64>| report.verdict.certificate().map(|bound| bound.total);
         let [a, b] = [total(&a?).expect("a bound"), total(&b?).expect("a bound")];
         assert!((a / b - 1.0).abs() < 1e-4, "{a} {b}");
-        let worst = changed.u().iter().zip(new.u()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let worst = apart(changed.u(), new.u());
         assert!(worst < 1e-5, "{worst}");
         changed.solve(Settings::default())?;
         new.solve(Settings::default())?;
-        let worst = changed.u().iter().zip(new.u()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let worst = apart(changed.u(), new.u());
         assert!(worst < 1e-9, "{worst}");
     }
     Ok(())
@@ -208,13 +202,9 @@ fn what_has_no_bound_says_why() -> Result<(), Error> {
     plate.build(&mesh, UNIT, below)?;
     assert_eq!(plate.tick(&mesh, limits, &mut never)?.verdict, Verdict::BelowGap);
     // Contact alone holds the plate; a solve goes on.
-    let held = |edge: &BoundaryEdge<f64, u16>| {
-        Some(match edge.middle() {
-            [1.0, _] => Condition::Contact { gap: 0.0, flux: 0.0 },
-            _ => Condition::Neumann { flux: -0.1 },
-        })
-    };
-    plate.build(&mesh, UNIT, held)?;
+    let (contact, out) =
+        (Condition::Contact { gap: 0.0, flux: 0.0 }, Condition::Neumann { flux: -0.1 });
+    plate.build(&mesh, UNIT, sides(1.0, [out, contact, out]))?;
     assert!(matches!(plate.tick(&mesh, limits, &mut never), Err(Error::NoWayOut { .. })));
     plate.solve(Settings::default())?;
     assert!((plate.contact_force() - 0.3).abs() < 1e-9, "{}", plate.contact_force());

@@ -23,6 +23,37 @@ pub const UNIT: Coefficient<'static, f64> = Coefficient::Uniform(ONE);
 pub const OPEN: Condition<f64> = Condition::Neumann { flux: 0.0 };
 pub const ZERO: Condition<f64> = Condition::Dirichlet { value: 0.0 };
 
+/// Conditions where x = 0, where x is this, and on the rest.
+pub fn sides<R: Real>(
+    length: R,
+    [left, right, rest]: [Condition<R>; 3],
+) -> impl Fn(&BoundaryEdge<R, u16>) -> Option<Condition<R>> {
+    move |edge| {
+        let [x, _] = edge.middle();
+        Some(if x == R::ZERO {
+            left
+        } else if x == length {
+            right
+        } else {
+            rest
+        })
+    }
+}
+
+/// One condition from vertex 0 to 1 and one from there to vertex 2; nothing passes the rest.
+fn beside(
+    first: Condition<f64>,
+    second: Condition<f64>,
+) -> impl Fn(&Edge) -> Option<Condition<f64>> {
+    move |edge| {
+        Some(match edge.vertices {
+            [0, 1] => first,
+            [1, 2] => second,
+            _ => OPEN,
+        })
+    }
+}
+
 /// So many sweeps at most, to the last digits.
 fn sweeps<R: Real>(sweeps: u32) -> Limits<R> {
     Limits { error: R::ZERO, share: R::EPSILON, sweeps }

@@ -39,24 +39,19 @@ fn compiled(header: &str) -> Result<(), String> {
 
 /// Words of a compiler of the desk on a text.
 fn compiled_by(compiler: &str, age: &str, text: &str) -> Result<(), String> {
-    let folder = tempfile::tempdir().expect("a folder");
-    std::fs::write(folder.path().join("main"), text).expect("a file");
     let language = if compiler == "c++" { "c++" } else { "c" };
-    let said = Command::new(compiler)
-        .args([
-            age,
-            "-Wall",
-            "-Wextra",
-            "-Wpedantic",
-            "-Werror",
-            "-fsyntax-only",
-            "-x",
-            language,
-            "main",
-        ])
-        .current_dir(folder.path())
-        .output()
-        .expect("a C compiler");
+    told(compiler, &format!("{age} -Wpedantic -fsyntax-only -x {language} main"), &[("main", text)])
+}
+
+/// Words of a compiler on these files, for which every warning is an error.
+fn told(compiler: &str, words: &str, files: &[(&str, &str)]) -> Result<(), String> {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, text) in files {
+        std::fs::write(folder.path().join(name), text).expect("a file");
+    }
+    let mut command = Command::new(compiler);
+    command.args(["-Wall", "-Wextra", "-Werror"]).args(words.split(' '));
+    let said = command.current_dir(folder.path()).output().expect("a C compiler");
     match said.status.success() {
         true => Ok(()),
         false => Err(String::from_utf8_lossy(&said.stderr).into_owned()),
@@ -71,13 +66,9 @@ fn it_holds_every_word_of_c_and_cpp() {
     assert!(words.len() > 150 && words.contains(&"co_await"), "{words:?}");
     // 13 numbers and words, and an interval for each output.
     let text = header_with("levee", 624, 52 + 4 * words.len(), &words);
-    let before: String = [
-        "assert", "complex", "errno", "math", "signal", "stdalign", "stdio", "stdlib", "threads",
-        "time",
-    ]
-    .iter()
-    .map(|name| format!("#if __has_include(<{name}.h>)\n#include <{name}.h>\n#endif\n"))
-    .collect();
+    let include = |name| format!("#if __has_include(<{name}.h>)\n#include <{name}.h>\n#endif\n");
+    let names = "assert complex errno math signal stdalign stdio stdlib threads time";
+    let before: String = names.split(' ').map(include).collect();
     for age in ["-std=gnu99", "-std=gnu17", "-std=gnu2x"] {
         assert_eq!(compiled_by("cc", age, &(before.clone() + &text)), Ok(()), "{age}");
     }
@@ -89,26 +80,15 @@ fn it_holds_every_word_of_c_and_cpp() {
 
 /// A program with one header whose functions are those of another one.
 fn linked(header: &str, of_library: &str) -> Result<(), String> {
-    let folder = tempfile::tempdir().expect("a folder");
-    let write =
-        |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("a file");
-    write("scene.h", header);
-    write("library.h", of_library);
     let library = "levee_error levee_init(levee_state *state) { (void)state; return LEVEE_OK; }\n\
                    const levee_inputs levee_default_inputs = {0, 0};\n";
-    write("library.c", &format!("#include \"library.h\"\n{library}"));
     let main = "static levee_state state;\nint main(void) {\n    levee_inputs inputs = levee_default_inputs;\n    \
                 (void)inputs;\n    return levee_init(&state);\n}\n";
-    write("main.c", &format!("#include \"scene.h\"\n{main}"));
-    let said = Command::new("cc")
-        .args(["-std=c99", "-Wall", "-Wextra", "-Werror", "main.c", "library.c", "-o", "program"])
-        .current_dir(folder.path())
-        .output()
-        .expect("a C compiler");
-    match said.status.success() {
-        true => Ok(()),
-        false => Err(String::from_utf8_lossy(&said.stderr).into_owned()),
-    }
+    let main = &format!("#include \"scene.h\"\n{main}");
+    let library = &format!("#include \"library.h\"\n{library}");
+    let files =
+        [("scene.h", header), ("library.h", of_library), ("main.c", main), ("library.c", library)];
+    told("cc", "-std=c99 main.c library.c -o program", &files)
 }
 
 /// Two controllers of one scene, whose states and reports have the same sizes.
@@ -137,10 +117,8 @@ fn it_is_c_and_asserts_the_sizes_of_the_library() {
     let levee = header("levee", 624, 64);
     assert_eq!(compiled(&levee), Ok(()));
     assert!(compiled(&header("levee", 624, 68)).is_err_and(|why| why.contains("report_has")));
-    assert!(
-        compiled(&levee.replace("words[78]", "words[77]"))
-            .is_err_and(|why| why.contains("state_has"))
-    );
+    let wrong = levee.replace("words[78]", "words[77]");
+    assert!(compiled(&wrong).is_err_and(|why| why.contains("state_has")));
     for line in [
         "levee_error levee_init(levee_state *state);",
         "extern const levee_inputs levee_default_inputs;",

@@ -11,7 +11,7 @@ use signorini_kernel::rows::TRIANGLES;
 
 use super::compiled::same_bits_of;
 use super::setting::{scene, unbounded};
-use super::{BENT, Baked, Controller, fixtures, rows, source};
+use super::{BENT, Baked, Controller, STEPS, fixtures, rows, source, ticks};
 use crate::choice::{Candidate, Choice, Model, Wanted};
 use crate::full::sizes;
 use signorini_problem::Problem;
@@ -37,14 +37,10 @@ bound = { kind = "bound" }
 "#;
 
 /// A scene of the catalogue with other text here and there, and with [`LIFT`].
-fn catalogue(name: &str, changes: &[[&str; 2]]) -> Result<(Scene, Problem)> {
+fn catalogue(name: &str, changes: &[(&str, &str)]) -> Result<(Scene, Problem)> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/catalogue").join(name);
-    let mut text = std::fs::read_to_string(&path).expect("a scene") + LIFT;
-    for [from, to] in changes {
-        assert!(text.contains(from), "{from}");
-        text = text.replace(from, to);
-    }
-    let mut scene = Scene::parse(&text, &path)?;
+    let text = std::fs::read_to_string(&path).expect("a scene") + LIFT;
+    let mut scene = Scene::parse(&fixtures::changed(&text, changes), &path)?;
     scene.setting = Some(factor());
     let problem = Problem::new(&scene, mesh::read(&scene.mesh.value)?)?;
     Ok((scene, problem))
@@ -52,12 +48,12 @@ fn catalogue(name: &str, changes: &[[&str; 2]]) -> Result<(Scene, Problem)> {
 
 /// Conductivity 10⁶ beside 1, exact.
 fn contrast() -> Result<(Scene, Problem)> {
-    catalogue("j100-tri.toml", &[["\"100\"", "\"1e6\""], ["(100)", "(1e6)"]])
+    catalogue("j100-tri.toml", &[("\"100\"", "\"1e6\""), ("(100)", "(1e6)")])
 }
 
 /// T(3, 10⁻³): condition 10⁸. The boundary data are those of another tensor.
 fn anisotropy() -> Result<(Scene, Problem)> {
-    catalogue("t-h-tri.toml", &[["\"10.0\", \"3.0\", \"1.0\"", "\"9000.001\", \"3000\", \"1000\""]])
+    catalogue("t-h-tri.toml", &[("\"10.0\", \"3.0\", \"1.0\"", "\"9000.001\", \"3000\", \"1000\"")])
 }
 
 /// The answer of the host's own direct solver for this lift.
@@ -121,19 +117,14 @@ fn an_anisotropy_of_a_hundred_million() -> Result<()> {
 
 #[test]
 fn every_kind_of_input_gives_what_sweeps_give() -> Result<()> {
-    let steps: [&[f64]; 3] = [
-        &[0.3, 0.7, 0.0, 0.0, 0.0, 0.0],
-        &[-0.5, 1.3, 0.4, -1.0, 0.7, 0.5],
-        &[0.1, 0.9, -0.3, 0.5, -0.7, -0.5],
-    ];
     let text = format!("{BENT}[setting]\nsolver = \"factor\"\n");
     for cells in [Cells::Quads, Cells::Mixed] {
         let (_, problem) = fixtures::on_grid(&text, grid(5, cells))?;
-        super::ticks::<f64, { rows::QUADS }>(&problem, &steps, TICK)?;
+        ticks::<f64, { rows::QUADS }>(&problem, &STEPS, TICK)?;
     }
     let (_, problem) = fixtures::on_grid(&text, grid(5, Cells::Triangles))?;
-    super::ticks::<f64, TRIANGLES>(&problem, &steps, TICK)?;
-    super::ticks::<f32, TRIANGLES>(&problem, &steps, TICK_NARROW)
+    ticks::<f64, TRIANGLES>(&problem, &STEPS, TICK)?;
+    ticks::<f32, TRIANGLES>(&problem, &STEPS, TICK_NARROW)
 }
 
 #[test]
@@ -147,14 +138,12 @@ fn the_module_has_the_bits_of_the_same_arrays() -> Result<()> {
 
 #[test]
 fn a_module_without_contact() -> Result<()> {
-    let text = unbounded().replace(
-        "kind = \"contact\", gap = \"x^3 - 0.3\", flux = \"-0.5*x^2\"",
-        "kind = \"dirichlet\", value = \"x\"",
-    );
-    let text = text.replace("field = \"gap\"", "field = \"value\"");
+    let contact = "kind = \"contact\", gap = \"x^3 - 0.3\", flux = \"-0.5*x^2\"";
     let rain = "input.rain = { of = \"contact\", field = \"flux\", pattern = \"-1 - x\" }\n";
     let force = "output.force = { kind = \"force\" }\noutput.length = { kind = \"length\" }\n";
-    let text = fixtures::changed(&text, &[(rain, ""), (force, "")]);
+    let given = (contact, "kind = \"dirichlet\", value = \"x\"");
+    let changes = [given, ("field = \"gap\"", "field = \"value\""), (rain, ""), (force, "")];
+    let text = fixtures::changed(unbounded(), &changes);
     let setting = Setting { certificate: false, ..factor() };
     let problem = scene(&text, Cells::Triangles, setting)?;
     same_bits_of::<f32, TRIANGLES>(&problem)
@@ -218,10 +207,8 @@ fn bake_takes_the_one_that_costs_less() -> Result<()> {
         let choice = Choice::<f32>::new(&problem, Wanted::model(ModelKind::Full))?;
         let costs: Vec<_> = choice.candidates.iter().map(|of| of.needs.instructions()).collect();
         let [Some(first), Some(second)] = costs[..] else { panic!("{costs:?}") };
-        assert!(
-            first <= second && choice.candidates.iter().all(|of| of.trial.settled),
-            "{costs:?}"
-        );
+        let all_settled = choice.candidates.iter().all(|of| of.trial.settled);
+        assert!(first <= second && all_settled, "{costs:?}");
         assert!(entries(choice.candidate()).is_some(), "{costs:?}");
     }
     Ok(())

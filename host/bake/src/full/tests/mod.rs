@@ -46,6 +46,13 @@ output.probe = { kind = "probe", at = [0.1, 0.4] }
 output.bound = { kind = "bound" }
 "#;
 
+/// Inputs of BENT.
+const STEPS: [&[f64]; 3] = [
+    &[0.3, 0.7, 0.0, 0.0, 0.0, 0.0],
+    &[-0.5, 1.3, 0.4, -1.0, 0.7, 0.5],
+    &[0.1, 0.9, -0.3, 0.5, -0.7, -0.5],
+];
+
 /// Limits as far down as rounding lets the algebraic part go.
 fn to_the_end<R: Scalar>() -> Limits<R> {
     Limits { error: R::ZERO, share: R::narrow(1e-9), sweeps: 200_000 }
@@ -69,9 +76,8 @@ fn ticks<R: Scalar, const WIDTH: usize>(
         let fluxes = solution.flux.iter().fold(0.0, |most: f64, flux| most.max(flux.abs()));
         let wanted = wanted(&problem.scene);
         let names = wanted.iter().map(|output| &output.name.value);
-        for ((name, found), cold) in
-            names.zip(&found).zip(&cold).filter(|((name, _), _)| *name != "bound")
-        {
+        let all = names.zip(&found).zip(&cold);
+        for ((name, found), cold) in all.filter(|((name, _), _)| *name != "bound") {
             let expected = expected[name].expect("a value");
             let size = expected.abs().max(1e-3 * fluxes);
             for value in [found.wide(), cold.wide()] {
@@ -81,11 +87,8 @@ fn ticks<R: Scalar, const WIDTH: usize>(
         // The gap is that of the solver; the oscillation of a sum is at most the sum of oscillations.
         let (of_tick, bound) = (report.verdict.certificate().expect("a bound"), solution.bound);
         let bound = bound.expect("a bound");
-        allowed.check_relative(
-            format_args!("gap {values:?}"),
-            of_tick.duality_gap.wide(),
-            bound.duality_gap,
-        );
+        let gap = of_tick.duality_gap.wide();
+        allowed.check_relative(format_args!("gap {values:?}"), gap, bound.duality_gap);
         OSCILLATION.check_at_most("oscillation", bound.oscillation, of_tick.oscillation.wide());
     }
     Ok(())
@@ -93,16 +96,11 @@ fn ticks<R: Scalar, const WIDTH: usize>(
 
 #[test]
 fn every_kind_of_input_gives_what_the_solver_gives() -> Result<()> {
-    let steps: [&[f64]; 3] = [
-        &[0.3, 0.7, 0.0, 0.0, 0.0, 0.0],
-        &[-0.5, 1.3, 0.4, -1.0, 0.7, 0.5],
-        &[0.1, 0.9, -0.3, 0.5, -0.7, -0.5],
-    ];
     let (_, problem) = fixtures::on_grid(BENT, grid(5, Cells::Triangles))?;
-    ticks::<f64, { rows::TRIANGLES }>(&problem, &steps, TICK)?;
+    ticks::<f64, { rows::TRIANGLES }>(&problem, &STEPS, TICK)?;
     for cells in [Cells::Quads, Cells::Mixed] {
         let (_, problem) = fixtures::on_grid(BENT, grid(5, cells))?;
-        ticks::<f64, { rows::QUADS }>(&problem, &steps, TICK)?;
+        ticks::<f64, { rows::QUADS }>(&problem, &STEPS, TICK)?;
     }
     Ok(())
 }
@@ -113,8 +111,7 @@ fn nonparametric_quads() -> Result<()> {
     let text = format!("{BENT}[setting]\nelement = \"nonparametric\"\n");
     let mesh = fixtures::distorted(grid(5, Cells::Quads));
     let (_, problem) = fixtures::on_grid(&text, mesh)?;
-    let steps: [&[f64]; 2] = [&[0.3, 0.7, 0.0, 0.0, 0.0, 0.0], &[-0.5, 1.3, 0.4, -1.0, 0.7, 0.5]];
-    ticks::<f64, { rows::QUADS }>(&problem, &steps, TICK)?;
+    ticks::<f64, { rows::QUADS }>(&problem, &STEPS[..2], TICK)?;
     let baked = Baked::<f64>::new(&problem)?;
     assert_eq!(baked.distortions.len(), problem.mesh.quads.len());
     assert!(source(&baked).contains("distortions: &QUAD_DISTORTIONS"));
@@ -153,17 +150,14 @@ fn data_that_meet_wrongly_are_refused() -> Result<()> {
     let baked = Baked::<f64>::new(&problem)?;
     assert_eq!(baked.corners.len(), 1);
     let mut controller = Controller::<f64, { rows::TRIANGLES }>::new(&baked);
-    let (outputs, _) =
-        controller.tick_within(&[0.3, 0.7, 0.0, 0.0, 0.0, 0.0], to_the_end()).expect("a tick");
-    assert!(outputs[4].is_finite());
+    let mut bound = |inputs: &[f64]| {
+        controller.tick_within(inputs, to_the_end()).map(|(outputs, _)| outputs[4])
+    };
+    assert!(bound(STEPS[0]).expect("a tick").is_finite());
     // u_D = 1 − 1.5 below ψ = 0.7 − 0.2 at (1, 0).
-    let refused = controller.tick_within(&[0.3, -1.0, 0.0, 0.0, 0.0, 0.0], to_the_end()).err();
-    assert_eq!(refused, Some(Error::Excluded { at: 0 }));
-    let refused = controller.tick_within(&[f64::NAN; 6], to_the_end()).err();
-    assert_eq!(refused, Some(Error::NotFinite { of: Array::Inputs, at: 0 }));
-    let (outputs, _) =
-        controller.tick_within(&[0.3, 0.7, 0.0, 0.0, 0.0, 0.0], to_the_end()).expect("a tick");
-    assert!(outputs[4].is_finite());
+    assert_eq!(bound(&[0.3, -1.0, 0.0, 0.0, 0.0, 0.0]), Err(Error::Excluded { at: 0 }));
+    assert_eq!(bound(&[f64::NAN; 6]), Err(Error::NotFinite { of: Array::Inputs, at: 0 }));
+    assert!(bound(STEPS[0]).expect("a tick").is_finite());
     Ok(())
 }
 
@@ -184,10 +178,8 @@ fn the_text_holds_every_number_once_more() -> Result<()> {
         assert!(text.contains(&format!("{number:?}")), "{number}");
     }
     let features = text.lines().find(|line| line.contains("features = [")).expect("a line");
-    assert!(
-        features.contains("[\"triangles\", \"quads\", \"contact\", \"curved\"] } # "),
-        "{features}"
-    );
+    let all = "[\"triangles\", \"quads\", \"contact\", \"curved\"] } # ";
+    assert!(features.contains(all), "{features}");
     assert!(!text.contains("4294967295") && !text.contains("inf") && !text.contains("NaN"));
     Ok(())
 }

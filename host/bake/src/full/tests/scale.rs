@@ -11,7 +11,6 @@ use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_scene::setting::{Precision, Setting};
 use signorini_solve::{Scaled, choose_for_inputs};
@@ -26,11 +25,9 @@ fn powers(u: i32, conductivity: i32) -> Units {
 }
 
 /// BENT with data that many times as large. The inputs are as they were: their patterns take it.
-fn bent(units: Units) -> Result<(Scene, Problem)> {
+fn bent(units: Units) -> Result<Problem> {
     let (scene, problem) = fixtures::on_grid(BENT, grid(4, Cells::Mixed))?;
-    let scene = units.inverse().scene(&scene);
-    let problem = Problem::new(&scene, problem.mesh)?;
-    Ok((scene, problem))
+    Problem::new(&units.inverse().scene(&scene), problem.mesh)
 }
 
 type Found<R> = (Vec<R>, Report<R>);
@@ -41,8 +38,7 @@ fn tick<R: Scalar>(baked: &Baked<R>, limits: Limits<R>) -> Found<R> {
 }
 
 fn baked<R: Scalar>(units: Units) -> Result<Baked<R>> {
-    let (_, problem) = bent(units)?;
-    Baked::new(&problem)
+    Baked::new(&bent(units)?)
 }
 
 /// Flux, force, length, probe and bound, and what the report has of them.
@@ -54,7 +50,7 @@ fn numbers<R: Scalar>((outputs, report): &Found<R>) -> Vec<f64> {
 }
 
 fn factored<R: Scalar>(units: Units) -> Result<Baked<R>> {
-    let (_, problem) = bent(units)?;
+    let problem = bent(units)?;
     let scaled = Scaled::new(&problem, choose_for_inputs(&problem)?)?;
     Baked::of_scaled(&scaled)?.with_factor(scaled.problem())
 }
@@ -91,7 +87,7 @@ fn other_units_change_no_digit() -> Result<()> {
 fn without_units_f32_is_lost() -> Result<()> {
     let near = numbers(&tick(&baked::<f32>(NEAR)?, to_the_end()));
     let bound = |k| -> Result<f64> {
-        let (_, problem) = bent(powers(0, k))?;
+        let problem = bent(powers(0, k))?;
         let baked = Baked::<f32>::in_its_units(&problem, ModuleApi::new(&problem))?;
         let found = numbers(&tick(&baked, to_the_end()));
         Ok(found[4] / powers(0, k).energy() / near[4])
@@ -105,8 +101,7 @@ fn without_units_f32_is_lost() -> Result<()> {
 /// The text and this machine agree on outputs and report.
 #[test]
 fn the_text_has_the_same_units() -> Result<()> {
-    let (_, problem) = bent(powers(-60, -41))?;
-    let baked = Baked::<f32>::new(&problem)?;
+    let baked = baked::<f32>(powers(-60, -41))?;
     let limits = Limits { error: 1e-20, ..baked.how.limits };
     let mut controller = Controller::<f32, { rows::QUADS }>::new(&baked);
     let inputs = INPUTS.map(f32::narrow);
@@ -152,9 +147,8 @@ fn limits_are_in_the_units_of_the_scene() -> Result<()> {
 #[test]
 fn fields_are_in_the_units_of_the_scene() -> Result<()> {
     let solved = |units| {
-        let (_, problem) = bent(units)?;
         let setting = Setting { scalar: Some(Precision::F32), ..Setting::default() };
-        signorini_session::solve(&problem.with_setting(Some(setting)))
+        signorini_session::solve(&bent(units)?.with_setting(Some(setting)))
     };
     let (near, units) = (solved(NEAR)?, powers(-60, -40));
     let far = solved(units)?;
@@ -163,10 +157,8 @@ fn fields_are_in_the_units_of_the_scene() -> Result<()> {
     assert_eq!(far.flux, times(&near.flux, units.flux()));
     assert_eq!(far.certified.vertices, times(&near.certified.vertices, units.u));
     assert_eq!(far.certified.bubbles, times(&near.certified.bubbles, units.u));
-    assert_eq!(
-        (far.contact_active, far.contact_length),
-        (near.contact_active, near.contact_length)
-    );
+    assert_eq!(far.contact_active, near.contact_active);
+    assert_eq!(far.contact_length, near.contact_length);
     assert_eq!(far.algebraic_residual, near.algebraic_residual);
     Ok(())
 }

@@ -64,6 +64,11 @@ fn total(terms: &[f64]) -> f64 {
     }
 }
 
+fn length(mesh: &Mesh, edge: &[u32; 2]) -> f64 {
+    let [a, b] = edge.map(|vertex| mesh.vertices[vertex as usize]);
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
 /// The areas of the surfaces, the lengths of the curves, and the area of the whole.
 pub(super) fn measures(mesh: &Mesh) -> Vec<(String, f64)> {
     let areas: Vec<_> = cells(mesh).iter().map(|cell| area(&points(mesh, cell))).collect();
@@ -71,12 +76,8 @@ pub(super) fn measures(mesh: &Mesh) -> Vec<(String, f64)> {
         let own: Vec<_> = surface.cells.iter().map(|&cell| areas[cell as usize]).collect();
         (surface.name.clone(), total(&own))
     };
-    let of_edge = |edge: &[u32; 2]| {
-        let [a, b] = edge.map(|vertex| mesh.vertices[vertex as usize]);
-        (a[0] - b[0]).hypot(a[1] - b[1])
-    };
     let of_curve = |curve: &Curve| {
-        let lengths: Vec<_> = curve.edges.iter().map(of_edge).collect();
+        let lengths: Vec<_> = curve.edges.iter().map(|edge| length(mesh, edge)).collect();
         (curve.name.clone(), total(&lengths))
     };
     let curves = mesh.curves.iter().map(of_curve);

@@ -5,7 +5,9 @@ mod setting;
 
 use std::path::{Path, PathBuf};
 
-use super::{Condition, Field, InputRange, Located, Output, Quantity, Scene, Target, Time};
+use super::{
+    Condition, Field, InputRange, Located, Material, Output, Quantity, Scene, Target, Time,
+};
 use crate::error::{Error, Result};
 use crate::expression::Expression;
 
@@ -46,16 +48,13 @@ fn a_complete_scene_is_read_in_the_order_of_the_file() {
     assert_eq!(shown(&scene.source), pair("0", "source.f"));
 
     let [clay, sand] = &scene.materials[..] else { panic!("two materials") };
+    let entries = |of: &Material| {
+        of.conductivity.each_ref().map(|a| a.value.is_constant().expect("constant"))
+    };
     assert_eq!((clay.name.value.as_str(), clay.is_scalar), ("clay", false));
-    assert_eq!(
-        clay.conductivity.each_ref().map(|a| a.value.is_constant()),
-        [Some(1e-6), Some(0.0), Some(2e-7)]
-    );
+    assert_eq!(entries(clay), [1e-6, 0.0, 2e-7]);
     assert_eq!((sand.name.key.as_str(), sand.is_scalar), ("material.sand", true));
-    assert_eq!(
-        sand.conductivity.each_ref().map(|a| a.value.is_constant()),
-        [Some(1e-4), Some(0.0), Some(1e-4)]
-    );
+    assert_eq!(entries(sand), [1e-4, 0.0, 1e-4]);
 
     let exact = scene.exact.expect("an exact solution");
     assert_eq!(shown(&exact.u), pair("x + t", "exact.u"));
@@ -113,10 +112,8 @@ fn an_input_stays_within_its_range() {
     let text = LEVEE.replacen("default = 0.0", "default = 0.5\nrange = [0, 5.0]", 1);
     let mut scene = scene(&text);
     let range = scene.inputs[0].range.as_ref().expect("a range");
-    assert_eq!(
-        (range.value, range.key.as_str()),
-        (InputRange { lo: 0.0, hi: 5.0 }, "input.rain.range")
-    );
+    let expected = InputRange { lo: 0.0, hi: 5.0 };
+    assert_eq!((range.value, range.key.as_str()), (expected, "input.rain.range"));
     for inside in ["0", "5", "0.1"] {
         scene.set_input(&format!("rain={inside}")).expect(inside);
     }
@@ -139,10 +136,8 @@ fn defaults_fill_what_is_left_out() {
     assert!(scene.source.value.is_zero());
     let Condition::Contact { gap, flux, .. } = &scene.boundaries[0].condition else { panic!() };
     assert!(gap.value.is_zero() && flux.value.is_zero());
-    assert_eq!(
-        scene.error(gap, "too wide").to_string(),
-        "scenes/levee.toml:4: boundary.default.gap: too wide"
-    );
+    let said = scene.error(gap, "too wide").to_string();
+    assert_eq!(said, "scenes/levee.toml:4: boundary.default.gap: too wide");
     assert_eq!((scene.target, scene.time, &scene.exact), (None, None, &None));
     assert!(scene.inputs.is_empty() && scene.outputs.is_empty());
 }
@@ -178,9 +173,8 @@ j = { of = 'face', field = 'flux', pattern = 1 }
 #[test]
 fn a_material_that_stores_has_a_start() {
     let with = |capacity: &str, time: &str| {
-        parse(&format!(
-            "{SMALL}material.default.capacity = {capacity}\n[time]\nstep = 0.5\n{time}\n"
-        ))
+        let stores = format!("material.default.capacity = {capacity}\n");
+        parse(&format!("{SMALL}{stores}[time]\nstep = 0.5\n{time}\n"))
     };
     let scene = with("'1 + x^2'", "initial = '20 - y'").unwrap();
     let time = scene.time.clone().unwrap();
@@ -205,9 +199,8 @@ fn a_material_that_stores_has_a_start() {
 fn an_output_may_be_over_a_list() {
     let listed = LEVEE.replace("of = \"face\"", "of = [\"face\", 'base', \"air\"]");
     let seepage = &scene(&listed).outputs[0];
-    assert!(
-        ["face", "base", "air"].iter().all(|name| seepage.is_of(name)) && !seepage.is_of("river")
-    );
+    assert!(["face", "base", "air"].iter().all(|name| seepage.is_of(name)));
+    assert!(!seepage.is_of("river"));
     let place = |output: &Output| output.place("all contact", |name| format!("`{name}`"));
     assert_eq!(place(seepage), "`face`, `base` and `air`");
     assert_eq!(place(&scene(LEVEE).outputs[0]), "`face`");

@@ -16,16 +16,8 @@ pub fn square(x: f64, y: f64, size: f64) -> Region {
 /// A Taylor remainder of degree 2 falls by 8 where a region is halved.
 #[test]
 fn remainders_fall_with_the_third_power() {
-    for text in [
-        "sin(3*x)*exp(y)",
-        "1/(2 + x*y)",
-        "sqrt(1 + x^2 + y^2)",
-        "atan2(y + 2, x - 1)",
-        "tanh(x - y)",
-        "erf(x - y)",
-        "erfc(x*y)",
-        "x^y",
-    ] {
+    let some = ["sin(3*x)*exp(y)", "1/(2 + x*y)", "sqrt(1 + x^2 + y^2)", "atan2(y + 2, x - 1)"];
+    for text in some.into_iter().chain(["tanh(x - y)", "erf(x - y)", "erfc(x*y)", "x^y"]) {
         let expression = parse(text);
         let width = |size: f64| expression.enclose(&square(0.3, 0.4, size), T).remainder.width();
         let rate = width(0.02) / width(0.01);
@@ -98,10 +90,8 @@ fn error_functions_far_out_keep_their_promise() {
     ] {
         let form = parse(text).enclose(&far, T);
         let range = form.range();
-        assert!(
-            range.low >= low && range.high <= high && range.low < range.high,
-            "{text}: {form:?}"
-        );
+        let is_within = range.low >= low && range.high <= high;
+        assert!(is_within && range.low < range.high, "{text}: {form:?}");
     }
     for text in ["erf(30*x)", "erfc(30*x)", "erfc(-1e200*x)"] {
         let modulus = parse(text).modulus(&far, 1.5, T);

@@ -34,10 +34,8 @@ fn no_value_of_random_trees_lies_outside() {
             let at = random.point(&region);
             let [x, y] = region.place(at);
             let value = expression.eval(x, y, T);
-            assert!(
-                !is_outside(&form, at, value),
-                "{expression} at {x}, {y}: {value} in {region:?}, {form:?}"
-            );
+            let is_outside = is_outside(&form, at, value);
+            assert!(!is_outside, "{expression} at {x}, {y}: {value} in {region:?}, {form:?}");
         }
     }
 }
@@ -55,10 +53,8 @@ fn no_derivative_of_random_trees_lies_outside() {
             assert!(!is_outside(&value, at, expression.eval(x, y, T)), "{expression} at {x}, {y}");
             let found = expression.slope(x, y, T, [0.6, 0.8]);
             let all = slope.range().widened(1e-9 * (1.0 + slope.range().size().min(1e300)));
-            assert!(
-                !found.is_finite() || all.holds(found),
-                "{expression} at {x}, {y}: {found} in {slope:?}"
-            );
+            let is_held = !found.is_finite() || all.holds(found);
+            assert!(is_held, "{expression} at {x}, {y}: {found} in {slope:?}");
         }
     }
 }
@@ -73,10 +69,8 @@ fn every_time_of_an_interval_is_enclosed() {
             let at = random.point(&region);
             let ([x, y], t) = (region.place(at), random.between(0.25, 0.75));
             let value = expression.eval(x, y, t);
-            assert!(
-                !is_outside(&form, at, value),
-                "{expression} at {x}, {y}, {t}: {value}, {form:?}"
-            );
+            let is_outside = is_outside(&form, at, value);
+            assert!(!is_outside, "{expression} at {x}, {y}, {t}: {value}, {form:?}");
         }
     }
 }

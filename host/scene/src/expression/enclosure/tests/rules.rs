@@ -35,11 +35,8 @@ fn rules_miss_no_more_than_continuations_allow() {
         };
         let on = |[a, b]: [f64; 2], [c, d]: [f64; 2]| -> f64 {
             let points = rule.iter().flat_map(|p| rule.map(|q| (p[1] * q[1], [p[0], q[0]])));
-            points
-                .map(|(weight, [p, q])| {
-                    weight * (b - a) * (d - c) * value([a + p * (b - a), c + q * (d - c)])
-                })
-                .sum()
+            let at = |[p, q]: [f64; 2]| value([a + p * (b - a), c + q * (d - c)]);
+            points.map(|(weight, place)| weight * (b - a) * (d - c) * at(place)).sum()
         };
         let whole = on([0.0, 1.0], [0.0, 1.0]);
         let cut = |k: usize| [k as f64 / 8.0, (k + 1) as f64 / 8.0];
@@ -51,10 +48,8 @@ fn rules_miss_no_more_than_continuations_allow() {
             }
             finite += usize::from(rho == 4.0);
             let missed = region.missed(4, rho, modulus) + 1e-13 * region.measure() * modulus;
-            assert!(
-                (whole - parts).abs() <= missed,
-                "{expression}, ρ = {rho}: {whole} {parts}, {missed}"
-            );
+            let off = (whole - parts).abs();
+            assert!(off <= missed, "{expression}, ρ = {rho}: {whole} {parts}, {missed}");
         }
     }
     assert!(finite > TREES / 10, "{finite}");

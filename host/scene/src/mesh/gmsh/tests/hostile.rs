@@ -88,9 +88,8 @@ fn many_elements_in_many_groups_are_refused() {
         let tags: String = (1..=groups).map(|tag| format!("{tag} ")).collect();
         let mut text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 1 0\n".to_owned();
         let nodes = cells + 2;
-        text +=
-            &format!("7 0 0 0 1 1 1 {groups} {tags}0\n$EndEntities\n$Nodes\n1 {nodes} 1 {nodes}\n");
-        text += &format!("2 7 0 {nodes}\n");
+        text += &format!("7 0 0 0 1 1 1 {groups} {tags}0\n$EndEntities\n");
+        text += &format!("$Nodes\n1 {nodes} 1 {nodes}\n2 7 0 {nodes}\n");
         (1..=nodes).for_each(|tag| text += &format!("{tag}\n"));
         (0..nodes).for_each(|at| text += &format!("{at} {} 0\n", at % 2));
         text += &format!("$EndNodes\n$Elements\n1 {cells} 1 {cells}\n2 7 2 {cells}\n");

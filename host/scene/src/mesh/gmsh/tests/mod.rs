@@ -20,9 +20,8 @@ fn error(bytes: &[u8]) -> String {
 /// Whether the error of the first `length` bytes of a file says what is missing.
 fn says_what_is_missing(file: &[u8], length: usize) {
     let said = error(&file[..length]);
-    let missing = ["expected", "is never closed", "at most can follow"]
-        .iter()
-        .any(|words| said.contains(words));
+    let words = ["expected", "is never closed", "at most can follow"];
+    let missing = words.iter().any(|words| said.contains(words));
     assert!(missing, "cut at {length} of {}: {said}", file.len());
 }
 

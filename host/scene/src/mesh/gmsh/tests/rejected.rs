@@ -57,54 +57,40 @@ fn cells_out_of_shape() {
     assert_eq!(quad([a, b, [0.2, 0.2], d]), reflex);
     let degenerate = "quad 5 is degenerate: it has no area, or two corners in one place";
     assert_eq!(quad([a, a, c, d]), degenerate);
-    let flat = refusal(|m| m.nodes[5].1 = [1.0, 0.5, 0.5]);
-    assert_eq!(flat, "triangle 6 is degenerate: it has no area, or two corners in one place");
 }
 
-#[test]
-fn corners_that_repeat_or_do_not_exist() {
-    let repeated = refusal(|m| m.elements[5].3[2] = 99);
-    assert_eq!(repeated, "triangle 6 has the corner node 99, and that twice");
-    let absent = refusal(|m| m.elements[5].3[2] = 98);
-    assert_eq!(absent, "triangle 6 has the corner node 98, which is not in the file");
-}
+/// Something done to a model.
+type Spoil = fn(&mut Model);
+
+/// A change of the model, and the message about it.
+#[rustfmt::skip] // A table.
+const SPOILT: &[(Spoil, &str)] = &[
+    (|m| m.nodes[5].1 = [1.0, 0.5, 0.5], "triangle 6 is degenerate: it has no area, or two corners in one place"),
+    (|m| m.elements[5].3[2] = 99, "triangle 6 has the corner node 99, and that twice"),
+    (|m| m.elements[5].3[2] = 98, "triangle 6 has the corner node 98, which is not in the file"),
+    (|m| m.nodes[2].0 = 10, "node 10 is listed twice"),
+    (|m| m.nodes[1].1[1] = f64::NAN, "node 7 has the coordinate NaN"),
+    (|m| m.nodes[1].1[2] = f64::INFINITY, "node 7 has the coordinate inf"),
+    (|m| m.nodes[5].1[2] = 0.6, "node 99 has z = 0.6, node 10 has z = 0.5, expected a mesh in a plane z = constant"),
+    (|m| m.elements.push((7, 2, vec![1], vec![99, 7, 1_000_000_000])), "duplicate cell: triangle 7 repeats triangle 6"),
+    (|m| m.elements.push((8, 2, vec![1], vec![10, 7, 99])),
+        "triangle 8 and quad 5 overlap: both lie on the same side of the edge from node 10 to node 7"),
+    (|m| m.elements.push((9, 2, vec![1], vec![7, 1_000_000_000, 4])),
+        "triangle 6, triangle 9 and quad 5 share the edge from node 7 to node 1000000000, expected two at most"),
+    (|m| m.elements[2].3 = vec![4, 7], "line 3, nodes 4 and 7, is no edge of a cell"),
+    (|m| m.elements[2].3 = vec![4, 5], "line 3, nodes 4 and 5, is no edge of a cell"),
+];
 
 #[test]
-fn nodes_out_of_order() {
-    assert_eq!(refusal(|m| m.nodes[2].0 = 10), "node 10 is listed twice");
-    let nan = refusal(|m| m.nodes[1].1[1] = f64::NAN);
-    assert_eq!(nan, "node 7 has the coordinate NaN");
-    assert_eq!(refusal(|m| m.nodes[1].1[2] = f64::INFINITY), "node 7 has the coordinate inf");
-    let bent = "node 99 has z = 0.6, node 10 has z = 0.5, expected a mesh in a plane z = constant";
-    assert_eq!(refusal(|m| m.nodes[5].1[2] = 0.6), bent);
-}
-
-#[test]
-fn cells_that_meet_as_they_may_not() {
-    let twice = refusal(|m| m.elements.push((7, 2, vec![1], vec![99, 7, 1_000_000_000])));
-    assert_eq!(twice, "duplicate cell: triangle 7 repeats triangle 6");
+fn models_that_are_spoilt_are_refused_by_their_culprit() {
+    for (spoil, message) in SPOILT {
+        assert_eq!(refusal(spoil), *message);
+    }
     let ungrouped = refusal(|m| {
         m.elements[5].2.clear();
         m.elements.push((7, 2, vec![], vec![99, 1_000_000_000, 7]));
     });
     assert_eq!(ungrouped, "duplicate cell: triangle 7 repeats triangle 6");
-    let overlap = refusal(|m| m.elements.push((8, 2, vec![1], vec![10, 7, 99])));
-    let message = "triangle 8 and quad 5 overlap: both lie on the same side of";
-    assert_eq!(overlap, format!("{message} the edge from node 10 to node 7"));
-    let three = refusal(|m| m.elements.push((9, 2, vec![1], vec![7, 1_000_000_000, 4])));
-    let edge = "the edge from node 7 to node 1000000000";
-    assert_eq!(
-        three,
-        format!("triangle 6, triangle 9 and quad 5 share {edge}, expected two at most")
-    );
-}
-
-#[test]
-fn a_line_beside_the_cells() {
-    let hanging = refusal(|m| m.elements[2].3 = vec![4, 7]);
-    assert_eq!(hanging, "line 3, nodes 4 and 7, is no edge of a cell");
-    let unused = refusal(|m| m.elements[2].3 = vec![4, 5]);
-    assert_eq!(unused, "line 3, nodes 4 and 5, is no edge of a cell");
 }
 
 /// The message about the ASCII file of format 2.2 after a replacement in its text.
@@ -169,28 +155,25 @@ fn format_41_must_agree_with_itself() {
         let message = error(text.replacen(from, to, 1).as_bytes());
         message.split_once(": ").unwrap().1.to_owned()
     };
-    assert_eq!(edited("2 6 1 9", "2 5 1 9"), "5 nodes are announced, the blocks hold 6");
-    assert_eq!(
-        edited("2 6 2 1 \n", "1 6 2 1 \n"),
-        "element 6, a triangle, in an entity of dimension 1"
-    );
     let unlisted = "triangle 6 is in entity 60 of dimension 2, which is not listed";
-    assert_eq!(edited("2 6 2 1 \n", "2 60 2 1 \n"), unlisted);
-    assert_eq!(edited("2 1 1 3", "2 1 2 3"), "dimension 2, parametric 2: no such nodes");
+    for (from, to, message) in [
+        ("2 6 1 9", "2 5 1 9", "5 nodes are announced, the blocks hold 6"),
+        ("2 6 2 1 \n", "1 6 2 1 \n", "element 6, a triangle, in an entity of dimension 1"),
+        ("2 6 2 1 \n", "2 60 2 1 \n", unlisted),
+        ("2 1 1 3", "2 1 2 3", "dimension 2, parametric 2: no such nodes"),
+    ] {
+        assert_eq!(edited(from, to), message);
+    }
 }
 
 #[test]
-fn two_groups_of_one_name() {
-    let mut model = model();
-    model.names.push((1, 8, "contact zone"));
-    assert_eq!(error(&model.v22(Coding::Ascii)), "two physical curves are called `contact zone`");
-}
-
-#[test]
-fn a_mesh_of_lines_only() {
-    let mut model = model();
-    model.elements.truncate(3);
-    assert_eq!(error(&model.v41(Coding::Little)), "the mesh has no triangle and no quad");
+fn two_groups_of_one_name_and_a_mesh_of_lines_only() {
+    let mut named = model();
+    named.names.push((1, 8, "contact zone"));
+    assert_eq!(error(&named.v22(Coding::Ascii)), "two physical curves are called `contact zone`");
+    let mut lines = model();
+    lines.elements.truncate(3);
+    assert_eq!(error(&lines.v41(Coding::Little)), "the mesh has no triangle and no quad");
 }
 
 #[test]

@@ -58,10 +58,15 @@ fn cells_of_a_mesh_without_pieces_hold_their_new_cells_whole() {
             cell.iter().for_each(|&corner| assert_holds(what, &around, corner));
             covered[holder] += area(&cell);
         }
-        for (cell, covered) in cells(base).iter().zip(covered) {
-            PLACE.check_relative(what, covered, area(&points(base, cell)));
-        }
+        assert_covered(what, base, &covered);
     });
+}
+
+/// Of each cell so much is covered as it has.
+fn assert_covered(what: &str, mesh: &Mesh, covered: &[f64]) {
+    for (cell, &covered) in cells(mesh).iter().zip(covered) {
+        PLACE.check_relative(what, covered, area(&points(mesh, cell)));
+    }
 }
 
 #[test]
@@ -71,9 +76,7 @@ fn roots_are_covered_by_their_cells() {
         for (cell, root) in cells(hierarchy.mesh()).iter().zip(hierarchy.roots()) {
             covered[root as usize] += area(&points(hierarchy.mesh(), cell));
         }
-        for (cell, covered) in cells(base).iter().zip(covered) {
-            PLACE.check_relative(what, covered, area(&points(base, cell)));
-        }
+        assert_covered(what, base, &covered);
     });
 }
 
@@ -98,11 +101,7 @@ fn boundary_edges_lie_on_the_edges_that_they_name() {
         assert!(new_boundary.keys().eq(carried.boundary.iter().map(|of| &of.edge)), "{what}");
         let mut lengths = BTreeMap::new();
         for CarriedEdge { edge, origin } in &carried.boundary {
-            let length = |mesh: &Mesh| {
-                let ends = points(mesh, edge);
-                (ends[0][0] - ends[1][0]).hypot(ends[0][1] - ends[1][1])
-            };
-            *lengths.entry(*origin).or_insert(0.0) += length(new);
+            *lengths.entry(*origin).or_insert(0.0) += length(new, edge);
             // The cell behind it is the one whose side the old edge was: no other lip of a slit.
             let (cell, side) = new_boundary[edge];
             let holder = match cell.checked_sub(new.triangles.len()) {
@@ -114,9 +113,7 @@ fn boundary_edges_lie_on_the_edges_that_they_name() {
         }
         assert!(lengths.keys().eq(old_boundary.keys()), "{what}");
         for (origin, length) in lengths {
-            let ends = points(old, &origin);
-            let whole = (ends[0][0] - ends[1][0]).hypot(ends[0][1] - ends[1][1]);
-            PLACE.check_relative(what, length, whole);
+            PLACE.check_relative(what, length, super::length(old, &origin));
         }
     });
 }
