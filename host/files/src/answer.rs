@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::time::Instant;
 
 use super::atomic::write_atomically;
 use super::contact::contact;
@@ -22,6 +23,15 @@ use signorini_solve::{FreeLevel, Solution, SolverKind, free_levels};
 const LARGE: f64 = 0.3;
 /// Roundings that a finished solve may leave.
 const FINISHED: f64 = 1000.0;
+
+/// Seconds that files took, each on one thread.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FileSeconds {
+    /// `edges.csv`, the longest.
+    pub edges: f64,
+    /// All files.
+    pub all: f64,
+}
 
 /// A solution, and what follows from it.
 #[derive(Debug, Clone)]
@@ -85,7 +95,7 @@ impl Answer {
     ///
     /// # Errors
     /// A file that cannot be written.
-    pub fn write(&self, out: &Path) -> Result<()> {
+    pub fn write(&self, out: &Path) -> Result<FileSeconds> {
         let Self { problem, solution, .. } = self;
         let edges = || edges_csv(problem, solution);
         let cells = || Ok(picture(problem, &Drawn::of(problem, solution)?).into_bytes());
@@ -93,9 +103,14 @@ impl Answer {
         type Bytes<'a> = &'a (dyn Fn() -> Result<Vec<u8>> + Sync);
         let files: [(&str, Bytes); 3] =
             [("edges.csv", &edges), ("solution.vtu", &cells), ("contact.vtu", &contact)];
-        let write = |(name, bytes): &(&str, Bytes)| write_atomically(&out.join(name), &bytes()?);
-        on_two_threads(&files, write, || ())?;
-        self.write_summary(out)
+        let write = |(name, bytes): &(&str, Bytes)| {
+            let begin = Instant::now();
+            write_atomically(&out.join(name), &bytes()?)?;
+            Ok(begin.elapsed().as_secs_f64())
+        };
+        let seconds = on_two_threads(&files, write, || ())?;
+        self.write_summary(out)?;
+        Ok(FileSeconds { edges: seconds[0], all: seconds.iter().sum() })
     }
 
     /// Writes `summary.json` alone.

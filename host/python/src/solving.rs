@@ -64,7 +64,7 @@ pub fn solve<'py>(
                 refined(&posed, &wanted, (&asked, intervals), given_up)
             }
         }?;
-        out.map_or(Ok(()), |out| answer.write(&out))?;
+        out.map(|out| answer.write(&out)).transpose()?;
         let told = Told::new(&answer)?;
         Ok((answer, told, posed.origins))
     })?;

@@ -4,7 +4,7 @@ use std::iter;
 use std::path::Path;
 
 use super::levels;
-use signorini_files::answer::Answer;
+use signorini_files::answer::{Answer, FileSeconds};
 use signorini_files::digits::{percent_above, rounded, supported};
 use signorini_files::stated::Stated;
 use signorini_intervals::Coverage;
@@ -15,6 +15,9 @@ use signorini_scene::error::Result;
 use signorini_scene::scene::{Output, Quantity};
 use signorini_solve::adaptive::Stop;
 use signorini_solve::{Solution, SolverKind, energy_norm};
+
+/// From so many unknowns on it is told what files take.
+const LARGE: usize = 100_000;
 
 /// A solution and what is told of it.
 pub(super) struct Told {
@@ -48,12 +51,18 @@ impl Told {
 
     /// Writes the files of a solve, or the summary alone, and says what is in them.
     pub fn write(&self, out: &Path, has_files: bool) -> Result<()> {
-        match has_files {
-            true => self.answer.write(out),
-            false => self.answer.write_summary(out),
-        }?;
+        let taken = match has_files {
+            true => Some(self.answer.write(out)?),
+            false => self.answer.write_summary(out).map(|()| None)?,
+        };
         report(&self.answer);
         output_lines(&self.answer).iter().for_each(|line| say(format_args!("{line}")));
+        if let Some(FileSeconds { edges, all }) =
+            taken.filter(|_| self.answer.problem.topology.counts.unknowns() >= LARGE)
+        {
+            let part = 100.0 * edges / all;
+            say(format_args!("  files took {all:.1} s, edges.csv {part:.0} % of it"));
+        }
         Ok(())
     }
 }
