@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   active set ─► r = b − Ku in f64 ─► correction in f32: conjugate gradients
-//!       ▲                                 └─ Gauss–Seidel on edges, V-cycle on vertices
+//!       ▲                                 └─ Gauss–Seidel on edges, W-cycle on vertices
 //!       └──────────── u + correction ◄────┘
 //! ```
 //! As long as the set changes a correction is only made to some digits, and the next set goes on from there. Once it has
@@ -89,7 +89,8 @@ pub enum Failure {
     },
 }
 
-/// Solves `problem` from `start`, one value an unknown; where it is empty from 0 with all contact edges touching.
+/// Solves `problem` from `start`, one value an unknown; where it is empty from the middle of what is given, with all contact
+/// edges touching.
 ///
 /// # Errors
 /// No convergence within `settings`.

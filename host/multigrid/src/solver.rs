@@ -172,15 +172,16 @@ impl<'a, const WIDTH: usize> Solver<'a, WIDTH> {
         };
         let wanted =
             |(row, &rest): (usize, &f64)| if is_held(row) { 0.0 } else { rest + force(row) };
+        let all = self.residual.iter().enumerate().map(wanted);
+        let present = all.fold(0.0, |most: f64, rest| most.max(rest.abs()));
+        if present == 0.0 {
+            return Ok(0.0);
+        }
         if self.count.of_set == 0 {
-            let all = self.residual.iter().enumerate().map(wanted);
-            self.unit = all.fold(0.0, |most: f64, rest| most.max(rest.abs()));
+            self.unit = present;
             self.conjugate.restart();
         }
         let largest = self.unit;
-        if largest == 0.0 {
-            return Ok(0.0);
-        }
         for (at, rest) in self.residual.iter().enumerate() {
             self.conjugate.residual[at] = (wanted((at, rest)) / largest) as f32;
         }

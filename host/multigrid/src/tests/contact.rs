@@ -33,6 +33,19 @@ fn an_obstacle_is_met_where_relaxation_meets_it() {
     }
 }
 
+/// A correction may leave nothing to correct: one unknown, and numbers that f32 has exactly.
+#[test]
+fn an_exact_answer_is_no_breakdown() {
+    for load in [1.0, -3.0] {
+        let mut square = Square::new(1, 1.0, true, |_, _| 0.0);
+        (square.row_ptr, square.col_idx) = (vec![0, 1], vec![0]);
+        (square.values, square.load) = (vec![4.0], vec![load]);
+        (square.lower, square.floating, square.ends) = (Vec::new(), Vec::new(), vec![[0, 1]]);
+        let found = solve(&square.problem(), &SETTINGS, &[]).expect("an answer");
+        assert_eq!((found.u, found.residual), (vec![0.25 * load], 0.0));
+    }
+}
+
 #[test]
 fn limits_have_three_sides() {
     let mut square = Square::new(16, 1.0, true, slope);

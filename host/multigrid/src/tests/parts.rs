@@ -193,7 +193,7 @@ fn a_hierarchy_follows_what_is_held() {
     }
 }
 
-/// How an error falls by a V-cycle, after many.
+/// How an error falls by a W-cycle, after many.
 fn worst_rate(hierarchy: &mut Hierarchy, matrix: &Sparse, held: &[u32]) -> f64 {
     let n = matrix.rows();
     let mut error = vector(&mut Random::new(3), n);
