@@ -31,7 +31,7 @@ use faer::MatRef;
 use faer::sparse::FaerError;
 use thiserror::Error;
 
-pub use linear::Linear;
+pub use linear::{Linear, LinearFactor};
 pub use problem::Problem;
 pub use refinement::Solution;
 pub use sparse_cholesky::minimum_degree;

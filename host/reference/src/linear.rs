@@ -16,19 +16,47 @@ pub struct Linear<'a> {
     pub values: &'a [f64],
 }
 
+/// Its factor, for loads one after the other.
+pub struct LinearFactor {
+    matrix: Matrix,
+    cholesky: SparseCholesky,
+}
+
 impl Linear<'_> {
+    /// Factors the matrix.
+    ///
+    /// # Errors
+    /// Arrays that do not fit, numbers that are not finite, a matrix that is not positive definite.
+    pub fn factor(&self) -> Result<LinearFactor, ReferenceError> {
+        let Self { row_ptr, col_idx, values } = *self;
+        let load = &vec![0.0; row_ptr.len().saturating_sub(1)];
+        let problem =
+            Problem { row_ptr, col_idx, values, load, lower: &[], spans: &[], floating: &[] };
+        problem.check()?;
+        let matrix = Matrix::of(&problem);
+        let cholesky = SparseCholesky::new(&matrix, values)?;
+        check_pivots(&cholesky, &matrix)?;
+        Ok(LinearFactor { matrix, cholesky })
+    }
+
+    /// Solves for the columns of `loads`, n numbers each, one after the other, as [`LinearFactor::solve`] does.
+    ///
+    /// # Errors
+    /// Those of [`Linear::factor`] and [`LinearFactor::solve`].
+    pub fn solve(&self, loads: &[f64]) -> Result<Vec<f64>, ReferenceError> {
+        self.factor()?.solve(loads)
+    }
+}
+
+impl LinearFactor {
     /// Solves for the columns of `loads`, n numbers each, one after the other, and corrects the result
     /// once by a residual summed in twice the working precision.
     ///
     /// # Errors
-    /// Arrays that do not fit, numbers that are not finite, a matrix that is not positive definite.
+    /// Columns that are not whole, numbers that are not finite.
     pub fn solve(&self, loads: &[f64]) -> Result<Vec<f64>, ReferenceError> {
-        let Self { row_ptr, col_idx, values } = *self;
-        let n = row_ptr.len().saturating_sub(1);
-        let load = &vec![0.0; n];
-        let problem =
-            Problem { row_ptr, col_idx, values, load, lower: &[], spans: &[], floating: &[] };
-        problem.check()?;
+        let Self { matrix, cholesky } = self;
+        let n = matrix.unknowns();
         check_finite("load", loads)?;
         if n == 0 || loads.is_empty() {
             return Ok(Vec::new());
@@ -36,9 +64,6 @@ impl Linear<'_> {
         if !loads.len().is_multiple_of(n) {
             return Err(ReferenceError::Malformed("loads must hold whole columns"));
         }
-        let matrix = Matrix::of(&problem);
-        let cholesky = SparseCholesky::new(&matrix, values)?;
-        check_pivots(&cholesky, &matrix)?;
         let mut solutions = loads.to_vec();
         cholesky.solve_in_place(&mut solutions, n)?;
         let pairs = loads.chunks(n).zip(solutions.chunks(n));

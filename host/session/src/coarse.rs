@@ -7,7 +7,7 @@ use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::search::{LocatedPoint, Search};
 use signorini_scene::error::{InputError, Result};
-use signorini_solve::{Options, SolverKind, prefers_factor, solve, unfit};
+use signorini_solve::{Options, SolverKind, is_long_to_sweep, solve, unfit};
 
 /// Means of u over the edges of `coarse`.
 ///
@@ -19,8 +19,8 @@ pub fn solved(coarse: &Problem) -> Result<Vec<f64>> {
 }
 
 /// Sets `u`, one mean per edge of `problem`, to where a first tick starts: to the solution on `coarse`, the same problem on a
-/// coarser mesh, where there is one, else to `problem`'s own where `is_open` and a factor finds it sooner than cold sweeps,
-/// which on a large mesh would take longer than all ticks after them.
+/// coarser mesh, where there is one, else to `problem`'s own where `is_open` and cold sweeps would take long: on
+/// a large mesh they would take longer than all ticks after them.
 ///
 /// # Errors
 /// As for [`solve`]; numbers that the scalar cannot hold.
@@ -35,7 +35,7 @@ pub(crate) fn start<R: Scalar>(
         let origins = origins(problem, coarse)?;
         return prolong(&origins, &means, u).map_err(unfit::<R>(&problem.scene));
     }
-    if is_open && prefers_factor(problem) {
+    if is_open && is_long_to_sweep(problem) {
         let means = solved(problem)?.into_iter().map(R::narrow);
         u.iter_mut().zip(means).for_each(|(u, mean)| *u = mean);
     }

@@ -2,8 +2,8 @@
 //!
 //! The factor is the kernel's, in the scalar asked for: its answers have a low part in f32, and parts that contact alone holds are
 //! no exception. In f64 the host's own solvers are ahead of it on large meshes. Where one has no answer the next is asked:
-//! multigrid, then the direct solver (which takes what nothing holds) and the factor, the quicker of these two first. At last
-//! sweeps say why there is none.
+//! after multigrid the direct solver, which takes what nothing holds; then the factor, and after a factor the direct solver. At
+//! last sweeps say why there is none.
 
 use signorini_kernel::solver::Status;
 

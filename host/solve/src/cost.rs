@@ -94,8 +94,8 @@ pub(super) fn sweeps(unknowns: usize) -> f64 {
     30.0 * (unknowns as f64).sqrt()
 }
 
-/// Whether sweeps are estimated to take longer than a factor.
-pub fn prefers_factor(problem: &Problem) -> bool {
+/// Whether sweeps would take more than 15 ms by the estimate, and another solver less than them.
+pub fn is_long_to_sweep(problem: &Problem) -> bool {
     Size::of(problem).quickest(false) != Ran::Sweeps
 }
 

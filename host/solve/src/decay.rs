@@ -23,7 +23,7 @@ use signorini_kernel::stiffness::{Coefficient, Stiffness, fill};
 use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::{Conductivity, smallest_eigenvalue};
 use signorini_problem::Problem;
-use signorini_reference::Linear;
+use signorini_reference::{Linear, LinearFactor};
 use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh::adapted::adapted;
 use signorini_scene::setting::CellKind;
@@ -48,7 +48,8 @@ const LOWERED: f64 = 1e-6;
 /// # Errors
 /// A mesh that cannot be cut into triangles; data that are not finite.
 pub fn decay_rate(problem: &Problem) -> Result<f64> {
-    Ok(Pencil::on_triangles(problem)?.rate())
+    let pencil = Pencil::on_triangles(problem)?;
+    Ok(pencil.rate(pencil.largest()))
 }
 
 /// How fast what is stored follows its data, in the scene's unit of time. Contact counts as free.
@@ -69,7 +70,8 @@ pub fn time_constants(problem: &Problem) -> Result<Option<TimeConstants>> {
         return Ok(None);
     }
     let pencil = Pencil::on_triangles(problem)?;
-    let [slowest, fastest] = [pencil.rate(), pencil.largest()].map(f64::recip);
+    let largest = pencil.largest();
+    let [slowest, fastest] = [pencil.rate(largest), largest].map(f64::recip);
     Ok(Some(TimeConstants { slowest, fastest }))
 }
 
@@ -93,9 +95,9 @@ impl Pencil {
         Self::of(&Problem::new(&problem.scene, Arc::new(mesh))?)
     }
 
-    /// λ
-    fn rate(&self) -> f64 {
-        let is_above = |guess: &f64| *guess > ROUNDED * self.largest();
+    /// λ, where the largest eigenvalue is about `largest`.
+    fn rate(&self, largest: f64) -> f64 {
+        let is_above = |guess: &f64| *guess > ROUNDED * largest;
         let Some(guess) = self.guess().filter(is_above) else { return 0.0 };
         let mut lowered = LOWERED;
         let of_mesh = loop {
@@ -189,25 +191,25 @@ impl Pencil {
         kept
     }
 
-    /// (K − μM)⁻¹ applied to `load`; nothing where K − μM is not proved to be positive definite.
-    fn solve(&self, mu: f64, load: &[f64]) -> Option<Vec<f64>> {
+    /// The factor of K − μM; nothing where that is not proved to be positive definite.
+    fn factor(&self, mu: f64) -> Option<LinearFactor> {
         let mut values = self.values.clone();
         // The diagonal comes first in every row.
         for (&start, mass) in self.row_ptr.iter().zip(&self.mass) {
             values[start as usize] -= mu * mass;
         }
         let (row_ptr, col_idx) = (&self.row_ptr, &self.col_idx);
-        Linear { row_ptr, col_idx, values: &values }.solve(load).ok()
+        Linear { row_ptr, col_idx, values: &values }.factor().ok()
     }
 
     /// λ_h nearly, by inverse iteration; nothing where K is singular.
     fn guess(&self) -> Option<f64> {
         let mut v: Vec<f64> =
             (0..self.mass.len()).map(|at| 1.0 + 0.1 * (at as f64).sin()).collect();
-        let mut least = f64::INFINITY;
+        let (factor, mut least) = (self.factor(0.0)?, f64::INFINITY);
         for _ in 0..ROUNDS {
             let load: Vec<f64> = v.iter().zip(&self.mass).map(|(v, mass)| v * mass).collect();
-            let next = self.solve(0.0, &load)?;
+            let next = factor.solve(&load).ok()?;
             let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
             // xᵀKx/xᵀMx with x = K⁻¹Mv.
             let weighed: Vec<f64> = next.iter().zip(&self.mass).map(|(x, mass)| x * mass).collect();
@@ -220,7 +222,7 @@ impl Pencil {
 
     /// Whether λ_h > μ.
     fn exceeds(&self, mu: f64) -> bool {
-        self.solve(mu, &vec![1.0; self.mass.len()]).is_some()
+        self.factor(mu).is_some_and(|factor| factor.solve(&vec![1.0; self.mass.len()]).is_ok())
     }
 }
 

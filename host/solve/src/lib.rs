@@ -35,7 +35,7 @@ mod tests;
 mod tuned;
 mod units;
 
-pub use cost::prefers_factor;
+pub use cost::is_long_to_sweep;
 pub use ending::{Ending, Ran, status_name, went_well};
 pub use factored::Factored;
 pub use level::{FreeLevel, free_levels};
@@ -206,9 +206,9 @@ fn iterate<R: Scalar, const WIDTH: usize>(
             &mut scratch,
         )
     };
-    if may_factor
-        && options.max_sweeps.is_none()
-        && cost::sweeps(counts.unknowns()) > f64::from(refinement::PLAIN)
+    let is_long = cost::sweeps(counts.unknowns()) > f64::from(refinement::PLAIN);
+    let at_once = may_factor && options.max_sweeps.is_none() && is_long;
+    if at_once
         && let Some((found, factored)) = factored::solve(system, diagonal, &settings, u, low, None)?
     {
         return Ok((found, Some(factored)));
@@ -221,7 +221,9 @@ fn iterate<R: Scalar, const WIDTH: usize>(
     if ended || swept.sweeps >= most {
         return Ok((swept, None));
     }
+    // What has no factor from one start has none from another.
     if may_factor
+        && !at_once
         && let Some((found, factored)) = factored::solve(system, diagonal, &settings, u, low, None)?
     {
         return Ok((Outcome { sweeps: swept.sweeps, ..found }, Some(factored)));

@@ -140,7 +140,7 @@ pub struct Played {
 
 /// Plays `problem` at every moment; calls `done` after each, whose error ends the play. The first tick starts from the solution
 /// on `coarse`, the problem on a coarser mesh, where there is one; without, on a large mesh with an open budget, from
-/// the solution of a factor.
+/// the solution that `auto` finds.
 ///
 /// # Errors
 /// Data that are not admissible at some time, with that time; numbers that the scalar type cannot
