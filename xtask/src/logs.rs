@@ -4,7 +4,6 @@
 //! A row is a scene in time, or its steady twin, by the model that `bake` chooses. In a whole run each is played without its
 //! bound, too: the share of the bound is what the median tick takes less then.
 
-use std::fs;
 use std::path::PathBuf;
 
 use crate::baked::Recipe;
@@ -13,6 +12,7 @@ use crate::setup;
 use crate::steps::Steps;
 use signorini_image::board::M4F_192K;
 use signorini_image::cargo::{root, target_dir};
+use signorini_image::files;
 use signorini_image::firmware::{Firmware, Instructions};
 
 const RECORD: &str = "tests/firmware/logs.txt";
@@ -88,6 +88,6 @@ fn without_bound(scene: &str, model: &str) -> Result<PathBuf, String> {
     let extended = root().join(format!("meshes/scenes/{scene}.toml"));
     let setting = format!("[setting]\ncertificate = false\nmodel = {model:?}");
     let text = format!("extends = {extended:?}\n{setting}\n");
-    fs::write(&file, text).map_err(|error| format!("{}: {error}", file.display()))?;
+    files::write(&file, text)?;
     Ok(file)
 }

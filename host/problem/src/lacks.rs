@@ -225,11 +225,15 @@ fn no_steps(problem: &Problem) -> InputError {
         .hint("take the full model (--full, model = \"full\"); without `capacity` the controller is the steady one")
 }
 
-/// No controller carries what its steps leave of their equations.
+/// A controller has the bound over time beside its outputs.
 fn no_window(problem: &Problem) -> InputError {
     let name = window(problem).map(|output| &output.name);
-    refused_at(problem, name, "no controller has the bound over time yet".to_owned())
-        .hint("take `bound`, that of each step; `signorini tick` has both")
+    refused_at(
+        problem,
+        name,
+        "a controller has the bound over time in `window`, not as an output".to_owned(),
+    )
+    .hint("remove this output, or take `bound`, that of each step; `signorini tick` has both")
 }
 
 fn one_factor(problem: &Problem) -> InputError {

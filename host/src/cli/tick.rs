@@ -191,7 +191,7 @@ impl Arguments {
         series.map_or(Ok(()), Series::close)?;
         let is_saved = self.save_state(&scene, saved.as_ref())?;
         report(&problem, &model, &ticks, &out);
-        if last.is_none() {
+        if last.is_none() && !interrupted.load(Ordering::Relaxed) {
             step_advice(&problem, &moments)?.iter().for_each(|line| say(format_args!("  {line}")));
         }
         warn(&refusals(&ticks));

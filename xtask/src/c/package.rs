@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::baked::{Failure, Recipe};
 use signorini_image::cargo::target_dir;
+use signorini_image::files;
 use signorini_image::library::{MACHINES, Machine};
 use signorini_image::module::Module;
 
@@ -53,10 +54,14 @@ impl Package {
     }
 
     /// Definitions for the programs that know no scene.
-    pub fn defines(&self) -> Vec<String> {
+    ///
+    /// # Errors
+    /// A header that cannot be read.
+    pub fn defines(&self) -> Result<Vec<String>, String> {
         let name = &self.name;
-        let header = fs::read_to_string(self.folder.join(format!("{name}.h"))).unwrap_or_default();
-        let in_time = header.contains("_STEP ").then(|| "-DIN_TIME".to_owned());
+        let header = files::text(&self.folder.join(format!("{name}.h")))?;
+        let step = format!("#define {}_STEP ", name.to_uppercase());
+        let in_time = header.contains(&step).then(|| "-DIN_TIME".to_owned());
         let mut defines = vec![
             format!("-DSCENE={name}"),
             format!("-DCONSTANTS={}", name.to_uppercase()),
@@ -65,7 +70,7 @@ impl Package {
             format!("{name}.h"),
         ];
         defines.extend(in_time);
-        defines
+        Ok(defines)
     }
 }
 

@@ -53,7 +53,7 @@ pub fn played(
     output(compile.arg(peers.join("board.c")).arg("-o").arg(&support))?;
     let mut link = Command::new("arm-none-eabi-gcc");
     link.args(package.machine.flags).args(CODE).args(WARNINGS).arg("-Wstrict-prototypes");
-    link.args(defines).args(package.defines()).arg("-I").arg(&peers);
+    link.args(defines).args(package.defines()?).arg("-I").arg(&peers);
     link.args(PLAY.map(|source| sources().join(source))).arg(&support).arg(library);
     link.args(["-nostartfiles", "-Wl,--gc-sections,-z,noexecstack,--no-warn-rwx-segments", "-T"]);
     output(link.arg(memory).arg("-o").arg(&made))

@@ -33,7 +33,7 @@ def bake(
     Parameters
     ----------
     scalar : "f32" or "f64" [the scene's setting, else f32].
-    model : "full" or "condensed" [what is smaller and fits].
+    model : "full" or "condensed" [what is smaller and fits; in time, what is quicker].
     """
     scalar = arguments.text("scalar", scalar, "f32 or f64")
     model = arguments.text("model", model, "full or condensed")

@@ -12,10 +12,10 @@ use signorini_scene::error::Result;
 use signorini_scene::scene::{Output, Quantity, Scene};
 use signorini_solve::ScalarKind;
 
-/// Unknowns times ticks that are played: about a second.
+/// Unknowns times ticks that are played, on meshes on which that is more than [`LEAST`] ticks: about a second.
 const MOST: usize = 8_000;
 
-/// Ticks that are played at least, and unknowns from which on there are none.
+/// Ticks that are played at least, and unknowns from which on there are none: at most twenty times as much.
 const LEAST: usize = 4;
 const TOO_MANY: usize = 40_000;
 
