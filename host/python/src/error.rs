@@ -30,10 +30,10 @@ fn scene_error(
     is_file: bool,
 ) -> PyErr {
     let message = error.message();
-    let place = if is_file { error.to_string() } else { message.to_owned() };
     let hint = error.said_hint();
-    let text = hint.map_or_else(|| place.clone(), |hint| format!("{place}\nhint: {hint}"));
-    let raised = SceneError::new_err(text);
+    let others = error.others().iter().map(|other| told(other, is_file));
+    let text: Vec<_> = std::iter::once(told(error, is_file)).chain(others).collect();
+    let raised = SceneError::new_err(text.join("\n"));
     let value = raised.value(py);
     let file = error.place().0.filter(|_| is_file).map(|file| file.display().to_string());
     let line = error.place().1.filter(|_| is_file);
@@ -41,17 +41,14 @@ fn scene_error(
     let _ = value.setattr("message", message);
     let _ = value.setattr("file", file);
     let _ = value.setattr("line", line);
-    let _ = value.setattr("key", key(message));
+    let _ = value.setattr("key", error.key());
     let _ = value.setattr("hint", hint);
     let _ = value.setattr("refusal", refused.map(Ending::name));
     raised
 }
 
-/// `boundary.river.value` of "boundary.river.value: expected …".
-fn key(message: &str) -> Option<&str> {
-    let (key, _) = message.split_once(": ")?;
-    let is_key = !key.is_empty()
-        && key.chars().all(|letter| letter.is_alphanumeric() || "._-\"".contains(letter))
-        || key.contains('.') && key.contains('"');
-    is_key.then_some(key)
+/// The message with its place in a file, and the hint below it.
+fn told(error: &InputError, is_file: bool) -> String {
+    let place = if is_file { error.to_string() } else { error.message().to_owned() };
+    error.said_hint().map_or_else(|| place.clone(), |hint| format!("{place}\nhint: {hint}"))
 }

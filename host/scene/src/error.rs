@@ -49,6 +49,9 @@ pub struct InputError {
     time: Option<f64>,
     /// Why the kernel refuses it.
     cause: Option<signorini_kernel::Error>,
+    /// What else is wrong with the same input.
+    #[related]
+    others: Vec<InputError>,
 }
 
 /// Lines beyond this many bytes are not shown: they would bury the message.
@@ -73,6 +76,33 @@ impl InputError {
     /// The hint.
     pub fn said_hint(&self) -> Option<&str> {
         self.hint.as_deref()
+    }
+
+    /// The key that it is about, `boundary.river.value`, where its message begins with one.
+    pub fn key(&self) -> Option<&str> {
+        let (key, _) = self.message.split_once(": ")?;
+        let is_key = !key.is_empty()
+            && key.chars().all(|letter| letter.is_alphanumeric() || "._-\"".contains(letter))
+            || key.contains('.') && key.contains('"');
+        is_key.then_some(key)
+    }
+
+    /// Adds what else is wrong with the same input.
+    #[must_use]
+    pub fn with_others(mut self, others: Vec<Self>) -> Self {
+        self.others.extend(others);
+        self
+    }
+
+    /// What else is wrong with the same input.
+    pub fn others(&self) -> &[Self] {
+        &self.others
+    }
+
+    /// This fault and all others, each on its own.
+    pub fn each(mut self) -> Vec<Self> {
+        let others = std::mem::take(&mut self.others);
+        std::iter::once(self).chain(others).collect()
     }
 
     /// Adds what to do about it.

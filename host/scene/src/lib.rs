@@ -9,6 +9,7 @@
 
 pub mod error;
 pub mod expression;
+pub mod faults;
 pub mod goal;
 pub mod mesh;
 pub mod scene;
@@ -16,6 +17,7 @@ pub mod setting;
 
 pub use error::{Error, InputError, Result};
 pub use expression::Expression;
+pub use faults::Faults;
 pub use goal::Goal;
 pub use mesh::Mesh;
 pub use scene::Scene;

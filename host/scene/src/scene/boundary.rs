@@ -3,54 +3,64 @@
 //! A new key is a field of [`Condition`], read here and listed in `data_of`: whoever asks for loads, units or fields
 //! asks that list.
 
+use super::entry::Entry;
 use super::table::Table;
 use super::units::Unit;
-use super::{Boundary, Condition, Datum, Field};
+use super::{Condition, Datum, Field};
 use crate::error::Result;
 use crate::expression::Variables;
 
-/// Reads `[boundary.NAME]`; a key of another kind is refused.
-pub(super) fn read_boundary(table: &Table) -> Result<Boundary> {
+/// A way to read a condition from its table.
+type Read = fn(&Table) -> Option<Condition>;
+
+const KINDS: [(&str, Read); 4] = [
+    ("dirichlet", read_dirichlet),
+    ("neumann", read_neumann),
+    ("robin", read_robin),
+    ("contact", read_contact),
+];
+
+/// Reads `[boundary.NAME]`; a key of another kind is a fault.
+pub(super) fn read_boundary(table: &Table) -> Option<Condition> {
     let kind = table.require("kind")?;
-    let read = kind.choice::<fn(&Table) -> Result<Condition>>(&[
-        ("dirichlet", read_dirichlet),
-        ("neumann", read_neumann),
-        ("robin", read_robin),
-        ("contact", read_contact),
-    ])?;
-    Ok(Boundary { name: table.name.clone(), condition: (read.value)(table)? })
+    let read = table.keep(kind.choice(&KINDS))?.value;
+    table.only("boundary.NAME", kind.word());
+    read(table)
 }
 
-fn read_dirichlet(table: &Table) -> Result<Condition> {
-    table.only("a dirichlet boundary", "kind, value")?;
-    Ok(Condition::Dirichlet { value: table.require("value")?.expression(Variables::SpaceTime)? })
+fn read_dirichlet(table: &Table) -> Option<Condition> {
+    let value = table.read("value", |entry| entry.expression(Variables::SpaceTime))?;
+    Some(Condition::Dirichlet { value })
 }
 
-fn read_neumann(table: &Table) -> Result<Condition> {
-    table.only("a neumann boundary", "kind, flux")?;
-    Ok(Condition::Neumann { flux: table.require("flux")?.expression(Variables::SpaceTime)? })
+fn read_neumann(table: &Table) -> Option<Condition> {
+    let flux = table.read("flux", |entry| entry.expression(Variables::SpaceTime))?;
+    Some(Condition::Neumann { flux })
 }
 
-/// The coefficient enters the matrix, which stays the same from tick to tick: no t in it.
-fn read_robin(table: &Table) -> Result<Condition> {
-    table.only("a robin boundary", "kind, coefficient, ambient")?;
-    let entry = table.require("coefficient")?;
+fn read_robin(table: &Table) -> Option<Condition> {
+    let coefficient = table.read("coefficient", transfer);
+    let ambient = table.read("ambient", |entry| entry.expression(Variables::SpaceTime));
+    Some(Condition::Robin { coefficient: coefficient?, ambient: ambient? })
+}
+
+/// A transfer coefficient: it enters the matrix, which stays the same from tick to tick, so that it has no t.
+fn transfer(entry: &Entry) -> Result<Datum> {
     let coefficient = entry.expression(Variables::Space)?;
     if let Some(value) = coefficient.value.is_constant().filter(|&value| value < 0.0) {
         let error = entry.error(format_args!("{value} is negative"));
         return Err(error.hint("(A∇u)·n = coefficient (ambient − u) with coefficient ≥ 0").into());
     }
-    let ambient = table.require("ambient")?.expression(Variables::SpaceTime)?;
-    Ok(Condition::Robin { coefficient, ambient })
+    Ok(coefficient)
 }
 
-fn read_contact(table: &Table) -> Result<Condition> {
-    table.only("a contact boundary", "kind, gap, flux, limit")?;
-    let gap = table.expression_or_zero("gap", Variables::SpaceTime)?;
-    let flux = table.end_of_range("flux", 0.0, Variables::SpaceTime)?;
-    let limit = table.end_of_range("limit", f64::INFINITY, Variables::SpaceTime)?;
-    check_range(table, [&flux, &limit])?;
-    Ok(Condition::Contact { gap, flux, limit })
+fn read_contact(table: &Table) -> Option<Condition> {
+    let gap = table.expression_or_zero("gap", Variables::SpaceTime);
+    let flux = table.end_of_range("flux", 0.0, Variables::SpaceTime);
+    let limit = table.end_of_range("limit", f64::INFINITY, Variables::SpaceTime);
+    let (gap, flux, limit) = (gap?, flux?, limit?);
+    table.keep(check_range(table, [&flux, &limit]))?;
+    Some(Condition::Contact { gap, flux, limit })
 }
 
 /// Refuses ends of a flux that leave nothing between them, and such that leave everything. What varies is checked on the mesh.

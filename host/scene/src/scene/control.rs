@@ -3,11 +3,11 @@
 use super::entry::Entry;
 use super::range::InputRange;
 use super::table::Table;
-use super::{Boundary, Field, Input, Located, Scene};
+use super::{Boundary, Condition, Field, Input, Located, Named, Scene};
 use crate::error::{InputError, Result};
 use crate::expression::Variables;
 
-const FIELDS: [(&str, Field); 7] = [
+pub(super) const FIELDS: [(&str, Field); 7] = [
     ("flux", Field::Flux),
     ("limit", Field::Limit),
     ("value", Field::Value),
@@ -18,46 +18,65 @@ const FIELDS: [(&str, Field); 7] = [
 ];
 
 /// Reads `[input.NAME]`. The pattern has no t: what changes is the value that multiplies it.
-pub(super) fn read_input(table: &Table, boundaries: &[Boundary]) -> Result<Input> {
-    table.only("an input", "of, field, pattern, default, range, unit")?;
-    let (of, entry) = (table.require("of")?, table.require("field")?);
-    let field = entry.choice(&FIELDS)?;
-    check_field(&of, &entry, field.value, boundaries)?;
-    let range = table.get("range");
+pub(super) fn read_input(table: &Table, boundaries: &[Named<Condition>]) -> Option<Input> {
+    table.only("input.NAME", None);
+    let place = read_place(table, boundaries);
+    let pattern = table.read("pattern", |entry| entry.expression(Variables::Space));
+    let default = table.read_or("default", 0.0, Entry::number);
+    let range = table.read_some("range", InputRange::read);
+    let unit = read_unit(table);
+    let (of, field) = place?;
     if field.value == Field::Coefficient {
         // What stands in the matrix is judged for all values.
         table.require("range")?;
     }
-    let input = Input {
-        name: table.name.clone(),
-        of: of.text()?,
-        field,
-        pattern: table.require("pattern")?.expression(Variables::Space)?,
-        default: table.get("default").map_or(Ok(0.0), |entry| entry.number())?,
-        range: range.as_ref().map(InputRange::read).transpose()?,
-        unit: read_unit(table)?,
-    };
-    // Where no default is written the one that counts is 0, and the range is to blame.
-    match (input.refusal(input.default), table.get("default").or(range)) {
-        (Some(refusal), Some(entry)) => Err(entry
-            .error(format!("the default {refusal}"))
-            .hint("give a default inside it")
-            .into()),
-        _ => Ok(input),
+    let (pattern, default, range, unit) = (pattern?, default?, range?, unit?);
+    let input = Input { name: table.name.clone(), of, field, pattern, default, range, unit };
+    table.keep(check_default(table, &input))?;
+    Some(input)
+}
+
+/// The boundary that an input acts on, and the field.
+fn read_place(
+    table: &Table,
+    boundaries: &[Named<Condition>],
+) -> Option<(Located<String>, Located<Field>)> {
+    let (of, entry) = (table.require("of"), table.require("field"));
+    let (of, entry) = (of?, entry?);
+    let field = table.keep(entry.choice(&FIELDS))?;
+    table.keep(check_field(&of, &entry, field.value, boundaries))?;
+    Some((table.keep(of.text())?, field))
+}
+
+/// Refuses a default outside the range; where none is written the one that counts is 0, and the range is to blame.
+fn check_default(table: &Table, input: &Input) -> Result<()> {
+    let culprit = table.get("default").or_else(|| table.get("range"));
+    match (input.refusal(input.default), culprit) {
+        (Some(refusal), Some(entry)) => {
+            let error = entry.error(format!("the default {refusal}"));
+            Err(error.hint("give a default inside it").into())
+        }
+        _ => Ok(()),
     }
 }
 
 /// Refuses a field that `of` lacks (the source has f, a boundary the fields of its kind), and an infinite end of a
 /// flux: nothing can be added to it.
-fn check_field(of: &Entry, entry: &Entry, field: Field, boundaries: &[Boundary]) -> Result<()> {
+fn check_field(
+    of: &Entry,
+    entry: &Entry,
+    field: Field,
+    boundaries: &[Named<Condition>],
+) -> Result<()> {
     let (name, written) = (of.text()?.value, entry.text()?.value);
     let (found, fields) = match (field, name.as_str()) {
         (Field::Source, "source") => return Ok(()),
-        (_, "source") if !boundaries.iter().any(|known| known.name.value == "source") => {
+        (_, "source") if !boundaries.iter().any(|(known, _)| known.value == "source") => {
             ("the source".to_owned(), "f".to_owned())
         }
         _ => {
-            let condition = &find_boundary(of, boundaries)?.condition;
+            // One that could not be read is told of already.
+            let Some(condition) = find_boundary(of, boundaries)? else { return Ok(()) };
             if let Some(base) = condition.field(field) {
                 let infinite = base.value.is_constant().filter(|value| value.is_infinite());
                 return infinite.map_or(Ok(()), |value| {
@@ -76,9 +95,12 @@ fn check_field(of: &Entry, entry: &Entry, field: Field, boundaries: &[Boundary])
 }
 
 /// A short text that may stand in a comment of any language.
-pub(super) fn read_unit(table: &Table) -> Result<Option<String>> {
+pub(super) fn read_unit(table: &Table) -> Option<Option<String>> {
+    table.read_some("unit", unit)
+}
+
+fn unit(entry: &Entry) -> Result<String> {
     const LONGEST: usize = 24;
-    let Some(entry) = table.get("unit") else { return Ok(None) };
     let unit = entry.text()?.value;
     let is_plain = |c: char| !c.is_control() && !"\"\\".contains(c);
     let fits = (1..=LONGEST).contains(&unit.chars().count());
@@ -86,15 +108,19 @@ pub(super) fn read_unit(table: &Table) -> Result<Option<String>> {
         let error = entry.error(format_args!("expected 1 to {LONGEST} characters of a unit"));
         return Err(error.hint("write one such as \"m2/s\" or \"°C\"").into());
     }
-    Ok(Some(unit))
+    Ok(unit)
 }
 
-/// The boundary that `of` names.
-pub(super) fn find_boundary<'a>(of: &Entry, boundaries: &'a [Boundary]) -> Result<&'a Boundary> {
+/// The condition of the boundary that `of` names; nothing where it could not be read.
+pub(super) fn find_boundary<'a>(
+    of: &Entry,
+    boundaries: &'a [Named<Condition>],
+) -> Result<Option<&'a Condition>> {
     let name = of.text()?.value;
-    boundaries.iter().find(|boundary| boundary.name.value == name).ok_or_else(|| {
+    let found = boundaries.iter().find(|(boundary, _)| boundary.value == name);
+    found.map(|(_, condition)| condition.as_ref()).ok_or_else(|| {
         let error = of.error(format_args!("no boundary `{name}` in the scene"));
-        let names = list(boundaries.iter().map(|boundary| &boundary.name));
+        let names = list(boundaries.iter().map(|(name, _)| name));
         error.hint(format!("boundaries of the scene: {names}")).into()
     })
 }

@@ -10,13 +10,16 @@ use toml::de::DeTable;
 
 use super::Located;
 use crate::error::{InputError, Result, line_of};
+use crate::faults::Faults;
 
 const LARGEST_FILE: usize = 1 << 20;
 
-/// The scene file as text.
+/// A scene file as text.
 pub(super) struct Document {
     pub path: PathBuf,
     pub text: Arc<str>,
+    /// What is wrong with it, as far as it has been read.
+    pub faults: Faults,
 }
 
 impl Document {
@@ -54,7 +57,7 @@ pub(super) fn document(bytes: &[u8], path: &Path) -> Result<Document> {
         let line = line_of(bytes, error.valid_up_to());
         unreadable(path, "not UTF-8 text".to_owned()).line(line)
     })?;
-    Ok(Document { path: path.to_owned(), text: text.into() })
+    Ok(Document { path: path.to_owned(), text: text.into(), faults: Faults::default() })
 }
 
 fn unreadable(path: &Path, message: String) -> InputError {

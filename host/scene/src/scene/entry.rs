@@ -26,15 +26,31 @@ impl<'a> Entry<'a> {
     /// A text.
     pub fn text(&self) -> Result<Located<String>> {
         match self.at.value {
-            DeValue::String(text) => Ok(self.at.with(text.to_string())),
+            DeValue::String(text) if !self.is_open() => Ok(self.at.with(text.to_string())),
             _ => Err(self.expected("a text").into()),
         }
     }
 
+    /// The text, if it is one.
+    pub fn word(&self) -> Option<&'a str> {
+        match self.at.value {
+            DeValue::String(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// Whether somebody is still to write it: a new scene has "?" there.
+    fn is_open(&self) -> bool {
+        self.word().is_some_and(|text| text.trim() == "?")
+    }
+
     /// One of the words on the left, as what stands on the right.
     pub fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> Result<Located<T>> {
-        let word = self.text()?.value;
         let names = choices.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
+        if self.is_open() {
+            return Err(self.expected(&format!("one of: {names}")).into());
+        }
+        let word = self.text()?.value;
         match choices.iter().find(|(name, _)| *name == word) {
             Some(&(_, choice)) => Ok(self.at.with(choice)),
             None => Err(self.error(format_args!("`{word}` is not one of: {names}")).into()),
@@ -107,7 +123,7 @@ impl<'a> Entry<'a> {
             DeValue::Integer(_) | DeValue::Float(_) => {
                 Ok(self.at.with(Expression::constant(self.number()?)))
             }
-            DeValue::String(text) => Expression::parse(text, variables)
+            DeValue::String(text) if !self.is_open() => Expression::parse(text, variables)
                 .map(|expression| self.at.with(expression))
                 .map_err(|error| {
                     let at = Located { span: self.within(text, error.span), ..self.at.with(()) };
@@ -152,9 +168,12 @@ impl<'a> Entry<'a> {
             .ok_or_else(|| self.expected(&format!("an array of two: {what}")).into())
     }
 
-    /// The error that a value of another kind was expected.
+    /// The error that a value of another kind was expected, or that none has been written yet.
     pub fn expected(&self, expected: &str) -> InputError {
-        self.error(format_args!("expected {expected}, found {}", self.kind()))
+        match self.is_open() {
+            true => self.error("to be filled in").hint(format!("write {expected}")),
+            false => self.error(format_args!("expected {expected}, found {}", self.kind())),
+        }
     }
 
     fn kind(&self) -> String {

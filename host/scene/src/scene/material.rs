@@ -37,28 +37,36 @@ const ABOUT_CAPACITIES: &str =
     "it is what a unit of u stores: density times specific heat, or a specific storage";
 
 /// Reads `[material.NAME]`.
-pub(super) fn read_material(table: &Table) -> Result<Material> {
-    table.only("a material", "conductivity, capacity")?;
-    let entry = table.require("conductivity")?;
+pub(super) fn read_material(table: &Table) -> Option<Material> {
+    table.only("material.NAME", None);
+    let conductivity = table.read("conductivity", read_tensor);
+    let capacity = table.expression_or_zero("capacity", Variables::Space).and_then(|capacity| {
+        table.keep(check_capacity(table, &capacity))?;
+        Some(capacity)
+    });
+    let (conductivity, is_scalar) = conductivity?;
+    Some(Material { name: table.name.clone(), conductivity, is_scalar, capacity: capacity? })
+}
+
+/// The entries of A, and whether the file gives a scalar.
+fn read_tensor(entry: &Entry) -> Result<([Datum; 3], bool)> {
     let read = |entry: &Entry| entry.expression(Variables::Space);
-    let entries = entry.array().unwrap_or_default();
     let scalar = |a: Datum| {
         let zero = a.with(Expression::constant(0.0));
-        [a.clone(), zero, a]
+        ([a.clone(), zero, a], true)
     };
-    let (conductivity, is_scalar) = match &entries[..] {
-        [axx, axy, ayy] => ([read(axx)?, read(axy)?, read(ayy)?], false),
-        [a] => (scalar(read(a)?), true),
-        _ if entry.array().is_some() => {
-            return Err(entry.expected("a scalar or an array of three: a_xx, a_xy, a_yy").into());
-        }
-        _ => (scalar(read(&entry)?), true),
-    };
-    let capacity = table.expression_or_zero("capacity", Variables::Space)?;
-    let negative = capacity.value.is_constant().filter(|c| *c < 0.0);
-    if let (Some(entry), Some(c)) = (table.get("capacity"), negative) {
-        let error = entry.error(format_args!("{c} is negative, expected a capacity of at least 0"));
-        return Err(error.hint(ABOUT_CAPACITIES).into());
+    match entry.array().as_deref() {
+        Some([axx, axy, ayy]) => Ok(([read(axx)?, read(axy)?, read(ayy)?], false)),
+        Some([a]) => read(a).map(scalar),
+        Some(_) => Err(entry.expected("a scalar or an array of three: a_xx, a_xy, a_yy").into()),
+        None => read(entry).map(scalar),
     }
-    Ok(Material { name: table.name.clone(), conductivity, is_scalar, capacity })
+}
+
+fn check_capacity(table: &Table, capacity: &Datum) -> Result<()> {
+    let negative = capacity.value.is_constant().filter(|c| *c < 0.0);
+    negative.map_or(Ok(()), |c| {
+        let message = format_args!("{c} is negative, expected a capacity of at least 0");
+        Err(table.document.error(capacity, message).hint(ABOUT_CAPACITIES).into())
+    })
 }

@@ -19,6 +19,7 @@ mod boundary;
 mod control;
 mod document;
 mod entry;
+pub mod keys;
 mod material;
 mod output;
 mod range;
@@ -38,6 +39,7 @@ use std::sync::Arc;
 pub use boundary::Role;
 pub use material::Material;
 pub use range::InputRange;
+pub use read::Draft;
 
 use crate::error::InputError;
 use crate::expression::Expression;
@@ -56,6 +58,9 @@ pub struct Located<T> {
 
 /// A datum of the scene: a number or an expression.
 pub type Datum = Located<Expression>;
+
+/// A group by its name, with what is known of it: nothing, where that could not be read.
+type Named<T> = (Located<String>, Option<T>);
 
 /// A scene file, read and checked as far as possible without its mesh.
 #[derive(Debug, Clone, PartialEq)]

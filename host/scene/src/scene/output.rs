@@ -3,20 +3,20 @@
 use super::control::{find_boundary, list, read_unit};
 use super::entry::Entry;
 use super::table::Table;
-use super::{Boundary, Condition, Located, Material, Output, Quantity};
+use super::{Condition, Located, Material, Named, Output, Quantity};
 use crate::error::Result;
 
-/// The kinds of outputs, with words for each.
-const KINDS: [(&str, (&str, Quantity)); 9] = [
-    ("flux", ("a flux", Quantity::Flux)),
-    ("force", ("a force", Quantity::Force)),
-    ("length", ("a length", Quantity::Length)),
-    ("saturated", ("a saturated length", Quantity::Saturated)),
-    ("probe", ("a probe", Quantity::Probe { at: [0.0; 2] })),
-    ("mean", ("a mean", Quantity::Mean)),
-    ("content", ("a content", Quantity::Content)),
-    ("bound", ("a bound", Quantity::Bound)),
-    ("window", ("a window", Quantity::Window)),
+/// The kinds of outputs.
+const KINDS: [(&str, Quantity); 9] = [
+    ("flux", Quantity::Flux),
+    ("force", Quantity::Force),
+    ("length", Quantity::Length),
+    ("saturated", Quantity::Saturated),
+    ("probe", Quantity::Probe { at: [0.0; 2] }),
+    ("mean", Quantity::Mean),
+    ("content", Quantity::Content),
+    ("bound", Quantity::Bound),
+    ("window", Quantity::Window),
 ];
 
 const ABOUT_STORAGE: &str = "give a material a `capacity`: what a unit of u stores per area";
@@ -24,46 +24,57 @@ const ABOUT_STORAGE: &str = "give a material a `capacity`: what a unit of u stor
 /// Reads `[output.NAME]`.
 pub(super) fn read_output(
     table: &Table,
-    boundaries: &[Boundary],
-    materials: &[Material],
-) -> Result<Output> {
+    boundaries: &[Named<Condition>],
+    materials: &[Named<Material>],
+) -> Option<Output> {
     let kind = table.require("kind")?;
-    let (what, mut quantity) = kind.choice(&KINDS)?.value;
-    let of = match &mut quantity {
-        Quantity::Bound => table.only(what, "kind, unit").map(|()| Vec::new())?,
+    let quantity = table.keep(kind.choice(&KINDS))?.value;
+    table.only("output.NAME", kind.word());
+    let (unit, measured) = (read_unit(table), measured(table, quantity, boundaries, materials));
+    let (quantity, of) = measured?;
+    Some(Output { name: table.name.clone(), quantity, of, unit: unit? })
+}
+
+/// The quantity with its place, and the groups that it is about.
+fn measured(
+    table: &Table,
+    quantity: Quantity,
+    boundaries: &[Named<Condition>],
+    materials: &[Named<Material>],
+) -> Option<(Quantity, Vec<Located<String>>)> {
+    match quantity {
+        Quantity::Bound => Some((quantity, Vec::new())),
         Quantity::Window => {
-            table.only(what, "kind, unit")?;
-            stores(&kind, materials)?;
-            Vec::new()
+            let kind = table.require("kind")?;
+            table.keep(stores(&kind, materials))?;
+            Some((quantity, Vec::new()))
         }
-        Quantity::Probe { at } => {
-            table.only(what, "kind, at, unit")?;
-            let [x, y] = table.require("at")?.pair("x, y")?;
-            *at = [x.number()?, y.number()?];
-            Vec::new()
+        Quantity::Probe { .. } => {
+            let at = table.read("at", |at| {
+                let [x, y] = at.pair("x, y")?;
+                Ok([x.number()?, y.number()?])
+            })?;
+            Some((Quantity::Probe { at }, Vec::new()))
         }
         Quantity::Mean | Quantity::MeanInside => {
-            table.only(what, "kind, of, unit")?;
-            let of = table.require("of")?;
-            quantity = mean(&of, boundaries, materials)?;
-            vec![of.text()?]
+            table.read("of", |of| Ok((mean(of, boundaries, materials)?, vec![of.text()?])))
         }
         Quantity::Content => {
-            table.only(what, "kind, of, unit")?;
-            content(&kind, table.get("of").as_ref(), materials)?
+            let kind = table.require("kind")?;
+            let of = table.keep(content(&kind, table.get("of").as_ref(), materials))?;
+            Some((quantity, of))
         }
         Quantity::Flux => {
-            table.only(what, "kind, of, unit")?;
             let named = |of: &Entry| find_boundary(of, boundaries).and_then(|_| of.text());
-            one_or_more(&table.require("of")?, BOUNDARIES, named)?
+            let of = table.read("of", |of| one_or_more(of, BOUNDARIES, named))?;
+            Some((quantity, of))
         }
         Quantity::Force | Quantity::Length | Quantity::Saturated => {
-            table.only(what, "kind, of, unit")?;
             let named = |of: &Entry| contact(of, boundaries);
-            table.get("of").map_or(Ok(Vec::new()), |of| one_or_more(&of, BOUNDARIES, named))?
+            let of = table.read_or("of", Vec::new(), |of| one_or_more(of, BOUNDARIES, named))?;
+            Some((quantity, of))
         }
-    };
-    Ok(Output { name: table.name.clone(), quantity, of, unit: read_unit(table)? })
+    }
 }
 
 const BOUNDARIES: [&str; 2] = ["boundary", "boundaries"];
@@ -92,10 +103,10 @@ fn one_or_more(
 }
 
 /// The name of a contact boundary.
-fn contact(of: &Entry, boundaries: &[Boundary]) -> Result<Located<String>> {
-    match &find_boundary(of, boundaries)?.condition {
-        Condition::Contact { .. } => of.text(),
-        other => {
+fn contact(of: &Entry, boundaries: &[Named<Condition>]) -> Result<Located<String>> {
+    match find_boundary(of, boundaries)? {
+        Some(Condition::Contact { .. }) | None => of.text(),
+        Some(other) => {
             let message = format!("expected a contact boundary, this one is {}", other.kind());
             Err(of.error(message).hint("without `of` it is taken over all contact").into())
         }
@@ -103,18 +114,22 @@ fn contact(of: &Entry, boundaries: &[Boundary]) -> Result<Located<String>> {
 }
 
 /// A mean over a boundary or, where none has the name, over a material.
-fn mean(of: &Entry, boundaries: &[Boundary], materials: &[Material]) -> Result<Quantity> {
+fn mean(
+    of: &Entry,
+    boundaries: &[Named<Condition>],
+    materials: &[Named<Material>],
+) -> Result<Quantity> {
     let name = of.text()?.value;
-    if boundaries.iter().any(|known| known.name.value == name) {
+    if boundaries.iter().any(|(known, _)| known.value == name) {
         return Ok(Quantity::Mean);
     }
-    if materials.iter().any(|known| known.name.value == name) {
+    if materials.iter().any(|(known, _)| known.value == name) {
         return Ok(Quantity::MeanInside);
     }
     let error = of.error(format_args!("no boundary or material `{name}` in the scene"));
     let names = [
-        list(boundaries.iter().map(|boundary| &boundary.name)),
-        list(materials.iter().map(|material| &material.name)),
+        list(boundaries.iter().map(|(name, _)| name)),
+        list(materials.iter().map(|(name, _)| name)),
     ];
     let [boundaries, materials] = names;
     Err(error.hint(format!("boundaries: {boundaries}; materials: {materials}")).into())
@@ -124,18 +139,18 @@ fn mean(of: &Entry, boundaries: &[Boundary], materials: &[Material]) -> Result<Q
 fn content(
     kind: &Entry,
     of: Option<&Entry>,
-    materials: &[Material],
+    materials: &[Named<Material>],
 ) -> Result<Vec<Located<String>>> {
     let Some(of) = of else { return stores(kind, materials).map(|()| Vec::new()) };
     let names = one_or_more(of, MATERIALS, |of| find_material(of, materials))?;
-    let is_named = |material: &&Material| names.iter().any(|of| of.value == material.name.value);
+    let is_named = |(name, _): &&Named<Material>| names.iter().any(|of| of.value == name.value);
     stores(of, materials.iter().filter(is_named))?;
     Ok(names)
 }
 
-/// Refuses materials none of which stores u.
-fn stores<'m>(at: &Entry, materials: impl IntoIterator<Item = &'m Material>) -> Result<()> {
-    match materials.into_iter().any(Material::stores) {
+/// Refuses materials none of which stores u; of one that could not be read nobody knows.
+fn stores<'m>(at: &Entry, materials: impl IntoIterator<Item = &'m Named<Material>>) -> Result<()> {
+    match materials.into_iter().any(|(_, of)| of.as_ref().is_none_or(Material::stores)) {
         true => Ok(()),
         false => {
             let error = at.error("no material that it is about has a capacity");
@@ -145,13 +160,13 @@ fn stores<'m>(at: &Entry, materials: impl IntoIterator<Item = &'m Material>) -> 
 }
 
 /// The name of a material.
-fn find_material(of: &Entry, materials: &[Material]) -> Result<Located<String>> {
+fn find_material(of: &Entry, materials: &[Named<Material>]) -> Result<Located<String>> {
     let name = of.text()?;
-    if materials.iter().any(|material| material.name.value == name.value) {
+    if materials.iter().any(|(known, _)| known.value == name.value) {
         return Ok(name);
     }
     let error = of.error(format_args!("no material `{}` in the scene", name.value));
-    let names = list(materials.iter().map(|material| &material.name));
+    let names = list(materials.iter().map(|(name, _)| name));
     Err(error.hint(format!("materials of the scene: {names}")).into())
 }
 

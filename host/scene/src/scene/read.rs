@@ -14,58 +14,92 @@ use super::boundary::read_boundary;
 use super::control::read_input;
 use super::document::{Document, document, load};
 use super::entry::Entry;
+use super::keys::{Section, tables};
 use super::material::read_material;
 use super::output::read_output;
 use super::setting::read_setting;
 use super::table::Table;
-use super::{Exact, Located, Material, Scene, Target, Time};
-use crate::error::{Error, Result};
+use super::{Boundary, Condition, Exact, Located, Material, Named, Scene, Target, Time};
+use crate::error::{Error, InputError, Result};
 use crate::expression::{Expression, Variables};
+use crate::faults::Faults;
 
 /// Most tables `[KIND.NAME]` of a kind: names are looked up one by one, and each input has a field of its own.
 const MOST_TABLES: usize = 256;
 
-const SECTIONS: &str =
-    "title, mesh, material, source, boundary, input, output, target, time, exact, setting, extends";
+/// A scene file as far as it could be read.
+#[derive(Debug)]
+pub struct Draft {
+    /// The scene: a boundary without a condition that could be read has no flux, a material without one A = 1.
+    pub scene: Scene,
+    /// The keys of what could not be read: `boundary.river`, `mesh`.
+    pub open: Vec<String>,
+    /// What is wrong with the file and with the one that it extends.
+    pub faults: Vec<InputError>,
+}
 
 impl Scene {
     /// Reads and checks the scene file at `path`, and the one it extends, if it is a fragment; the
     /// mesh file is not touched.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it: the first fault, and all others behind it.
     pub fn read(path: &Path) -> Result<Self> {
-        read(&load(path)?)
+        Self::draft(path)?.finish()
     }
 
     /// Reads and checks the scene `text`; `path` names it in messages, and mesh and extended scene
     /// are found from there.
+    ///
+    /// # Errors
+    /// As for [`Scene::read`].
     pub fn parse(text: &str, path: &Path) -> Result<Self> {
-        read(&document(text.as_bytes(), path)?)
+        read(document(text.as_bytes(), path)?)?.finish()
+    }
+
+    /// Reads the scene file at `path` as far as it can be read.
+    ///
+    /// # Errors
+    /// A file that cannot be opened, or is no TOML.
+    pub fn draft(path: &Path) -> Result<Draft> {
+        read(load(path)?)
     }
 }
 
-fn read(document: &Document) -> Result<Scene> {
-    let entries = document.parse()?;
-    let root = Table::root(document, &entries);
-    match root.get("extends") {
-        Some(extends) => read_fragment(&root, &extends),
-        None => read_scene(&root),
+impl Draft {
+    /// The scene, if nothing is wrong with it.
+    fn finish(self) -> Result<Scene> {
+        let faults = Faults::default();
+        self.faults.into_iter().for_each(|fault| faults.note(fault));
+        faults.into_result().map(|()| self.scene)
     }
+}
+
+fn read(document: Document) -> Result<Draft> {
+    let entries = document.parse()?;
+    let root = Table::root(&document, &entries);
+    let draft = match root.get("extends") {
+        Some(extends) => read_fragment(&root, &extends)?,
+        None => read_scene(&root),
+    };
+    drop(entries);
+    Ok(Draft { faults: faults(document, draft.faults), ..draft })
+}
+
+/// The faults of a document, then those of the one that it extends.
+fn faults(document: Document, extended: Vec<InputError>) -> Vec<InputError> {
+    let mut all = document.faults.into_vec();
+    all.extend(extended);
+    all
 }
 
 /// The scene that the fragment `root` extends, with the fragment's title and setting.
 ///
 /// Path and text remain those of the extended scene, where its values stand.
-fn read_fragment(root: &Table, extends: &Entry) -> Result<Scene> {
-    if let Some(error) = root.foreign("a fragment", "extends, title, setting") {
-        let hint = "a file that extends another changes [setting] and title alone";
-        return Err(error.hint(hint).into());
-    }
-    let path = path_beside(extends, "the path of a scene file")?;
-    // Reading a pipe would wait for whoever writes to it.
-    if path.metadata().is_ok_and(|metadata| !metadata.is_file()) {
-        let error = extends.error(format_args!("{} is no file", path.display()));
-        return Err(error.hint("extend the scene that stands on its own").into());
-    }
-    let document = load(&path)?;
+fn read_fragment(root: &Table, extends: &Entry) -> Result<Draft> {
+    let hint = "a file that extends another changes [setting] and title alone";
+    root.only_among("a fragment", &["extends", "title", "setting"], hint);
+    let document = load(&extended_path(extends)?)?;
     let entries = document.parse()?;
     let extended = Table::root(&document, &entries);
     if extended.get("extends").is_some() {
@@ -73,77 +107,115 @@ fn read_fragment(root: &Table, extends: &Entry) -> Result<Scene> {
         let error = extends.error(format_args!("{path} extends another scene itself"));
         return Err(error.hint("extend the scene that stands on its own").into());
     }
-    let mut scene = read_scene(&extended)?;
+    let mut draft = read_scene(&extended);
+    let scene = &mut draft.scene;
     if let Some(title) = root.get("title") {
-        scene.title = title.text()?.value;
+        scene.title = root.keep(title.text()).map_or_else(String::new, |title| title.value);
     }
-    scene.setting = section(root, "setting", read_setting)?.or(scene.setting);
+    let setting = root.table("setting").and_then(|table| read_setting(&table));
+    scene.setting = setting.or(scene.setting);
     scene.fragment = Some(root.document.path.clone());
-    Ok(scene)
+    drop(entries);
+    Ok(Draft { faults: document.faults.into_vec(), ..draft })
 }
 
-/// A scene that stands on its own.
-fn read_scene(root: &Table) -> Result<Scene> {
-    root.only("the scene", SECTIONS)?;
-    let boundaries = at_least_one(root, "boundary", read_boundary)?;
-    let materials = at_least_one(root, "material", read_material)?;
-    let stores = materials.iter().any(Material::stores);
-    Ok(Scene {
-        title: read_title(root)?,
-        mesh: read_mesh(root)?,
-        source: read_source(root)?,
-        inputs: each(root, "input", |table| read_input(table, &boundaries))?,
-        outputs: each(root, "output", |table| read_output(table, &boundaries, &materials))?,
-        materials,
-        boundaries,
-        target: section(root, "target", read_target)?,
-        time: root.table("time")?.map(|table| read_time(&table, stores)).transpose()?,
-        exact: section(root, "exact", read_exact)?,
-        setting: section(root, "setting", read_setting)?,
+/// The file that a fragment extends.
+fn extended_path(extends: &Entry) -> Result<PathBuf> {
+    let path = path_beside(extends, "the path of a scene file")?;
+    // Reading a pipe would wait for whoever writes to it.
+    if path.metadata().is_ok_and(|metadata| !metadata.is_file()) {
+        let error = extends.error(format_args!("{} is no file", path.display()));
+        return Err(error.hint("extend the scene that stands on its own").into());
+    }
+    Ok(path)
+}
+
+/// A scene that stands on its own; its faults are still in its document.
+fn read_scene(root: &Table) -> Draft {
+    let top: Vec<_> = Section::of("", None).into_iter().flat_map(Section::names).collect();
+    let allowed = [top, tables()].concat();
+    root.only_among("the scene", &allowed, &format!("allowed here: {}", allowed.join(", ")));
+    let boundaries = at_least_one(root, "boundary", read_boundary);
+    let materials = at_least_one(root, "material", read_material);
+    let stores = materials.iter().any(|(_, of)| of.as_ref().is_none_or(Material::stores));
+    let inputs = each(root, "input", |table| read_input(table, &boundaries));
+    let outputs = each(root, "output", |table| read_output(table, &boundaries, &materials));
+    let mesh = read_mesh(root);
+    let open = mesh.is_none().then(|| "mesh".to_owned());
+    let open = open.into_iter().chain(unread(&boundaries)).chain(unread(&materials)).collect();
+    let scene = Scene {
+        title: read_title(root),
+        mesh: mesh.unwrap_or_else(|| root.missing("mesh", PathBuf::new())),
+        source: read_source(root)
+            .unwrap_or_else(|| root.missing("source", Expression::constant(0.0))),
+        inputs: inputs.into_iter().filter_map(|(_, input)| input).collect(),
+        outputs: outputs.into_iter().filter_map(|(_, output)| output).collect(),
+        materials: materials
+            .into_iter()
+            .map(|(name, of)| of.unwrap_or_else(|| unit(name)))
+            .collect(),
+        boundaries: boundaries.into_iter().map(|(name, of)| bounded(name, of)).collect(),
+        target: root.table("target").and_then(|table| read_target(&table)),
+        time: root.table("time").and_then(|table| read_time(&table, stores)),
+        exact: root.table("exact").and_then(|table| read_exact(&table)),
+        setting: root.table("setting").and_then(|table| read_setting(&table)),
         fragment: None,
         path: root.document.path.clone(),
         text: root.document.text.clone(),
-    })
+    };
+    Draft { scene, open, faults: Vec::new() }
 }
 
-/// The table `[key]`, read, if there is one.
-fn section<T>(root: &Table, key: &str, read: fn(&Table) -> Result<T>) -> Result<Option<T>> {
-    root.table(key)?.as_ref().map(read).transpose()
+/// The keys of the groups that could not be read.
+fn unread<T>(groups: &[Named<T>]) -> impl Iterator<Item = String> {
+    groups.iter().filter(|(_, of)| of.is_none()).map(|(name, _)| name.key.clone())
 }
 
-/// The tables `[key.NAME]`, each read.
-fn each<T>(root: &Table, key: &str, read: impl Fn(&Table) -> Result<T>) -> Result<Vec<T>> {
-    let tables = root.tables(key)?;
+/// A boundary; without flux where its condition could not be read.
+fn bounded(name: Located<String>, condition: Option<Condition>) -> Boundary {
+    let none = || Condition::Neumann { flux: name.with(Expression::constant(0.0)) };
+    let condition = condition.unwrap_or_else(none);
+    Boundary { name, condition }
+}
+
+/// A material of A = 1.
+fn unit(name: Located<String>) -> Material {
+    let number = |value| name.with(Expression::constant(value));
+    let conductivity = [number(1.0), number(0.0), number(1.0)];
+    Material { conductivity, is_scalar: true, capacity: number(0.0), name }
+}
+
+/// The tables `[key.NAME]` by name, each read.
+fn each<T>(root: &Table, key: &str, read: impl Fn(&Table) -> Option<T>) -> Vec<Named<T>> {
+    let tables = root.tables(key);
     if let Some(table) = tables.get(MOST_TABLES) {
         let message = format!("{} tables [{key}.…], expected at most {MOST_TABLES}", tables.len());
-        let error = root.document.error(&table.name, message);
-        return Err(error.hint("join groups of the mesh that have the same data").into());
+        let fault = root.document.error(&table.name, message);
+        root.document.faults.note(fault.hint("join groups of the mesh that have the same data"));
+        return Vec::new();
     }
-    tables.iter().map(read).collect()
+    tables.iter().map(|table| (table.name.clone(), read(table))).collect()
 }
 
-fn at_least_one<T>(root: &Table, key: &str, read: impl Fn(&Table) -> Result<T>) -> Result<Vec<T>> {
-    let all = each(root, key, read)?;
-    if all.is_empty() {
+fn at_least_one<T>(root: &Table, key: &str, read: impl Fn(&Table) -> Option<T>) -> Vec<Named<T>> {
+    let all = each(root, key, read);
+    if all.is_empty() && root.get(key).is_none() {
         let hint =
             format!("write [{key}.NAME] with the name of a group of the mesh, or [{key}.default]");
-        return Err(root.absent(key).hint(hint).into());
+        root.document.faults.note(root.absent(key).hint(hint));
     }
-    Ok(all)
+    all
 }
 
-fn read_title(root: &Table) -> Result<String> {
-    match root.get("title") {
-        Some(entry) => Ok(entry.text()?.value),
-        None => {
-            Ok(root.document.path.file_stem().unwrap_or_default().to_string_lossy().into_owned())
-        }
-    }
+fn read_title(root: &Table) -> String {
+    let title = root.get("title").and_then(|entry| root.keep(entry.text()));
+    let of_file =
+        || root.document.path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    title.map_or_else(of_file, |title| title.value)
 }
 
-fn read_mesh(root: &Table) -> Result<Located<PathBuf>> {
-    let entry = root.require("mesh")?;
-    Ok(entry.at.with(path_beside(&entry, "the path of a mesh file")?))
+fn read_mesh(root: &Table) -> Option<Located<PathBuf>> {
+    root.read("mesh", |entry| Ok(entry.at.with(path_beside(entry, "the path of a mesh file")?)))
 }
 
 /// The file that an entry names, seen from the folder of its own file.
@@ -155,55 +227,58 @@ fn path_beside(entry: &Entry, expected: &str) -> Result<PathBuf> {
     Ok(entry.document.path.parent().unwrap_or(Path::new("")).join(name))
 }
 
-fn read_source(root: &Table) -> Result<Located<Expression>> {
-    let Some(table) = root.table("source")? else {
+fn read_source(root: &Table) -> Option<Located<Expression>> {
+    let Some(table) = root.table("source") else {
         let key = "source.f".to_owned();
-        return Ok(Located { value: Expression::constant(0.0), key, span: 0..0 });
+        return Some(Located { value: Expression::constant(0.0), key, span: 0..0 });
     };
-    table.only("the source", "f")?;
-    table.require("f")?.expression(Variables::SpaceTime)
+    table.only("source", None);
+    table.read("f", |entry| entry.expression(Variables::SpaceTime))
 }
 
-fn read_target(table: &Table) -> Result<Target> {
-    table.only("the target", "ram, flash, tick, clock")?;
-    let bytes = |key| table.get(key).as_ref().map(Entry::bytes).transpose();
-    let positive = |key, unit| table.get(key).map(|entry| entry.positive(unit)).transpose();
-    Ok(Target {
-        ram: bytes("ram")?,
-        flash: bytes("flash")?,
-        tick: positive("tick", "seconds")?,
-        clock: positive("clock", "hertz")?,
-    })
+fn read_target(table: &Table) -> Option<Target> {
+    table.only("target", None);
+    let bytes = |key| table.read_some(key, Entry::bytes);
+    let positive = |key, unit| table.read_some(key, |entry| entry.positive(unit));
+    let (ram, flash) = (bytes("ram"), bytes("flash"));
+    let (tick, clock) = (positive("tick", "seconds"), positive("clock", "hertz"));
+    Some(Target { ram: ram?, flash: flash?, tick: tick?, clock: clock? })
 }
 
 /// `stores`: whether a material does, so that ticks are steps in time, of which a command may be asked for any number.
-fn read_time(table: &Table, stores: bool) -> Result<Time> {
-    table.only("the time", "step, end, initial")?;
-    let step = table.require("step")?.positive("seconds")?;
-    let end = if stores { table.get("end") } else { Some(table.require("end")?) };
-    let end = end.map(|entry| match entry.positive("seconds")? {
-        end if end >= step => Ok(end),
+fn read_time(table: &Table, stores: bool) -> Option<Time> {
+    table.only("time", None);
+    let step = table.read("step", |entry| entry.positive("seconds"));
+    let late = |entry: &Entry| match entry.positive("seconds")? {
+        end if step.is_none_or(|step| end >= step) => Ok(end),
         end => {
+            let step = step.unwrap_or(end);
             let message = format!("{end} comes before the first step, {step}");
             Err(Error::from(entry.error(message)))
         }
-    });
+    };
+    let end = match stores {
+        true => table.read_some("end", late),
+        false => table.read("end", late).map(Some),
+    };
     let initial = table.get("initial");
     if let Some(entry) = initial.as_ref().filter(|_| !stores) {
-        let error = entry.error("no material stores u, so that nothing has a start");
-        return Err(error.hint("give a material a `capacity`, or remove `initial`").into());
+        let fault = entry.error("no material stores u, so that nothing has a start");
+        let hint = "give a material a `capacity`, or remove `initial`";
+        table.document.faults.note(fault.hint(hint));
     }
-    let is_steady = |entry: &Entry| entry.text().is_ok_and(|text| text.value == "steady");
-    let initial = initial.filter(|entry| !is_steady(entry));
-    let initial = initial.map(|entry| entry.expression(Variables::Space));
-    Ok(Time { step, end: end.transpose()?, initial: initial.transpose()? })
+    let stated = initial.filter(|entry| entry.word() != Some("steady"));
+    let initial = stated.map(|entry| table.keep(entry.expression(Variables::Space)));
+    let initial = initial.map_or(Some(None), |read| read.map(Some));
+    Some(Time { step: step?, end: end?, initial: initial? })
 }
 
-fn read_exact(table: &Table) -> Result<Exact> {
-    table.only("the exact solution", "u, gradient")?;
-    let u = table.require("u")?.expression(Variables::SpaceTime)?;
-    let [along_x, along_y] = table.require("gradient")?.pair("∂u/∂x, ∂u/∂y")?;
-    let gradient =
-        [along_x.expression(Variables::SpaceTime)?, along_y.expression(Variables::SpaceTime)?];
-    Ok(Exact { u, gradient })
+fn read_exact(table: &Table) -> Option<Exact> {
+    table.only("exact", None);
+    let u = table.read("u", |entry| entry.expression(Variables::SpaceTime));
+    let gradient = table.read("gradient", |entry| {
+        let [along_x, along_y] = entry.pair("∂u/∂x, ∂u/∂y")?;
+        Ok([along_x.expression(Variables::SpaceTime)?, along_y.expression(Variables::SpaceTime)?])
+    });
+    Some(Exact { u: u?, gradient: gradient? })
 }

@@ -9,65 +9,75 @@ use crate::error::{InputError, Result};
 use crate::goal::Goal;
 use crate::setting::{CellKind, MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
 
-const KEYS: &str = "refine, error, cells, element, scalar, math, model, solver, start, omega, \
-                    sweeps, share, certificate, memory";
-
-const CELLS: [(&str, CellKind); 2] =
+pub(super) const CELLS: [(&str, CellKind); 2] =
     [("triangles", CellKind::Triangles), ("quads", CellKind::Quads)];
-const ELEMENTS: [(&str, QuadElement); 2] =
+pub(super) const ELEMENTS: [(&str, QuadElement); 2] =
     [("parametric", QuadElement::Parametric), ("nonparametric", QuadElement::Nonparametric)];
-const SCALARS: [(&str, Precision); 3] =
+pub(super) const SCALARS: [(&str, Precision); 3] =
     [("f32", Precision::F32), ("f64", Precision::F64), ("f32+f64", Precision::Mixed)];
-const MATHS: [(&str, MathKind); 2] = [("libm", MathKind::Libm), ("micromath", MathKind::Micromath)];
-const MODELS: [(&str, ModelKind); 2] =
+pub(super) const MATHS: [(&str, MathKind); 2] =
+    [("libm", MathKind::Libm), ("micromath", MathKind::Micromath)];
+pub(super) const MODELS: [(&str, ModelKind); 2] =
     [("full", ModelKind::Full), ("condensed", ModelKind::Condensed)];
-const SOLVERS: [(&str, Option<Method>); 4] = [
+pub(super) const SOLVERS: [(&str, Option<Method>); 4] = [
     ("auto", None),
     ("sweeps", Some(Method::Sweeps)),
     ("factor", Some(Method::Factor)),
     ("exact", Some(Method::Exact)),
 ];
-const STARTS: [(&str, Start); 2] = [("cold", Start::Cold), ("warm", Start::Warm)];
+pub(super) const STARTS: [(&str, Start); 2] = [("cold", Start::Cold), ("warm", Start::Warm)];
 
 /// Six refinements make 4096 cells of one.
-const FINEST: u32 = 6;
+pub(super) const FINEST: u32 = 6;
 
 /// More states than any mesh that is condensed has modes.
-const MOST_STATES: u32 = 10_000;
+pub(super) const MOST_STATES: u32 = 10_000;
 
 /// Reads `[setting]`; what is left out is as in [`Setting::default`].
-pub(super) fn read_setting(table: &Table) -> Result<Setting> {
-    table.only("the setting", KEYS)?;
+pub(super) fn read_setting(table: &Table) -> Option<Setting> {
+    table.only("setting", None);
     let default = Setting::default();
+    let refine = table.read_or("refine", default.refine, |entry| entry.whole(0..=FINEST));
+    let error = table.read_some("error", goal);
+    let cells = choice(table, "cells", &CELLS);
+    let element = choice(table, "element", &ELEMENTS);
+    let scalar = choice(table, "scalar", &SCALARS);
+    let math = choice(table, "math", &MATHS);
+    let model = choice(table, "model", &MODELS);
+    let solver = table.read_or("solver", None, solver);
+    let start = choice(table, "start", &STARTS);
+    let omega = table.read_or("omega", default.omega, omega);
+    let sweeps = table.read_some("sweeps", |entry| entry.whole(1..=u32::MAX));
+    let share = table.read_some("share", |entry| entry.inside(0.0, 1.0));
+    let certificate = table.read_or("certificate", default.certificate, Entry::boolean);
+    let memory = table.read_some("memory", |entry| entry.whole(0..=MOST_STATES));
     let setting = Setting {
-        refine: read(table, "refine", |entry| entry.whole(0..=FINEST))?.unwrap_or(default.refine),
-        error: read(table, "error", goal)?,
-        cells: choice(table, "cells", &CELLS)?,
-        element: choice(table, "element", &ELEMENTS)?.unwrap_or(default.element),
-        scalar: choice(table, "scalar", &SCALARS)?,
-        math: choice(table, "math", &MATHS)?.unwrap_or(default.math),
-        model: choice(table, "model", &MODELS)?,
-        solver: read(table, "solver", solver)?.flatten(),
-        start: choice(table, "start", &STARTS)?.unwrap_or(default.start),
-        omega: read(table, "omega", omega)?.unwrap_or(default.omega),
-        sweeps: read(table, "sweeps", |entry| entry.whole(1..=u32::MAX))?,
-        share: read(table, "share", |entry| entry.inside(0.0, 1.0))?,
-        certificate: read(table, "certificate", |entry| entry.boolean())?
-            .unwrap_or(default.certificate),
-        memory: read(table, "memory", |entry| entry.whole(0..=MOST_STATES))?,
+        refine: refine?,
+        error: error?,
+        cells: cells?,
+        element: element?.unwrap_or(default.element),
+        scalar: scalar?,
+        math: math?.unwrap_or(default.math),
+        model: model?,
+        solver: solver?,
+        start: start?.unwrap_or(default.start),
+        omega: omega?,
+        sweeps: sweeps?,
+        share: share?,
+        certificate: certificate?,
+        memory: memory?,
     };
     match contradiction(&setting) {
-        None => Ok(setting),
-        Some((key, message, hint)) => Err(error(table, key, message).hint(hint).into()),
+        None => Some(setting),
+        Some((key, message, hint)) => {
+            table.document.faults.note(error_at(table, key, message).hint(hint));
+            None
+        }
     }
 }
 
-fn read<T>(table: &Table, key: &str, of: impl Fn(&Entry) -> Result<T>) -> Result<Option<T>> {
-    table.get(key).as_ref().map(of).transpose()
-}
-
-fn choice<T: Copy>(table: &Table, key: &str, choices: &[(&str, T)]) -> Result<Option<T>> {
-    read(table, key, |entry| Ok(entry.choice(choices)?.value))
+fn choice<T: Copy>(table: &Table, key: &str, choices: &[(&str, T)]) -> Option<Option<T>> {
+    table.read_some(key, |entry| Ok(entry.choice(choices)?.value))
 }
 
 /// A scene says what a device does; what is for the desk alone is told.
@@ -100,7 +110,7 @@ fn goal(entry: &Entry) -> Result<Goal> {
 }
 
 /// The error that the value of `key` does not go with another.
-fn error(table: &Table, key: &str, message: &str) -> InputError {
+fn error_at(table: &Table, key: &str, message: &str) -> InputError {
     table.get(key).map_or_else(|| table.absent(key), |entry| entry.error(message))
 }
 

@@ -1,7 +1,7 @@
 //! TOML with places: tables that know their key and the bytes they stand in.
 //!
-//! A table is asked first which keys it may hold ([`Table::only`]), so that a misspelt key is
-//! reported as such and not as the absence of the right one; then its entries are read one by one.
+//! A table is asked which keys it may hold ([`Table::only`]), so that a misspelt key is reported as such; then its
+//! entries are read one by one. What is wrong is noted in the document, and the reader goes on.
 //! Serde could read the same into structs, but its errors carry no path of keys, and an enum chosen
 //! by `kind` loses the places.
 
@@ -12,6 +12,7 @@ use toml::de::{DeString, DeTable, DeValue};
 
 use super::document::Document;
 use super::entry::Entry;
+use super::keys::Section;
 use super::{Datum, Located};
 use crate::error::{InputError, Result};
 use crate::expression::{Expression, Variables};
@@ -30,23 +31,51 @@ impl<'a> Table<'a> {
         Self { document, name, entries }
     }
 
-    /// Refuses keys other than `allowed`, a list with commas; `what` names the table in the message.
-    pub fn only(&self, what: &str, allowed: &str) -> Result<()> {
-        let hint = || format!("allowed here: {allowed}");
-        self.foreign(what, allowed).map_or(Ok(()), |error| Err(error.hint(hint()).into()))
+    /// Notes keys that a table with this header, and of this kind, does not have.
+    pub fn only(&self, header: &str, kind: Option<&str>) {
+        let Some(section) = Section::of(header, kind) else { return };
+        let allowed: Vec<_> = section.names().collect();
+        self.only_among(section.what, &allowed, &format!("allowed here: {}", allowed.join(", ")));
     }
 
-    /// The error of the first key that is not among `allowed`, still without a hint.
-    pub fn foreign(&self, what: &str, allowed: &str) -> Option<InputError> {
-        let foreign = self
-            .entries
-            .keys()
-            .filter(|key| !allowed.split(", ").any(|known| key.get_ref() == known))
-            .min_by_key(|key| key.span().start);
-        foreign.map(|key| {
+    /// Notes keys other than `allowed`; `what` names the table in the message.
+    pub fn only_among(&self, what: &str, allowed: &[&str], hint: &str) {
+        let foreign = self.entries.keys().filter(|key| !allowed.contains(&key.get_ref().as_ref()));
+        for key in foreign {
             let at = self.locate(key.get_ref(), key.span(), ());
-            self.document.error(&at, format_args!("unknown key of {what}"))
-        })
+            let fault = self.document.error(&at, format_args!("unknown key of {what}"));
+            self.document.faults.note(fault.hint(hint));
+        }
+    }
+
+    /// The value that was read, or nothing: then its fault is noted.
+    pub fn keep<T>(&self, read: Result<T>) -> Option<T> {
+        self.document.faults.keep(read)
+    }
+
+    /// The value of `key`, which must be there, read.
+    pub fn read<T>(&self, key: &str, read: impl FnOnce(&Entry<'a>) -> Result<T>) -> Option<T> {
+        let entry = self.require(key)?;
+        self.keep(read(&entry))
+    }
+
+    /// The value of `key`, read; `default` if the key is absent, nothing if its value is wrong.
+    pub fn read_or<T>(
+        &self,
+        key: &str,
+        default: T,
+        read: impl FnOnce(&Entry<'a>) -> Result<T>,
+    ) -> Option<T> {
+        self.get(key).map_or(Some(default), |entry| self.keep(read(&entry)))
+    }
+
+    /// The value of `key` if there is one, read; nothing if it is wrong.
+    pub fn read_some<T>(
+        &self,
+        key: &str,
+        read: impl FnOnce(&Entry<'a>) -> Result<T>,
+    ) -> Option<Option<T>> {
+        self.read_or(key, None, |entry| read(entry).map(Some))
     }
 
     /// The value of `key`, if there is one.
@@ -56,15 +85,18 @@ impl<'a> Table<'a> {
         Some(Entry { document: self.document, at })
     }
 
-    /// The value of `key`, which must be there.
-    pub fn require(&self, key: &str) -> Result<Entry<'a>> {
-        self.get(key).ok_or_else(|| {
+    /// The value of `key`; where there is none, that is noted.
+    pub fn require(&self, key: &str) -> Option<Entry<'a>> {
+        let entry = self.get(key);
+        if entry.is_none() {
             let under = match self.name.key.as_str() {
                 "" => "at the top of the scene".to_owned(),
                 table => format!("under [{table}]"),
             };
-            self.absent(key).hint(format!("add `{key} = …` {under}")).into()
-        })
+            let hint = format!("add `{key} = …` {under}");
+            self.document.faults.note(self.absent(key).hint(hint));
+        }
+        entry
     }
 
     /// The error that `key` is missing.
@@ -73,33 +105,30 @@ impl<'a> Table<'a> {
     }
 
     /// An expression in `variables`, 0 if the key is absent.
-    pub fn expression_or_zero(&self, key: &str, variables: Variables) -> Result<Datum> {
-        match self.get(key) {
-            Some(entry) => entry.expression(variables),
-            None => Ok(self.missing(key, Expression::constant(0.0))),
-        }
+    pub fn expression_or_zero(&self, key: &str, variables: Variables) -> Option<Datum> {
+        let zero = self.missing(key, Expression::constant(0.0));
+        self.read_or(key, zero, |entry| entry.expression(variables))
     }
 
     /// An end of a range: an expression in `variables` or an infinity, `default` if the key is absent.
-    pub fn end_of_range(&self, key: &str, default: f64, variables: Variables) -> Result<Datum> {
-        match self.get(key) {
-            Some(entry) => entry.end_of_range(variables),
-            None => Ok(self.missing(key, Expression::constant(default))),
-        }
+    pub fn end_of_range(&self, key: &str, default: f64, variables: Variables) -> Option<Datum> {
+        let default = self.missing(key, Expression::constant(default));
+        self.read_or(key, default, |entry| entry.end_of_range(variables))
     }
 
     /// The table under `key`, if there is one.
-    pub fn table(&self, key: &str) -> Result<Option<Self>> {
-        let Some((name, value)) = self.entries.get_key_value(key) else { return Ok(None) };
-        self.subtable(name, value).map(Some)
+    pub fn table(&self, key: &str) -> Option<Self> {
+        let (name, value) = self.entries.get_key_value(key)?;
+        self.keep(self.subtable(name, value))
     }
 
     /// The tables under the table `key`, `[key.NAME]`, in the order of the file.
-    pub fn tables(&self, key: &str) -> Result<Vec<Self>> {
-        let Some(parent) = self.table(key)? else { return Ok(Vec::new()) };
+    pub fn tables(&self, key: &str) -> Vec<Self> {
+        let Some(parent) = self.table(key) else { return Vec::new() };
         let mut entries: Vec<_> = parent.entries.iter().collect();
         entries.sort_by_key(|(name, _)| name.span().start);
-        entries.into_iter().map(|(name, value)| parent.subtable(name, value)).collect()
+        let table = |(name, value)| parent.keep(parent.subtable(name, value));
+        entries.into_iter().filter_map(table).collect()
     }
 
     fn subtable(
@@ -122,7 +151,7 @@ impl<'a> Table<'a> {
     }
 
     /// Something that the file leaves out: it stands where the table begins.
-    fn missing<T>(&self, key: &str, value: T) -> Located<T> {
+    pub fn missing<T>(&self, key: &str, value: T) -> Located<T> {
         self.locate(key, self.name.span.clone(), value)
     }
 

@@ -1,0 +1,175 @@
+//! Every key of a scene file, with what it means: one list for the reader, the page, the schema and new scenes.
+//!
+//! | who | takes from it |
+//! |---|---|
+//! | [`super::table::Table::only`] | which keys a table may hold |
+//! | `docs/scene.md` | its table of keys ([`page::rows`]) |
+//! | `signorini schema` | the JSON Schema ([`super::schema`]) |
+//! | `signorini new` | the comments below each group |
+
+mod list;
+pub mod page;
+
+pub use list::SECTIONS;
+
+use crate::expression::Variables;
+
+/// A table of a scene file, or one kind of such a table.
+#[derive(Debug, Clone, Copy)]
+pub struct Section {
+    /// The header, `boundary.NAME`; empty for what stands above all tables.
+    pub header: &'static str,
+    /// The value of its key `kind`, where it has kinds.
+    pub kind: Option<&'static str>,
+    /// The table in words, as messages have it: "a robin boundary".
+    pub what: &'static str,
+    /// The keys that it may hold, `kind` left out.
+    pub keys: &'static [Key],
+}
+
+/// A key.
+#[derive(Debug, Clone, Copy)]
+pub struct Key {
+    /// Its name.
+    pub name: &'static str,
+    /// How its value is written.
+    pub value: Value,
+    /// What it means, in Markdown.
+    pub meaning: &'static str,
+    /// The unit of its value; empty where it has none.
+    pub unit: &'static str,
+    /// What holds where it is left out; nothing where it must be there.
+    pub default: Option<&'static str>,
+}
+
+/// How a value is written.
+#[derive(Debug, Clone, Copy)]
+pub enum Value {
+    /// Any text.
+    Text,
+    /// A text of 1 to 24 characters.
+    Unit,
+    /// One of these words.
+    Word(fn() -> Vec<&'static str>),
+    /// A number, or an expression in these variables.
+    Expression(Variables),
+    /// An expression, or an infinity.
+    End(Variables),
+    /// An expression, or an array of one or three of them.
+    Tensor(Variables),
+    /// An array of two expressions.
+    Gradient(Variables),
+    /// A number.
+    Number,
+    /// An array of two numbers.
+    Pair,
+    /// A number > 0.
+    Positive,
+    /// A number inside (0, 1).
+    Share,
+    /// A whole number from here to there.
+    Whole(u32, u32),
+    /// A positive whole number.
+    Bytes,
+    /// True or false.
+    Boolean,
+    /// The name of a table.
+    Name,
+    /// The name of a table, or a list of such names.
+    Names,
+    /// A number inside (0, 2), or "auto".
+    Omega,
+    /// A number > 0, or a part such as "5%".
+    Goal,
+}
+
+impl Value {
+    /// A value to begin with, as TOML.
+    pub fn sample(self) -> &'static str {
+        match self {
+            Self::Text | Self::Unit | Self::Word(_) | Self::Name | Self::Names => "\"\"",
+            Self::Tensor(_) | Self::Positive | Self::Bytes => "1",
+            Self::Gradient(_) | Self::Pair => "[0, 0]",
+            Self::Expression(_) | Self::End(_) | Self::Number | Self::Whole(..) => "0",
+            Self::Share => "0.01",
+            Self::Boolean => "true",
+            Self::Omega => "\"auto\"",
+            Self::Goal => "\"5%\"",
+        }
+    }
+}
+
+impl Section {
+    /// The section of this table: of this kind, where it has kinds.
+    pub fn of(header: &str, kind: Option<&str>) -> Option<&'static Self> {
+        SECTIONS.iter().find(|section| section.header == header && section.kind == kind)
+    }
+
+    /// The kinds of this table.
+    pub fn kinds(header: &str) -> impl Iterator<Item = &'static str> {
+        SECTIONS.iter().filter(move |section| section.header == header).filter_map(|of| of.kind)
+    }
+
+    /// The names of its keys.
+    pub fn names(&self) -> impl Iterator<Item = &'static str> {
+        let kind = self.kind.map(|_| "kind");
+        kind.into_iter().chain(self.keys.iter().map(|key| key.name))
+    }
+
+    /// Whether its header has a name of the user's.
+    pub fn is_named(&self) -> bool {
+        self.header.ends_with(".NAME")
+    }
+
+    /// The first part of its header.
+    pub fn table(&self) -> &'static str {
+        self.header.strip_suffix(".NAME").unwrap_or(self.header)
+    }
+}
+
+/// The tables of a scene, each once.
+pub fn tables() -> Vec<&'static str> {
+    let mut tables: Vec<_> =
+        SECTIONS.iter().map(Section::table).filter(|t| !t.is_empty()).collect();
+    tables.dedup();
+    tables
+}
+
+/// Markdown without its links and marks: `[energy_norm](accuracy.md)` is "energy_norm".
+pub fn plain(markdown: &str) -> String {
+    let mut plain = String::new();
+    let mut rest = markdown;
+    while let Some((before, after)) = rest.split_once("](") {
+        plain.push_str(before);
+        rest = after.split_once(')').map_or("", |(_, rest)| rest);
+        if let Some(open) = plain.rfind('[') {
+            plain.remove(open);
+        }
+    }
+    plain.push_str(rest);
+    plain.replace('`', "")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn links_are_left_out_of_plain_text() {
+        assert_eq!(plain("a scalar or [axx, axy, ayy]"), "a scalar or [axx, axy, ayy]");
+        assert_eq!(plain("([how](accuracy.md#x)): `f` or [g](h)."), "(how): f or g.");
+    }
+
+    #[test]
+    fn each_table_has_one_section_or_one_per_kind() {
+        for section in SECTIONS {
+            let same = SECTIONS.iter().filter(|other| other.header == section.header);
+            let alike = same.filter(|other| other.kind == section.kind || other.kind.is_none());
+            assert_eq!(alike.count(), 1, "{section:?}");
+            let mut names: Vec<_> = section.names().collect();
+            names.sort_unstable();
+            names.dedup();
+            assert_eq!(names.len(), section.names().count(), "{section:?}");
+        }
+    }
+}
