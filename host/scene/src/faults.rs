@@ -29,9 +29,9 @@ impl Faults {
         }
     }
 
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.0.borrow().is_empty()
+    /// How many there are so far.
+    pub fn count(&self) -> usize {
+        self.0.borrow().len()
     }
 
     /// All faults in the order in which they were found.
@@ -56,7 +56,7 @@ mod tests {
     #[test]
     fn all_faults_are_told_in_the_order_in_which_they_were_found() {
         let faults = Faults::default();
-        assert!(faults.is_empty());
+        assert_eq!(faults.count(), 0);
         assert_eq!(faults.keep(Ok(3)), Some(3));
         let read: Result<u8> =
             Err(InputError::new("one").with_others(vec![InputError::new("two")]).into());

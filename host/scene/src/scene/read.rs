@@ -198,8 +198,9 @@ fn each<T>(root: &Table, key: &str, read: impl Fn(&Table) -> Option<T>) -> Vec<N
 }
 
 fn at_least_one<T>(root: &Table, key: &str, read: impl Fn(&Table) -> Option<T>) -> Vec<Named<T>> {
+    let known = root.document.faults.count();
     let all = each(root, key, read);
-    if all.is_empty() && root.get(key).is_none() {
+    if all.is_empty() && root.document.faults.count() == known {
         let hint =
             format!("write [{key}.NAME] with the name of a group of the mesh, or [{key}.default]");
         root.document.faults.note(root.absent(key).hint(hint));
