@@ -3,7 +3,8 @@
 use std::collections::{HashMap, HashSet};
 
 use super::{EdgeKind, Topology};
-use signorini_scene::error::{InputError, Result};
+use signorini_scene::error::InputError;
+use signorini_scene::faults::Faults;
 use signorini_scene::mesh::{Curve, Mesh};
 use signorini_scene::scene::{Boundary, Located, Scene};
 
@@ -22,59 +23,70 @@ pub struct Binding {
 }
 
 impl Binding {
-    /// Resolves the names of `scene` on `mesh`.
-    ///
-    /// # Errors
-    /// A name that the mesh lacks, a cell with no material or with two.
-    pub fn new(scene: &Scene, mesh: &Mesh) -> Result<Self> {
-        let materials = bind_materials(scene, mesh)?;
+    /// Resolves the names of `scene` on `mesh`; a name that the mesh lacks, a cell with no material or with two are faults.
+    pub(super) fn new(scene: &Scene, mesh: &Mesh, faults: &Faults) -> Self {
+        let materials = bind_materials(scene, mesh, faults);
         let mut binding =
             Self { materials, named: HashMap::new(), twice: HashMap::new(), default: None };
-        binding.bind_boundaries(scene, mesh)?;
-        Ok(binding)
+        binding.bind_boundaries(scene, mesh, faults);
+        binding
     }
 
-    fn bind_boundaries(&mut self, scene: &Scene, mesh: &Mesh) -> Result<()> {
+    fn bind_boundaries(&mut self, scene: &Scene, mesh: &Mesh, faults: &Faults) {
         for (at, boundary) in scene.boundaries.iter().enumerate() {
             let at = at as u32;
             if boundary.name.value == DEFAULT {
                 self.default = Some(at);
                 continue;
             }
-            let curve = mesh.curves.iter().find(|curve| curve.name == boundary.name.value);
-            let known = mesh.curves.iter().map(|curve| curve.name.as_str());
-            let curve =
-                curve.ok_or_else(|| unknown(scene, &boundary.name, "physical curve", known))?;
+            let Some(curve) = mesh.curves.iter().find(|curve| curve.name == boundary.name.value)
+            else {
+                let known = mesh.curves.iter().map(|curve| curve.name.as_str());
+                faults.note(unknown(scene, &boundary.name, "physical curve", known));
+                continue;
+            };
             for &edge in &curve.edges {
                 if let Some(other) = self.named.insert(edge, at) {
                     self.twice.insert(edge, [other, at]);
                 }
             }
         }
-        Ok(())
     }
 
-    /// Refuses a boundary edge that lies in two curves with a condition.
-    pub(super) fn check_once(&self, scene: &Scene, mesh: &Mesh, ends: [u32; 2]) -> Result<()> {
-        let Some(&both) = self.twice.get(&key(ends)) else { return Ok(()) };
-        let [first, second] = both.map(|at| &scene.boundaries[at as usize].name);
-        let message = format!(
-            "the edge {} lies in the physical curves {:?} and {:?}, which both have a condition",
-            place(mesh, ends),
-            second.value,
-            first.value
-        );
-        Err(scene.error(second, message).hint("keep one of the two").into())
+    /// Notes boundary edges that lie in two curves with a condition, one of each such pair.
+    pub(super) fn check_once(
+        &self,
+        scene: &Scene,
+        mesh: &Mesh,
+        boundary: &[[u32; 2]],
+        faults: &Faults,
+    ) {
+        let mut told = HashSet::new();
+        for &ends in boundary {
+            let Some(&both) = self.twice.get(&key(ends)) else { continue };
+            if !told.insert(both) {
+                continue;
+            }
+            let [first, second] = both.map(|at| &scene.boundaries[at as usize].name);
+            let message = format!(
+                "the edge {} lies in the physical curves {:?} and {:?}, which both have a condition",
+                place(mesh, ends),
+                second.value,
+                first.value
+            );
+            faults.note(scene.error(second, message).hint("keep one of the two"));
+        }
     }
 
-    /// Refuses curves with a condition that have edges between two cells: nothing could act there. `boundary` are
+    /// Notes curves with a condition that have edges between two cells: nothing could act there. `boundary` are
     /// the edges on the boundary.
     pub(super) fn check_outside(
         scene: &Scene,
         mesh: &Mesh,
-        boundary: impl Iterator<Item = [u32; 2]>,
-    ) -> Result<()> {
-        let boundary: HashSet<_> = boundary.map(key).collect();
+        boundary: &[[u32; 2]],
+        faults: &Faults,
+    ) {
+        let boundary: HashSet<_> = boundary.iter().copied().map(key).collect();
         for Boundary { name, .. } in &scene.boundaries {
             let named = |curve: &&Curve| name.value != DEFAULT && curve.name == name.value;
             let Some(curve) = mesh.curves.iter().find(named) else { continue };
@@ -90,9 +102,26 @@ impl Binding {
             );
             let hint = "cut the mesh open along the curve (Gmsh's Crack plugin makes boundary of it), or \
                         remove the table";
-            return Err(scene.error(name, message).hint(hint).into());
+            faults.note(scene.error(name, message).hint(hint));
         }
-        Ok(())
+    }
+
+    /// Notes boundary edges that no table covers, the first of each curve.
+    pub(super) fn check_covered(
+        scene: &Scene,
+        mesh: &Mesh,
+        uncovered: &[[u32; 2]],
+        faults: &Faults,
+    ) {
+        let mut told = HashSet::new();
+        for &ends in uncovered {
+            let key = key(ends);
+            let within = mesh.curves.iter().find(|curve| curve.edges.binary_search(&key).is_ok());
+            let name = within.map_or(DEFAULT, |curve| &curve.name);
+            if told.insert(name) {
+                faults.note(uncovered_in(scene, mesh, within, ends));
+            }
+        }
     }
 
     /// Whether a table of the scene names a curve with this edge.
@@ -118,22 +147,21 @@ impl Binding {
             None => EdgeKind::Interior,
         }
     }
+}
 
-    pub(super) fn unbound(&self, scene: &Scene, mesh: &Mesh, ends: [u32; 2]) -> InputError {
-        let key = key(ends);
-        let within = mesh.curves.iter().find(|curve| curve.edges.binary_search(&key).is_ok());
-        let home = match within {
-            Some(curve) => format!("physical curve {:?} of the mesh", curve.name),
-            None => "a part of the boundary without a physical curve".to_owned(),
-        };
-        let curve = within.map_or(DEFAULT, |curve| &curve.name);
-        InputError::new(format!(
-            "boundary.{curve}: missing; the boundary edge {} lies in {home}, and no [boundary.…] covers it",
-            place(mesh, ends)
-        ))
-        .file(&scene.path)
-        .hint(to_add("boundary", curve))
-    }
+/// The fault of a boundary edge that no table covers, in the curve that it lies in.
+fn uncovered_in(scene: &Scene, mesh: &Mesh, within: Option<&Curve>, ends: [u32; 2]) -> InputError {
+    let home = match within {
+        Some(curve) => format!("physical curve {:?} of the mesh", curve.name),
+        None => "a part of the boundary without a physical curve".to_owned(),
+    };
+    let curve = within.map_or(DEFAULT, |curve| &curve.name);
+    InputError::new(format!(
+        "boundary.{curve}: missing; the boundary edge {} lies in {home}, and no [boundary.…] covers it",
+        place(mesh, ends)
+    ))
+    .file(&scene.path)
+    .hint(to_add("boundary", curve))
 }
 
 /// An edge as curves have it: the lower vertex first.
@@ -155,43 +183,49 @@ fn to_add(kind: &str, name: &str) -> String {
     }
 }
 
-fn bind_materials(scene: &Scene, mesh: &Mesh) -> Result<Vec<u32>> {
-    let cells = mesh.triangles.len() + mesh.quads.len();
-    let mut materials = vec![None; cells];
-    let mut default = None;
-    for (at, material) in scene.materials.iter().enumerate() {
+/// The material of each cell; of a cell with a fault the first one.
+fn bind_materials(scene: &Scene, mesh: &Mesh, faults: &Faults) -> Vec<u32> {
+    let mut materials = vec![None; mesh.cells()];
+    let (mut default, mut twice) = (None, HashSet::new());
+    for (at, material) in (0u32..).zip(&scene.materials) {
         if material.name.value == DEFAULT {
-            default = Some(at as u32);
+            default = Some(at);
             continue;
         }
-        let surface = mesh.surfaces.iter().find(|surface| surface.name == material.name.value);
-        let known = mesh.surfaces.iter().map(|surface| surface.name.as_str());
-        let surface =
-            surface.ok_or_else(|| unknown(scene, &material.name, "physical surface", known))?;
+        let Some(surface) = mesh.surfaces.iter().find(|of| of.name == material.name.value) else {
+            let known = mesh.surfaces.iter().map(|surface| surface.name.as_str());
+            faults.note(unknown(scene, &material.name, "physical surface", known));
+            continue;
+        };
         for &cell in &surface.cells {
-            if let Some(other) = materials[cell as usize].replace(at as u32) {
-                let other = &scene.materials[other as usize].name.value;
-                let message = format!(
-                    "cell {cell} lies in the physical surfaces {:?} and {other:?}, which both have a \
-                     material",
-                    surface.name
-                );
-                return Err(scene
-                    .error(&material.name, message)
-                    .hint("keep one of the two")
-                    .into());
+            if let Some(other) = materials[cell as usize].replace(at)
+                && twice.insert([other, at])
+            {
+                faults.note(two_materials(scene, cell, [other, at]));
             }
         }
     }
-    let missing = |cell: usize| {
+    let mut told = HashSet::new();
+    for cell in (0..materials.len()).filter(|&cell| materials[cell].or(default).is_none()) {
         let home = mesh.surfaces.iter().find(|s| s.cells.binary_search(&(cell as u32)).is_ok());
         let name = home.map_or(DEFAULT, |surface| &surface.name);
-        InputError::new(format!("material.{name}: missing; cell {cell} has no material"))
-            .file(&scene.path)
-            .hint(to_add("material", name))
-    };
-    let resolved = materials.iter().enumerate();
-    resolved.map(|(cell, own)| own.or(default).ok_or_else(|| missing(cell).into())).collect()
+        if told.insert(name) {
+            let message = format!("material.{name}: missing; cell {cell} has no material");
+            let fault = InputError::new(message).file(&scene.path);
+            faults.note(fault.hint(to_add("material", name)));
+        }
+    }
+    materials.iter().map(|own| own.or(default).unwrap_or(0)).collect()
+}
+
+/// The fault of a cell in two surfaces with a material.
+fn two_materials(scene: &Scene, cell: u32, both: [u32; 2]) -> InputError {
+    let [first, second] = both.map(|at| &scene.materials[at as usize].name);
+    let message = format!(
+        "cell {cell} lies in the physical surfaces {:?} and {:?}, which both have a material",
+        second.value, first.value
+    );
+    scene.error(second, message).hint("keep one of the two")
 }
 
 fn unknown<'n>(

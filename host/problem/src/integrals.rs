@@ -11,11 +11,12 @@ use crate::pieces::{Cut, Pieces, average};
 use crate::quadrature::{DATA_POINTS, Point, TRIANGLE_POINTS, on_quad};
 use crate::threads::{in_portions, on_two_threads};
 use signorini_scene::error::Result;
+use signorini_scene::faults::Faults;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::{Material, Scene};
 
 /// A as the element matrices need it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Coefficients {
     /// The mean over each triangle.
     pub triangles: Vec<Tensor<f64>>,
@@ -73,8 +74,10 @@ pub(super) fn coefficients(
     binding: &Binding,
     known: Option<BTreeMap<usize, Pieces>>,
 ) -> Result<Coefficients> {
-    let constants =
-        scene.materials.iter().map(|m| constant(scene, m)).collect::<Result<Vec<_>>>()?;
+    let faults = Faults::default();
+    let constants = scene.materials.iter().map(|m| faults.keep(constant(scene, m)).flatten());
+    let constants: Vec<_> = constants.collect();
+    faults.into_result()?;
     let of_cell = |at: usize| binding.materials[at] as usize;
     let varying: Vec<usize> =
         (0..binding.materials.len()).filter(|&at| constants[of_cell(at)].is_none()).collect();

@@ -18,6 +18,7 @@ mod element_matrices;
 pub mod field;
 pub mod fixtures;
 pub mod functional;
+mod groups;
 pub mod inputs;
 mod integrals;
 mod lacks;
@@ -52,6 +53,7 @@ mod widths;
 pub use assembled::Assembled;
 pub use binding::Binding;
 pub use corners::Exclusion;
+pub use groups::check_groups;
 pub use integrals::{Coefficients, QuadCoefficient};
 pub use lacks::{Approach, Lack};
 pub use limits::RangeTerm;
@@ -69,15 +71,15 @@ use std::sync::Arc;
 
 use signorini_kernel::Real;
 use signorini_kernel::element::QuadElement;
-use signorini_kernel::mesh::Mesh as KernelMesh;
 
 use element_matrices::ElementMatrices;
+use groups::Groups;
 use quadrature::DATA_POINTS;
 use signorini_scene::error::Result;
+use signorini_scene::faults::Faults;
 use signorini_scene::mesh::{Mesh, shape};
 use signorini_scene::scene::units::Units;
 use signorini_scene::scene::{Boundary, Field, Input, Scene};
-use topology::wrong_mesh;
 
 /// Everything that defines one discrete contact problem.
 #[derive(Debug, Clone)]
@@ -120,20 +122,17 @@ impl Problem {
     /// not finite or not admissible; each names the culprit.
     pub fn new(scene: &Scene, mesh: impl Into<Arc<Mesh>>) -> Result<Self> {
         let mesh = mesh.into();
-        let binding = Binding::new(scene, &mesh)?;
-        let (topology, ends) = number_edges(scene, &mesh, &binding)?;
+        let Groups { binding, topology, ends } = groups::bind(scene, &mesh)?;
         if let Some(parted) = pinched::parted(&mesh, &topology, &ends) {
             return Self::new(scene, parted);
         }
         let count = topology.counts.edges();
-        let outer = topology.half_edges.iter().zip(&ends).filter(|(pair, _)| pair[1] == u32::MAX);
-        let outer: Vec<_> = outer.map(|(_, &ends)| ends).collect();
-        outer.iter().try_for_each(|&ends| binding.check_once(scene, &mesh, ends))?;
-        Binding::check_outside(scene, &mesh, outer.iter().copied())?;
         let kinds = (0..count).map(|edge| binding.kind(scene, &topology, edge, ends[edge]));
         let at = |ends: [u32; 2]| ends.map(|vertex| mesh.vertices[vertex as usize]);
         let lengths = ends.iter().map(|&ends| shape::edge_length(at(ends)));
-        let coefficients = integrals::coefficients(scene, &mesh, &binding, None)?;
+        let faults = Faults::default();
+        let coefficients = faults.keep(integrals::coefficients(scene, &mesh, &binding, None));
+        let capacities = faults.keep(step::capacities(scene, &mesh, &binding));
         let mut problem = Self {
             scene: Arc::new(scene.clone()),
             kinds: kinds.collect(),
@@ -141,16 +140,17 @@ impl Problem {
             topology: Arc::new(topology),
             ends: ends.into(),
             element: scene.setting.unwrap_or_default().element,
-            capacities: step::capacities(scene, &mesh, &binding)?,
+            capacities: capacities.unwrap_or_default(),
             mesh,
             binding: Arc::new(binding),
-            coefficients: Arc::new(coefficients),
+            coefficients: Arc::new(coefficients.unwrap_or_default()),
             loads: Loads::default(),
             time: 0.0,
             units: Units::default(),
             warnings: Vec::new(),
         };
-        problem.set_time(0.0)?;
+        faults.keep(problem.set_time(0.0));
+        faults.into_result()?;
         transfer::check(&problem)?;
         corners::check_within_ranges(&problem)?;
         problem.warnings = warnings::warnings(&problem);
@@ -210,19 +210,4 @@ impl Problem {
             None => &self.mesh.quads[at - self.mesh.triangles.len()],
         }
     }
-}
-
-/// The edges of `mesh` and their ends; the mesh is checked once, here.
-fn number_edges(
-    scene: &Scene,
-    mesh: &Mesh,
-    binding: &Binding,
-) -> Result<(Topology, Vec<[u32; 2]>)> {
-    let kernel_mesh = KernelMesh::new(&mesh.vertices, &mesh.triangles, &mesh.quads)
-        .map_err(|error| wrong_mesh(scene, error))?;
-    let topology = Topology::number(scene, mesh, &kernel_mesh, binding)?;
-    let edges = topology.edges().map_err(|error| wrong_mesh(scene, error))?;
-    let ends = (0..edges.counts().edges()).map(|edge| edges.endpoints(&kernel_mesh, edge));
-    let ends = ends.collect();
-    Ok((topology, ends))
 }

@@ -14,6 +14,7 @@ use crate::quadrature::enclosed::Integral;
 use crate::quadrature::mean_on_edge;
 use crate::scalar::Scalar;
 use signorini_scene::error::Result;
+use signorini_scene::faults::Faults;
 use signorini_scene::scene::{Condition, Field};
 
 /// Everything on the right-hand side, integrated in f64; the kernel's records of it in the scalar `R`.
@@ -120,11 +121,7 @@ impl Loads {
             loads.quads = values(&all[triangles..]);
             loads.missed = all.iter().map(|integral| integral.missed).sum();
         }
-        for edge in 0..problem.ends.len() {
-            if problem.kinds[edge] != EdgeKind::Interior {
-                loads.add_edge(problem, edge, time)?;
-            }
-        }
+        loads.add_edges(problem, time)?;
         if loads.spans.iter().all(|&span| span == f64::INFINITY) {
             loads.spans.clear();
         }
@@ -164,6 +161,24 @@ impl Loads {
     pub fn of_cell(&self, cell: usize) -> f64 {
         let all = self.triangles.iter().chain(&self.quads);
         all.copied().nth(cell).unwrap_or(0.0)
+    }
+
+    /// The data of all boundary edges; of each boundary the first fault is told.
+    fn add_edges(&mut self, problem: &Problem, time: f64) -> Result<()> {
+        let (faults, mut told) = (Faults::default(), Vec::new());
+        for edge in 0..problem.ends.len() {
+            if problem.kinds[edge] == EdgeKind::Interior {
+                continue;
+            }
+            let boundary = problem.binding.boundary(problem.ends[edge]);
+            if let Err(error) = self.add_edge(problem, edge, time)
+                && !told.contains(&boundary)
+            {
+                told.push(boundary);
+                faults.add(error);
+            }
+        }
+        faults.into_result()
     }
 
     /// Edges come in the order of the blocks, so contact and Dirichlet data line up by themselves.

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::{Loads, Problem, corners, integrals, limits, transfer};
 use signorini_scene::error::Result;
+use signorini_scene::faults::Faults;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::term::{Term, left_with};
 use signorini_scene::scene::units::Units;
@@ -20,9 +21,11 @@ impl Problem {
         let step = self.loads.step.take();
         self.loads = Loads::at_time(self, time)?.in_step(self, step)?;
         self.time = time;
-        limits::check(self)?;
-        transfer::check_now(self)?;
-        corners::check(self)
+        let faults = Faults::default();
+        for check in [limits::check, transfer::check_now, corners::check] {
+            faults.keep(check(self));
+        }
+        faults.into_result()
     }
 
     /// Integrates the data at time `time` with these inputs, by their positions in the scene, at these values; others

@@ -151,13 +151,13 @@ impl Topology {
         }
     }
 
-    /// Numbers the edges of `mesh`, which the kernel has seen as `kernel_mesh`.
+    /// Numbers the edges of `mesh`, which the kernel has seen as `kernel_mesh`; with the boundary edges that no table covers.
     pub(super) fn number(
         scene: &Scene,
         mesh: &Mesh,
         kernel_mesh: &KernelMesh<f64, u32>,
         binding: &Binding,
-    ) -> Result<Self> {
+    ) -> Result<(Self, Vec<[u32; 2]>)> {
         let sides = kernel_mesh.half_edges();
         let mut topology = Self {
             of_triangles: vec![[0; 3]; mesh.triangles.len()],
@@ -172,17 +172,18 @@ impl Topology {
             at_vertex: &mut vec![[0; 2]; mesh.vertices.len()],
             next: &mut vec![0; sides],
         };
-        let block = |ends| {
-            let boundary = binding.boundary(ends)?;
-            Some(EdgeKind::of(&scene.boundaries[boundary].condition).block())
+        let mut uncovered = Vec::new();
+        let block = |ends| match binding.boundary(ends) {
+            Some(boundary) => Some(EdgeKind::of(&scene.boundaries[boundary].condition).block()),
+            None => {
+                uncovered.push(ends);
+                Some(Block::Free)
+            }
         };
         let counts = number(kernel_mesh, buffers, block).map(|edges| edges.counts());
-        topology.counts = counts.map_err(|error| match error {
-            KernelError::NoCondition(ends) => binding.unbound(scene, mesh, ends),
-            error => wrong_mesh(scene, error),
-        })?;
+        topology.counts = counts.map_err(|error| wrong_mesh(scene, error))?;
         topology.half_edges.truncate(topology.counts.edges());
-        Ok(topology)
+        Ok((topology, uncovered))
     }
 }
 
