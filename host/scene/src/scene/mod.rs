@@ -24,6 +24,7 @@ mod material;
 mod output;
 mod range;
 mod read;
+pub mod schema;
 mod setting;
 mod table;
 pub mod term;

@@ -25,7 +25,7 @@ use crate::expression::{Expression, Variables};
 use crate::faults::Faults;
 
 /// Most tables `[KIND.NAME]` of a kind: names are looked up one by one, and each input has a field of its own.
-const MOST_TABLES: usize = 256;
+pub(super) const MOST_TABLES: usize = 256;
 
 /// A scene file as far as it could be read.
 #[derive(Debug)]
