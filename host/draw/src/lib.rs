@@ -8,6 +8,7 @@
 //!                        ├─► tradeoff     settings: what they cost, how wrong they are ─► pareto
 //!                        └─► extremes     numbers pushed until something gives ─► outcome_map
 //! Chart ─► chart_file (SVG)             what changes from tick to tick, a diagram each
+//! Plan ─► plan_file (SVG)               what holds where, before anything is solved
 //! axes   a diagram's scales, grid, lines and areas ◄ chart, figure, contact, pareto
 //! ```
 //! No two curves of a plot have the same colour and marker (`look`). What enumerates is a list (`markup`).
@@ -32,6 +33,7 @@ mod outline;
 mod page;
 mod panel;
 mod pareto;
+mod plan;
 mod plane;
 mod scale;
 mod simplify;
@@ -47,6 +49,7 @@ pub use figure::measured_rate;
 pub use outcome_map::{OutcomeMap, Square};
 pub use page::html;
 pub use pareto::{ParetoPlot, ParetoPoint, pareto_file};
+pub use plan::{Plan, PlanBoundary, PlanKind, plan_file};
 pub use scale::plain;
 pub use table::{Column, Heading, Mark, Table, TableRow};
 pub use tradeoff::{TradePanel, TradeStudy, Tradeoff};

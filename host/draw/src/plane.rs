@@ -7,7 +7,7 @@ use super::svg::{Anchor, Path, Svg};
 use super::{BoundaryKind, ContactState, ScenePanel};
 
 /// Finer meshes would cover the colours.
-const MOST_CELLS_WITH_LINES: usize = 1200;
+pub const MOST_CELLS_WITH_LINES: usize = 1200;
 const MARGIN: f64 = 58.0;
 const TOP: f64 = 8.0;
 const BOTTOM: f64 = 30.0;
@@ -130,7 +130,8 @@ fn band_color(band: u32, count: u32) -> String {
     color((f64::from(band) + 0.5) / f64::from(count))
 }
 
-fn mesh_lines(panel: &ScenePanel, view: &View) -> Path {
+/// The sides of all cells, each once.
+pub fn mesh_lines(panel: &ScenePanel, view: &View) -> Path {
     let mut edges: Vec<[u32; 2]> = panel
         .cells()
         .flat_map(|cell| cell.iter().zip(cell.iter().cycle().skip(1)))

@@ -9,7 +9,7 @@ use signorini_scene::mesh::{Curve, Mesh};
 use signorini_scene::scene::{Boundary, Located, Scene};
 
 /// The name that covers what no other name does.
-const DEFAULT: &str = "default";
+pub(super) const DEFAULT: &str = "default";
 
 /// Names resolved to positions in `scene.materials` and `scene.boundaries`.
 #[derive(Debug, Clone)]

@@ -25,6 +25,7 @@ mod lacks;
 mod limits;
 mod loads;
 mod lowest;
+pub mod outline;
 pub mod pieces;
 mod pinched;
 pub mod pointwise;

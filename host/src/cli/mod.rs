@@ -3,13 +3,17 @@
 mod answer;
 mod bake;
 mod bake_c;
+mod check;
 mod example;
 mod extremes;
 mod interruption;
 mod levels;
+mod new;
+mod outlined;
 mod picture;
 mod scene_arguments;
 mod series;
+mod shell;
 mod solve;
 mod step_advice;
 mod tick;
@@ -22,11 +26,13 @@ use clap::{Parser, Subcommand};
 
 use signorini_files::atomic::write_atomically;
 use signorini_scene::error::{InputError, Result};
-use signorini_scene::scene::Scene;
+use signorini_scene::scene::{Scene, schema};
 
 const EXAMPLES: &str = "\
 Examples:
   signorini                                         all standard scenes, table and report
+  signorini new bar.msh                             a scene for a mesh: bar.toml, to be filled in
+  signorini check bar.toml --draw bar.svg           what stands where, and all that is wrong, without solving
   signorini solve meshes/scenes/levee.toml          one scene; files in out/levee
   signorini solve my.toml --scalar f32 --out /tmp/a what a microcontroller would compute
   signorini tick my.toml --budget-sweeps 40         the scene over time, warm-started
@@ -50,6 +56,10 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Write a scene for a mesh: a table per group, with "?" where somebody has to decide
+    New(new::Arguments),
+    /// Tell what stands where in a scene and everything that is wrong with it, without solving it
+    Check(check::Arguments),
     /// Solve one scene and write edges.csv, summary.json, solution.vtu and contact.vtu
     Solve(solve::Arguments),
     /// Solve a scene over time, each tick from the last one's answer; write ticks.csv and ticks.svg
@@ -60,6 +70,12 @@ enum Command {
     Trade(trade::Arguments),
     /// Push every scale until something gives: a map of what is correct, poor or refused
     Extremes(extremes::Arguments),
+    /// Print the JSON Schema of scene files, for editors
+    Schema,
+    /// Print completions for a shell
+    Completions(shell::Arguments),
+    /// Print the manual page of signorini or of one command, for `man -l -`
+    Man(shell::Page),
 }
 
 impl Cli {
@@ -69,11 +85,16 @@ impl Cli {
     /// Wrong input, files that cannot be written, failed checks.
     pub fn run(self) -> Result<u8> {
         match self.command {
+            Some(Command::New(arguments)) => arguments.run(),
+            Some(Command::Check(arguments)) => arguments.run(),
             Some(Command::Solve(arguments)) => arguments.run(),
             Some(Command::Tick(arguments)) => arguments.run(),
             Some(Command::Bake(arguments)) => arguments.run(),
             Some(Command::Trade(arguments)) => arguments.run(),
             Some(Command::Extremes(arguments)) => arguments.run(),
+            Some(Command::Schema) => shell::printed(schema::text().as_bytes()),
+            Some(Command::Completions(arguments)) => arguments.run(),
+            Some(Command::Man(page)) => page.run(),
             None => signorini_lab::study::run(),
         }
     }

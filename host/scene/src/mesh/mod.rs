@@ -10,6 +10,7 @@ pub mod cut;
 mod foreign;
 pub mod gmsh;
 mod matching;
+mod outer;
 pub mod pairing;
 mod read;
 pub mod refine;

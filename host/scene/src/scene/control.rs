@@ -17,6 +17,13 @@ pub(super) const FIELDS: [(&str, Field); 7] = [
     ("f", Field::Source),
 ];
 
+impl Field {
+    /// Its name in the scene file.
+    pub fn name(self) -> &'static str {
+        FIELDS.iter().find(|(_, field)| *field == self).map_or("", |(name, _)| name)
+    }
+}
+
 /// Reads `[input.NAME]`. The pattern has no t: what changes is the value that multiplies it.
 pub(super) fn read_input(table: &Table, boundaries: &[Named<Condition>]) -> Option<Input> {
     table.only("input.NAME", None);

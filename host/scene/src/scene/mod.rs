@@ -15,6 +15,7 @@
 //! ([`Scene::error`]).
 //! The names are not compared with the mesh here.
 
+mod blank;
 mod boundary;
 mod control;
 mod document;
@@ -37,6 +38,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+pub use blank::blank;
 pub use boundary::Role;
 pub use material::Material;
 pub use range::InputRange;

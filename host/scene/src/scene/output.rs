@@ -1,5 +1,7 @@
 //! Outputs, which a controller reads.
 
+use std::mem::discriminant;
+
 use super::control::{find_boundary, list, read_unit};
 use super::entry::Entry;
 use super::table::Table;
@@ -187,6 +189,12 @@ impl Output {
 }
 
 impl Quantity {
+    /// Its kind as the scene file calls it.
+    pub fn kind(self) -> &'static str {
+        let is_own = |(_, of): &&(&str, Self)| discriminant(of) == discriminant(&self);
+        KINDS.iter().find(is_own).map_or("mean", |(kind, _)| kind)
+    }
+
     /// Whether it is an integral over cells of materials; `of` names these.
     pub fn is_inside(self) -> bool {
         matches!(self, Self::Content | Self::MeanInside)

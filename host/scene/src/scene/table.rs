@@ -156,15 +156,16 @@ impl<'a> Table<'a> {
     }
 
     fn locate<T>(&self, key: &str, span: Range<usize>, value: T) -> Located<T> {
-        let bare = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_' || byte == b'-';
-        let key = match key.bytes().all(bare) && !key.is_empty() {
-            true => key.to_owned(),
-            false => format!("{key:?}"),
-        };
-        let key = match self.name.key.as_str() {
-            "" => key,
-            table => format!("{table}.{key}"),
-        };
-        Located { value, key, span }
+        Located { value, key: header(&self.name.key, key), span }
     }
+}
+
+/// The key of a table or value inside another table, in quotes where TOML asks for them.
+pub(super) fn header(table: &str, key: &str) -> String {
+    let bare = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_' || byte == b'-';
+    let key = match key.bytes().all(bare) && !key.is_empty() {
+        true => key.to_owned(),
+        false => format!("{key:?}"),
+    };
+    if table.is_empty() { key } else { format!("{table}.{key}") }
 }

@@ -1,0 +1,173 @@
+//! A scene for a mesh that has none yet: a table for each of its groups, with "?" where somebody has to decide.
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+use super::keys::{Key, SECTIONS, Section, plain};
+use super::read::MOST_TABLES;
+use super::schema;
+use super::table::header;
+use crate::mesh::{Curve, Mesh, Surface};
+
+/// Fewer columns than an editor shows.
+const COMMENT_AT: usize = 26;
+
+/// The text of a scene on `mesh`, which is written as `name` in it. Its faults are exactly its question marks.
+pub fn blank(mesh: &Mesh, title: &str, name: &str) -> String {
+    let outer = mesh.outer_edges();
+    let mut text = format!(
+        "#:schema {}\n# A scene of signorini. Fill in each \"?\", then run `signorini check` on this file.\n\
+         #   inside:           −∇·(A∇u) = f\n\
+         #   on the boundary:  one of four conditions, with the outward normal n and the flux σ·n = A∇u·n\n\
+         title = {}\nmesh = {}\n",
+        schema::FILE,
+        quoted(title),
+        quoted(name)
+    );
+    materials(&mut text, mesh);
+    boundaries(&mut text, mesh, &outer);
+    text.push_str("\n# What else a scene may have; NAME is a name of yours.\n");
+    let rest =
+        SECTIONS.iter().filter(|of| !["", "material.NAME", "boundary.NAME"].contains(&of.header));
+    rest.for_each(|section| example(&mut text, section));
+    text
+}
+
+/// Which of these groups get a table: no two that share something, none that reaches beyond `allowed`, and no more than a scene may have.
+fn chosen<T: Ord + Copy>(groups: &[(&str, &[T])], allowed: Option<&BTreeSet<T>>) -> Vec<bool> {
+    let (mut taken, mut count) = (BTreeSet::new(), 0);
+    let mut take = |(name, items): &(&str, &[T])| {
+        let is_named = *name != "default" && name.parse::<u64>().is_err();
+        let fits = allowed.is_none_or(|allowed| items.iter().all(|item| allowed.contains(item)));
+        let is_new = items.iter().all(|item| !taken.contains(item));
+        let is_chosen = is_named && fits && is_new && !items.is_empty() && count + 1 < MOST_TABLES;
+        if is_chosen {
+            taken.extend(items.iter().copied());
+            count += 1;
+        }
+        is_chosen
+    };
+    groups.iter().map(&mut take).collect()
+}
+
+fn materials(text: &mut String, mesh: &Mesh) {
+    let groups: Vec<(&str, &[u32])> =
+        mesh.surfaces.iter().map(|Surface { name, cells }| (name.as_str(), &cells[..])).collect();
+    let chosen = chosen(&groups, None);
+    let mut left: BTreeSet<u32> = (0..mesh.cells() as u32).collect();
+    for (&(name, cells), is_chosen) in groups.iter().zip(chosen) {
+        let size = format!(
+            "area {}, {}",
+            shown(mesh.area(cells.iter().copied())),
+            counted(cells.len(), "cell")
+        );
+        if !is_chosen {
+            let _ = writeln!(text, "\n# [{}]: {size}{}", header("material", name), why_not(name));
+            continue;
+        }
+        left.retain(|cell| cells.binary_search(cell).is_err());
+        material(text, name, &size);
+    }
+    if !left.is_empty() {
+        let size = format!(
+            "area {}, {}",
+            shown(mesh.area(left.iter().copied())),
+            counted(left.len(), "cell")
+        );
+        material(text, "default", &format!("all that is left: {size}"));
+    }
+}
+
+fn material(text: &mut String, name: &str, size: &str) {
+    let _ = writeln!(text, "\n[{}]{}", header("material", name), comment(name.len() + 11, size));
+    let keys = Section::of("material.NAME", None).map_or(&[][..], |section| section.keys);
+    for key in keys {
+        line(text, None, key, key.default.is_none().then_some("\"?\""));
+    }
+}
+
+fn boundaries(text: &mut String, mesh: &Mesh, outer: &[[u32; 2]]) {
+    let groups: Vec<(&str, &[[u32; 2]])> =
+        mesh.curves.iter().map(|Curve { name, edges }| (name.as_str(), &edges[..])).collect();
+    let mut left: BTreeSet<[u32; 2]> = outer.iter().copied().collect();
+    let chosen = chosen(&groups, Some(&left));
+    for (&(name, edges), is_chosen) in groups.iter().zip(chosen) {
+        let size =
+            format!("length {}, {}", shown(mesh.length(edges)), counted(edges.len(), "edge"));
+        if !is_chosen {
+            let is_inside = edges.iter().any(|edge| outer.binary_search(edge).is_err());
+            let why = if is_inside {
+                "; inside the domain, where no condition acts"
+            } else {
+                why_not(name)
+            };
+            let _ = writeln!(text, "\n# [{}]: {size}{why}", header("boundary", name));
+            continue;
+        }
+        left.retain(|edge| edges.binary_search(edge).is_err());
+        boundary(text, name, &size);
+    }
+    if !left.is_empty() {
+        let left: Vec<_> = left.into_iter().collect();
+        let size = format!("length {}, {}", shown(mesh.length(&left)), counted(left.len(), "edge"));
+        boundary(text, "default", &format!("all that is left: {size}"));
+    }
+}
+
+fn boundary(text: &mut String, name: &str, size: &str) {
+    let _ = writeln!(text, "\n[{}]{}", header("boundary", name), comment(name.len() + 11, size));
+    let kinds: Vec<_> = Section::kinds("boundary.NAME").collect();
+    let _ = writeln!(text, "kind = \"?\"{}", comment(10, &kinds.join(", ")));
+    for section in SECTIONS.iter().filter(|section| section.header == "boundary.NAME") {
+        section.keys.iter().for_each(|key| line(text, section.kind, key, None));
+    }
+}
+
+/// A table that a scene may have, as a comment.
+fn example(text: &mut String, section: &Section) {
+    let _ = writeln!(text, "# [{}]", section.header);
+    if let Some(kind) = section.kind {
+        let _ = writeln!(text, "# kind = \"{kind}\"");
+    }
+    section.keys.iter().for_each(|key| line(text, None, key, None));
+}
+
+/// A key with a value, and of it the kind of its table, meaning, unit and default.
+fn line(text: &mut String, kind: Option<&str>, key: &Key, value: Option<&str>) {
+    let start = match value {
+        Some(value) => format!("{} = {value}", key.name),
+        None => format!("# {} = {}", key.name, key.value.sample()),
+    };
+    let kind = kind.map_or_else(String::new, |kind| format!("{kind}: "));
+    let unit = Some(plain(key.unit)).filter(|unit| !unit.is_empty());
+    let unit = unit.map_or_else(String::new, |unit| format!(" [{unit}]"));
+    let default = key.default.map_or_else(String::new, |of| format!("; default {}", plain(of)));
+    let words = format!("{kind}{}{unit}{default}", plain(key.meaning));
+    let _ = writeln!(text, "{start}{}", comment(start.chars().count(), &words));
+}
+
+fn comment(column: usize, words: &str) -> String {
+    format!("{}# {words}", " ".repeat(COMMENT_AT.saturating_sub(column).max(2)))
+}
+
+/// Why a group gets no table, where nothing else is said of it.
+fn why_not(name: &str) -> &'static str {
+    match name.parse::<u64>() {
+        Ok(_) => "; without a name in the mesh",
+        Err(_) => "; a part of it lies in another group, too",
+    }
+}
+
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
+/// Six digits at most.
+fn shown(size: f64) -> String {
+    let rounded: f64 = format!("{size:.5e}").parse().unwrap_or(size);
+    rounded.to_string()
+}
+
+fn quoted(text: &str) -> String {
+    toml::Value::from(text).to_string()
+}
