@@ -1,6 +1,7 @@
 //! The tests of the command as one program: `cargo test -p signorini --test main NAME`.
 
 mod bake;
+mod begin;
 mod cli;
 mod command;
 mod extremes;

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use miette::Diagnostic as _;
 use signorini_scene::scene::Scene;
+use signorini_scene::scene::keys::page::{MARKS, table};
 
 use crate::command::{repository, text};
 
@@ -30,49 +30,19 @@ fn examples_are_scenes() {
     Scene::parse(&(head.to_owned() + example(&page)), Path::new("levee.toml")).expect("a piece");
 }
 
-/// The keys that are allowed beside a wrong one: the error lists them.
-fn allowed(text: &str) -> Vec<String> {
-    let error = Scene::parse(text, Path::new("wrong.toml")).expect_err(text);
-    let hint = error.help().expect("a hint").to_string();
-    let (_, keys) = hint.split_once("allowed here: ").unwrap_or_else(|| panic!("{hint}"));
-    keys.split(", ").map(str::to_owned).collect()
-}
-
+/// The table of keys on the page is that of the list which the reader of scenes goes by; `SIGNORINI_BLESS=1` writes it anew.
 #[test]
 fn the_page_has_every_key() {
     let page = page("docs/scene.md");
-    let whole = example(&page);
-    let table = |name: &str, keys: &str| format!("{whole}\n[{name}]\n{keys}\nwrong = 1\n");
-    let boundary = |kind: &str| table("boundary.more", &format!("kind = \"{kind}\""));
-    let output = |kind: &str| table("output.more", &format!("kind = \"{kind}\""));
-    let extended = |name: &str| {
-        let header = format!("[{name}]\n");
-        whole.replace(&header, &format!("{header}wrong = 1\n"))
-    };
-    let asked = [
-        ("", vec![format!("wrong = 1\n{whole}")]),
-        ("material.NAME.", vec![table("material.more", "")]),
-        ("source.", vec![extended("source")]),
-        ("boundary.NAME.", vec![boundary("dirichlet"), boundary("neumann")]),
-        ("boundary.NAME.", vec![boundary("robin"), boundary("contact")]),
-        ("input.NAME.", vec![table("input.more", "")]),
-        ("output.NAME.", vec![output("flux"), output("force"), output("length")]),
-        ("output.NAME.", vec![output("probe"), output("bound")]),
-        ("target.", vec![table("target", "")]),
-        ("time.", vec![extended("time")]),
-        ("exact.", vec![table("exact", "")]),
-        ("setting.", vec![table("setting", "")]),
-    ];
-    let tables =
-        ["material", "source", "boundary", "input", "output", "target", "time", "exact", "setting"];
-    let mut missing = Vec::new();
-    for (prefix, texts) in &asked {
-        for key in texts.iter().flat_map(|text| allowed(text)) {
-            let is_known = prefix.is_empty() && tables.contains(&key.as_str());
-            if !is_known && !page.contains(&format!("\n| `{prefix}{key}` |")) {
-                missing.push(format!("{prefix}{key}"));
-            }
-        }
+    let [begin, end] = MARKS;
+    let (before, rest) = page.split_once(begin).expect("the mark before the table");
+    let (_, after) = rest.split_once(end).expect("the mark behind the table");
+    let expected = format!("{before}{begin}{}{end}{after}", table());
+    if std::env::var_os("SIGNORINI_BLESS").is_some() {
+        std::fs::write(repository("docs/scene.md"), &expected).expect("written");
     }
-    assert!(missing.is_empty(), "docs/scene.md lacks {missing:?}");
+    for (own, other) in page.lines().zip(expected.lines()) {
+        assert_eq!(own, other, "SIGNORINI_BLESS=1 writes the table anew");
+    }
+    assert_eq!(page.len(), expected.len());
 }

@@ -1,6 +1,6 @@
 //! The plan of a scene as a file of its own: what holds on which part of the boundary, and which material lies where.
 
-use super::lettering::width;
+use super::lettering::{shortened, width};
 use super::outline::{Segments, rim};
 use super::plane::{MOST_CELLS_WITH_LINES, View, mesh_lines};
 use super::svg::{Anchor, Path, Svg};
@@ -24,8 +24,8 @@ pub struct PlanBoundary {
     pub name: String,
     /// What holds on it.
     pub kind: PlanKind,
-    /// The ends of its edges.
-    pub edges: Vec<[[f64; 2]; 2]>,
+    /// The vertices of its edges.
+    pub edges: Vec<[u32; 2]>,
 }
 
 /// What holds on a boundary.
@@ -65,24 +65,26 @@ const FOOT: f64 = 84.0;
 /// From an edge to its name.
 const APART: f64 = 14.0;
 const LETTERS: f64 = 11.5;
+const TITLE: f64 = 15.0;
+/// Of the legend: where it begins, and how wide a line or an area is in it.
+const MARGIN: f64 = 18.0;
+const KEY: f64 = 22.0;
 
 /// The picture; `None` when the vertices span no area.
 pub fn plan_file(plan: &Plan) -> Option<String> {
     let view = View::new(&plan.panel.vertices, [SIDES, TOP])?;
     let [across, down] = view.size();
     let size = [2.0 * SIDES + across, TOP + down + FOOT];
-    let mut svg = Svg::alone(size[0], size[1], &format!("{}: what stands where", plan.panel.title));
-    svg.text("title", [18.0, 28.0], Anchor::Start, &plan.panel.title);
+    let title = &plan.panel.title;
+    let mut svg = Svg::alone(size[0], size[1], &format!("{title}: what stands where"));
+    let short = shortened(title, TITLE, size[0] - 36.0);
+    svg.abridged("title", [18.0, 28.0], Anchor::Start, &short, title);
     materials(&mut svg, plan, &view);
     if plan.panel.cells().count() <= MOST_CELLS_WITH_LINES {
         svg.path("grid", &mesh_lines(&plan.panel, &view));
     }
-    for (name, cells) in &plan.materials {
-        if let Some(middle) = middle(cells.iter().map(|&cell| centre(&plan.panel, cell))) {
-            svg.text("name", view.at(middle), Anchor::Middle, name);
-        }
-    }
     boundaries(&mut svg, plan, &view);
+    names(&mut svg, plan, &view);
     legend(&mut svg, plan, size[1] - 24.0);
     if let Some(note) = view.note() {
         svg.text("tick", [size[0] - 18.0, size[1] - 24.0], Anchor::End, &note);
@@ -91,7 +93,6 @@ pub fn plan_file(plan: &Plan) -> Option<String> {
 }
 
 fn materials(svg: &mut Svg, plan: &Plan, view: &View) {
-    const COLORS: usize = 6;
     for (at, (_, cells)) in plan.materials.iter().enumerate() {
         let mut segments = Segments::default();
         let triangles = cells.iter().flat_map(|&cell| triangles(&plan.panel, cell));
@@ -99,57 +100,88 @@ fn materials(svg: &mut Svg, plan: &Plan, view: &View) {
         let mut path = Path::default();
         let point = |[vertex, _]: [usize; 2]| view.at(plan.panel.vertices[vertex]);
         segments.outlines(point).iter().for_each(|outline| path.polygon(outline));
-        svg.path(&format!("ground-{}", at % COLORS), &path);
+        svg.path(&ground(at), &path);
     }
+}
+
+/// The class of the area of a material.
+fn ground(at: usize) -> String {
+    const COLORS: usize = 6;
+    format!("ground-{}", at % COLORS)
 }
 
 fn boundaries(svg: &mut Svg, plan: &Plan, view: &View) {
-    let [across, down] = view.size();
-    let heart = [SIDES + 0.5 * across, TOP + 0.5 * down];
     for kind in PlanKind::ALL {
         for of in plan.boundaries.iter().filter(|of| of.kind == kind) {
             let mut path = Path::default();
-            of.edges.iter().for_each(|ends| path.line(&ends.map(|end| view.at(end))));
+            let point = |vertex: u32| view.at(plan.panel.vertices[vertex as usize]);
+            of.edges.iter().for_each(|ends| path.line(&ends.map(point)));
             svg.explained(kind.look()[0], &path, &format!("{}: {}", of.name, kind.look()[1]));
         }
     }
+}
+
+/// Writes the name of each boundary outside of its middle.
+fn names(svg: &mut Svg, plan: &Plan, view: &View) {
+    let middle = |[a, b]: [u32; 2]| {
+        let [a, b] = [a, b].map(|vertex| plan.panel.vertices[vertex as usize]);
+        [0, 1].map(|k| 0.5 * (a[k] + b[k]))
+    };
     for of in &plan.boundaries {
-        let middles = of.edges.iter().map(|[a, b]| [0, 1].map(|k| 0.5 * (a[k] + b[k])));
-        let Some(middle) = middle(middles) else { continue };
-        let at = view.at(middle);
-        // Outwards, as far as the middle of the domain tells.
-        let way = [(at[0] - heart[0]) / across, (at[1] - heart[1]) / down];
-        let (at, anchor) = if way[0].abs() > way[1].abs() {
-            let anchor = if way[0] < 0.0 { Anchor::End } else { Anchor::Start };
-            ([at[0] + APART * way[0].signum(), at[1] + 4.0], anchor)
-        } else {
-            ([at[0], at[1] + APART * way[1].signum() + 4.0], Anchor::Middle)
+        let Some(edge) = nearest_to_mean(&of.edges, |&edge| middle(edge)) else { continue };
+        let inside = inside(&plan.panel, *edge).map(|centre| view.at(centre));
+        let at = view.at(middle(*edge));
+        let [x, y] = inside.map_or([0.0, 1.0], |inside| [at[0] - inside[0], at[1] - inside[1]]);
+        let (shift, anchor) = match (x.abs() > y.abs(), x < 0.0) {
+            (false, _) => ([0.0, APART * y.signum() + 4.0], Anchor::Middle),
+            (true, true) => ([-APART, 4.0], Anchor::End),
+            (true, false) => ([APART, 4.0], Anchor::Start),
         };
-        svg.text("name", at, anchor, &of.name);
+        svg.text("name", [at[0] + shift[0], at[1] + shift[1]], anchor, &of.name);
     }
 }
 
+/// The centre of the cell behind an edge.
+fn inside(panel: &ScenePanel, edge: [u32; 2]) -> Option<[f64; 2]> {
+    let cell = panel.cells().position(|cell| edge.iter().all(|vertex| cell.contains(vertex)))?;
+    let corners = corners(panel, cell as u32);
+    let sum = corners.iter().fold([0.0; 2], |[x, y], &at| {
+        let [dx, dy] = panel.vertices[at as usize];
+        [x + dx, y + dy]
+    });
+    Some(sum.map(|sum| sum / corners.len() as f64))
+}
+
+/// The kinds of boundaries and, a line above, the materials.
 fn legend(svg: &mut Svg, plan: &Plan, y: f64) {
-    const KEY: f64 = 22.0;
-    let mut x = 18.0;
+    let mut x = [MARGIN; 2];
+    let mut entry = |line: usize, words: &str, draw: &mut dyn FnMut([f64; 2], &mut Svg)| {
+        let at = [x[line], y - 22.0 * line as f64];
+        draw(at, svg);
+        svg.text("name", [at[0] + KEY + 6.0, at[1]], Anchor::Start, words);
+        x[line] += KEY + 26.0 + width(words, LETTERS);
+    };
     for kind in PlanKind::ALL {
         if plan.boundaries.iter().any(|of| of.kind == kind) {
             let [class, words] = kind.look();
-            svg.line(class, [x, y - 4.0], [x + KEY, y - 4.0]);
-            svg.text("name", [x + KEY + 6.0, y], Anchor::Start, words);
-            x += KEY + 26.0 + width(words, LETTERS);
+            entry(0, words, &mut |[x, y], svg| svg.line(class, [x, y - 4.0], [x + KEY, y - 4.0]));
         }
+    }
+    for (at, (name, _)) in plan.materials.iter().enumerate() {
+        let class = ground(at);
+        entry(1, name, &mut |[x, y], svg| svg.rectangle(&class, [x, y - 9.0], [x + KEY, y + 2.0]));
     }
 }
 
-/// Of these points the one nearest to their mean.
-fn middle(points: impl Iterator<Item = [f64; 2]> + Clone) -> Option<[f64; 2]> {
-    let (count, sum) = points
-        .clone()
-        .fold((0.0, [0.0; 2]), |(count, [x, y]), p| (count + 1.0, [x + p[0], y + p[1]]));
-    let mean = sum.map(|sum| sum / count);
-    let distance = |p: &[f64; 2]| (p[0] - mean[0]).hypot(p[1] - mean[1]);
-    points.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+/// The item whose point is nearest to the mean of all points.
+fn nearest_to_mean<T>(items: &[T], point: impl Fn(&T) -> [f64; 2]) -> Option<&T> {
+    let sum = items.iter().map(&point).fold([0.0; 2], |[x, y], p| [x + p[0], y + p[1]]);
+    let mean = sum.map(|sum| sum / items.len() as f64);
+    let distance = |item: &T| {
+        let [x, y] = point(item);
+        (x - mean[0]).hypot(y - mean[1])
+    };
+    items.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
 }
 
 /// The vertices of a cell, triangles first.
@@ -159,15 +191,6 @@ fn corners(panel: &ScenePanel, cell: u32) -> &[u32] {
         Some(corners) => corners,
         None => &panel.quads[cell - panel.triangles.len()],
     }
-}
-
-fn centre(panel: &ScenePanel, cell: u32) -> [f64; 2] {
-    let corners = corners(panel, cell);
-    let sum = corners.iter().fold([0.0; 2], |[x, y], &at| {
-        let [dx, dy] = panel.vertices[at as usize];
-        [x + dx, y + dy]
-    });
-    sum.map(|sum| sum / corners.len() as f64)
 }
 
 /// A cell cut into triangles.
@@ -200,7 +223,7 @@ mod tests {
                     PlanKind::Prescribed(BoundaryKind::Dirichlet),
                     [[0.0, 0.0], [0.0, 1.0]],
                 ),
-                side("roof", PlanKind::Open, [[0.0, 1.0], [2.0, 1.0]]),
+                side("roof", PlanKind::Open, [2, 3]),
             ],
             materials: vec![("sand".to_owned(), vec![0])],
             panel,

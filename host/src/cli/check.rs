@@ -54,7 +54,7 @@ impl Arguments {
         let look = match Scene::draft(&self.scene) {
             Ok(draft) => Look::at(draft),
             Err(error) if self.json => {
-                say(outlined::unreadable(error));
+                say(format_args!("{:#}", outlined::unreadable(error)));
                 return Ok(2);
             }
             Err(error) => return Err(error),
@@ -63,7 +63,7 @@ impl Arguments {
             self.draw(&look, file)?;
         }
         if self.json {
-            say(outlined::json(&look));
+            say(format_args!("{:#}", outlined::json(&look)));
             return Ok(if look.faults.is_empty() { 0 } else { 2 });
         }
         say(outlined::text(&look));
@@ -104,6 +104,8 @@ impl Look {
             }
             (mesh, outline)
         });
-        Self { draft, on_mesh, warnings, faults: faults.into_vec() }
+        let mut faults = faults.into_vec();
+        faults.sort_by_key(|fault| fault.place().1.unwrap_or(usize::MAX));
+        Self { draft, on_mesh, warnings, faults }
     }
 }

@@ -149,7 +149,7 @@ pub(super) fn plan(scene: &Scene, mesh: &Mesh, outline: &Outline) -> Plan {
     let boundary = |of: &BoundaryGroup| PlanBoundary {
         name: of.name.clone(),
         kind: plan_kind(of.kind),
-        edges: of.of.iter().map(|&edge| mesh.segment(edge)).collect(),
+        edges: of.of.clone(),
     };
     let panel = ScenePanel {
         title: scene.title.clone(),

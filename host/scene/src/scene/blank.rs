@@ -79,7 +79,7 @@ fn materials(text: &mut String, mesh: &Mesh) {
 }
 
 fn material(text: &mut String, name: &str, size: &str) {
-    let _ = writeln!(text, "\n[{}]{}", header("material", name), comment(name.len() + 11, size));
+    head(text, &header("material", name), size);
     let keys = Section::of("material.NAME", None).map_or(&[][..], |section| section.keys);
     for key in keys {
         line(text, None, key, key.default.is_none().then_some("\"?\""));
@@ -115,12 +115,17 @@ fn boundaries(text: &mut String, mesh: &Mesh, outer: &[[u32; 2]]) {
 }
 
 fn boundary(text: &mut String, name: &str, size: &str) {
-    let _ = writeln!(text, "\n[{}]{}", header("boundary", name), comment(name.len() + 11, size));
+    head(text, &header("boundary", name), size);
     let kinds: Vec<_> = Section::kinds("boundary.NAME").collect();
     let _ = writeln!(text, "kind = \"?\"{}", comment(10, &kinds.join(", ")));
     for section in SECTIONS.iter().filter(|section| section.header == "boundary.NAME") {
         section.keys.iter().for_each(|key| line(text, section.kind, key, None));
     }
+}
+
+/// The header of a group, with its size.
+fn head(text: &mut String, header: &str, size: &str) {
+    let _ = writeln!(text, "\n[{header}]{}", comment(header.chars().count() + 2, size));
 }
 
 /// A table that a scene may have, as a comment.
