@@ -112,7 +112,7 @@ fn check_tells_all_that_is_wrong() {
     ];
     let (status, found) = checked(&folder.scene("levee.toml", "scenes/levee.toml", &data));
     let faults = self::faults(&found);
-    assert!(status == 2 && faults.len() == 2, "{faults:#?}");
+    assert!(status == 2 && faults.len() == 3, "{faults:#?}");
     says(&faults.concat(), &["is not positive definite", "gap"]);
     let (status, found) = checked(&meshes("scenes/levee.toml"));
     assert!(
