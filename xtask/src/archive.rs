@@ -16,10 +16,11 @@ use signorini_image::files;
 use signorini_image::toolchain::{host, output};
 
 /// Files and folders of the checkout that go with the program. Links of pages to its sources lead nowhere from there.
-const BESIDE: [&str; 9] = [
+const BESIDE: [&str; 10] = [
     "README.md",
     "ARCHITECTURE.md",
     "CHANGELOG.md",
+    "CONTRIBUTING.md",
     "SECURITY.md",
     "LICENSE",
     "CITATION.cff",
