@@ -53,7 +53,7 @@ const EXAMPLES: &str = "\
 Examples:
   cargo xtask test         before every commit, and what CI runs
   cargo xtask test --all   fuzzing, sanitizer, mutants, MPI, OSQP, old processors, PyVista, every board, too
-  cargo xtask test --only boards    one part of it: house, host, no-std, python, boards or length
+  cargo xtask test --only boards    one part of it: house, host, no-std, python, boards or rest
   cargo xtask no-std    after a change of the kernel's dependencies
   cargo xtask cost --bless    writes the record anew (boards, c, cost, house, logs, peers and size have one)
   cargo xtask firmware meshes/scenes/levee.toml    and `cargo xtask firmware --help`

@@ -81,8 +81,8 @@ pub enum Part {
     Python,
     /// Controllers and images on emulated boards
     Boards,
-    /// A small part of what need not run each time; with --all the whole of it
-    Length,
+    /// Sanitizer, mutants, an old processor, a little of each; with --all in full, and fuzzing, MPI, OSQP, PyVista too
+    Rest,
 }
 
 /// The verb: all parts, or one.
@@ -103,7 +103,7 @@ pub fn run(steps: &mut Steps, only: Option<Part>) {
             }
         },
     );
-    if runs(Part::Length) {
+    if runs(Part::Rest) {
         match steps.is_whole() {
             true => at_length(steps),
             false => witnesses(steps),
