@@ -1,6 +1,7 @@
 //! The project's task runner: `cargo xtask --help`. A file per verb; it runs tools and needs none of the project's crates but
 //! the one for images, so it compiles in seconds.
 
+mod archive;
 mod audit;
 mod baked;
 mod boards;
@@ -52,6 +53,7 @@ const EXAMPLES: &str = "\
 Examples:
   cargo xtask test         before every commit, and what CI runs
   cargo xtask test --all   fuzzing, sanitizer, mutants, MPI, OSQP, old processors, PyVista, every board, too
+  cargo xtask test --only boards    one part of it: house, host, no-std, python, boards or rest
   cargo xtask no-std    after a change of the kernel's dependencies
   cargo xtask cost --bless    writes the record anew (boards, c, cost, house, logs, peers and size have one)
   cargo xtask firmware meshes/scenes/levee.toml    and `cargo xtask firmware --help`
@@ -71,7 +73,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Verb {
     /// Formatting, clippy, tests, boards; with --all what need not run each time, too
-    Test(Mode),
+    Test(test::Options),
     /// Format, clippy and tests of the packages that the working tree changes
     Quick(Mode),
     /// Rules of the house that no compiler holds, with those that break them
@@ -84,6 +86,10 @@ enum Verb {
     Results(Mode),
     /// The Python module: built by pip in a fresh environment, tested beside the command line
     Python(Mode),
+    /// The program with its pages and scenes as one file, in target/dist; it solves a scene out of there
+    Archive(Mode),
+    /// The Python module as a wheel, in target/dist; it solves a scene where pip has installed it
+    Wheel(Mode),
     /// Installs the tools for microcontrollers (Debian, as root)
     Setup(Mode),
     /// The kernel and all images for Cortex-M4 and M7
@@ -136,13 +142,17 @@ fn main() -> ExitCode {
         Verb::Fuzz(options) => return ended(fuzz::run(&options)),
         Verb::Osqp(options) => return ended(osqp::run(&options)),
         Verb::Mutants(options) => return ended(mutants::run(&options)),
-        Verb::Test(mode) => (mode, test::run),
+        Verb::Test(test::Options { mode, only }) => {
+            return stepped(mode, |steps| test::run(steps, only));
+        }
         Verb::Quick(mode) => (mode, quick::run),
         Verb::House(mode) => (mode, house::run),
         Verb::NoStd(mode) => (mode, no_std::run),
         Verb::Sanitize(mode) => (mode, sanitize::run),
         Verb::Results(mode) => (mode, results::run),
         Verb::Python(mode) => (mode, python::run),
+        Verb::Archive(mode) => (mode, archive::run),
+        Verb::Wheel(mode) => (mode, python::wheel),
         Verb::Setup(mode) => (mode, setup::run),
         Verb::Cross(mode) => (mode, cross::run),
         Verb::Boards(mode) => (mode, boards::run),
@@ -153,6 +163,11 @@ fn main() -> ExitCode {
         Verb::C(mode) => (mode, c::run),
         Verb::Peers(mode) => (mode, peers::run),
     };
+    stepped(mode, run)
+}
+
+/// The status of a verb with steps.
+fn stepped(mode: Mode, run: impl FnOnce(&mut Steps)) -> ExitCode {
     // Images of one name differ from verb to verb.
     let _turn = match hold(&target_dir("firmware").join("steps.lock")) {
         Ok(turn) => turn,
@@ -172,10 +187,49 @@ fn ended(done: Result<(), Failure>) -> ExitCode {
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory as _;
+    use clap::{CommandFactory as _, Parser as _, ValueEnum as _};
+    use signorini_image::cargo::root;
+    use signorini_image::files;
+
+    use super::{Cli, test::Part};
 
     #[test]
     fn the_command_line_is_sound() {
-        super::Cli::command().debug_assert();
+        Cli::command().debug_assert();
+    }
+
+    /// The verbs that a workflow names in lines `verb: …`, one or a list.
+    fn verbs(workflow: &str) -> Vec<String> {
+        let page = root().join(".github/workflows").join(workflow);
+        let text = files::text(&page).expect("a workflow");
+        let lists = text
+            .lines()
+            .filter_map(|line| line.trim_start_matches([' ', '-']).strip_prefix("verb: "));
+        lists
+            .flat_map(|list| list.trim_matches(['[', ']']).split(", "))
+            .map(str::to_owned)
+            .collect()
+    }
+
+    #[test]
+    fn jobs_of_continuous_integration_are_verbs() {
+        for workflow in ["test.yml", "nightly.yml", "release.yml"] {
+            let verbs = verbs(workflow);
+            assert!(!verbs.is_empty(), "{workflow}");
+            for verb in verbs {
+                let words = ["cargo xtask"].into_iter().chain(verb.split(' '));
+                assert!(Cli::try_parse_from(words).is_ok(), "{workflow}: {verb}");
+            }
+        }
+    }
+
+    #[test]
+    fn each_part_of_the_tests_is_a_job() {
+        for (workflow, more) in [("test.yml", ""), ("nightly.yml", " --all")] {
+            let parts = Part::value_variants().iter().filter_map(Part::to_possible_value);
+            let expected: Vec<_> =
+                parts.map(|part| format!("test{more} --only {}", part.get_name())).collect();
+            assert_eq!(verbs(workflow), expected, "{workflow}");
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! The program `signorini` of this checkout, as `cargo run --release` and the tests have it.
 
 use std::env;
+use std::env::consts::EXE_SUFFIX;
 use std::path::PathBuf;
 use std::process::Command;
 use std::sync::OnceLock;
@@ -17,7 +18,7 @@ pub fn path() -> Result<PathBuf, String> {
                 let mut command = cargo(&["build", "--release", "--locked", "-p", "signorini"]);
                 command.arg("--bin").arg("signorini").env("CARGO_TARGET_DIR", target_dir(""));
                 build(command, false)?;
-                Ok(target_dir("").join("release/signorini"))
+                Ok(target_dir("").join(format!("release/signorini{EXE_SUFFIX}")))
             }
         })
         .clone()

@@ -1,11 +1,12 @@
-//! Environments of Python, each in a folder below `target/python`; `cargo xtask python`: the module `signorini` is built by pip in a fresh environment, and its tests run there beside the command line.
+//! Environments of Python, each in a folder below `target/python`; `cargo xtask python`: the module `signorini` is built by pip in a fresh environment, and its tests run there beside the command line; `cargo xtask wheel`: the same module as one file that pip installs anywhere.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::program;
 use crate::steps::Steps;
 use signorini_image::cargo::{root, run as run_command, target_dir};
+use signorini_image::files;
 use signorini_image::toolchain::output;
 use signorini_image::tools::{ensured, install_packages};
 
@@ -35,6 +36,44 @@ pub fn run(steps: &mut Steps) {
     });
 }
 
+/// The folder of the environment in which the wheel is tried.
+const TRIED: &str = "wheel-environment";
+/// What the wheel is tried with: the seepage of the levee in m²/s.
+const TRIAL: &str = "import signorini; r = signorini.solve('meshes/scenes/levee.toml'); \
+    assert 3e-5 < r.outputs['seepage'].value < 4e-5, r.outputs";
+
+/// The verb `wheel`: maturin builds the wheel, and a fresh environment solves a scene with it alone.
+pub fn wheel(steps: &mut Steps) {
+    steps.check("maturin builds the wheel", || {
+        let dist = files::folder(&target_dir("dist"))?;
+        wheels(&dist)?.iter().try_for_each(|old| {
+            std::fs::remove_file(old).map_err(|error| format!("{}: {error}", old.display()))
+        })?;
+        let maturin = environment("maturin-environment", &["maturin>=1.8,<2"], &[])?;
+        let mut build = Command::new(&maturin);
+        build.args(["-m", "maturin", "build", "--release", "--locked"]);
+        build.args(["--manifest-path", "host/python/Cargo.toml", "--out"]).arg(&dist);
+        build.current_dir(root());
+        run_command(build)
+    });
+    steps.check("the wheel solves a scene", || {
+        let built = wheels(&target_dir("dist"))?;
+        let [wheel] = &built[..] else { return Err(format!("{} wheels", built.len())) };
+        let _ = std::fs::remove_dir_all(target_dir("python").join(TRIED));
+        let wheel = wheel.display().to_string();
+        let python = environment(TRIED, &[wheel.as_str()], &[])?;
+        output(Command::new(&python).args(["-c", TRIAL]).current_dir(root()))?;
+        println!("{wheel}");
+        Ok(())
+    });
+}
+
+/// The wheels in a folder.
+fn wheels(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    let is_wheel = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "whl");
+    Ok(files::within(folder)?.into_iter().filter(is_wheel).collect())
+}
+
 /// The Python of the environment `name`, made just now where need be and possible, after `pip install` with these words; `variables` are
 /// for what pip runs.
 ///
@@ -46,11 +85,15 @@ pub fn environment(
     variables: &[(&str, PathBuf)],
 ) -> Result<PathBuf, String> {
     let folder = target_dir("python").join(name);
-    let python = folder.join("bin/python");
+    let [system, own] = match cfg!(windows) {
+        true => ["python", "Scripts/python.exe"],
+        false => ["python3", "bin/python"],
+    };
+    let python = folder.join(own);
     if !python.exists() {
         // What a failed attempt has left has a Python and no pip: it is cleared.
         let words = ["-m", "venv", "--clear"];
-        let make = || output(Command::new("python3").args(words).arg(&folder)).map(drop);
+        let make = || output(Command::new(system).args(words).arg(&folder)).map(drop);
         ensured(&["python3-venv"], make).inspect_err(|_| drop(std::fs::remove_dir_all(&folder)))?;
     }
     let mut pip = Command::new(&python);

@@ -6,11 +6,15 @@
 //!                                   └─► boards: modules, images, C, audits, records
 //!   --all: more boards and breaches in the steps above; then fuzzing, sanitizer, mutants, MPI, OSQP, old processors, PyVista
 //! ```
+//! `--only PART` runs one of these parts, which no other has to go before: the jobs of `.github/workflows/test.yml`.
+//!
 //! The host's steps use all processors while they compile, those of the boards one: images are linked as a whole.
+
+use clap::{Args, ValueEnum};
 
 use crate::counted::counted_by;
 use crate::crates::{KERNEL, of_kernel};
-use crate::steps::Steps;
+use crate::steps::{Mode, Steps};
 use crate::{
     audit, boards, c, cost, cross, firmware, fuzz, house, logs, modules, mutants, no_std, oldest,
     osqp, program, python, ranks, results, sanitize, seen, setup, size,
@@ -41,20 +45,69 @@ const HOST: [&str; 9] = [
     "tests/fixtures",
 ];
 /// Files that tests compare with what programs say.
-const PAGES: [&str; 5] = ["docs", "README.md", "ARCHITECTURE.md", "CHANGELOG.md", "tests/firmware"];
+const PAGES: [&str; 8] = [
+    "docs",
+    ".github",
+    "README.md",
+    "ARCHITECTURE.md",
+    "CHANGELOG.md",
+    "CONTRIBUTING.md",
+    "SECURITY.md",
+    "tests/firmware",
+];
 /// The sources and scenes of what boards run.
 const BOARDS: [&str; 5] = ["kernel", "host", "meshes", "tests/firmware", "docs/firmware.md"];
 
-/// The verb.
-pub fn run(steps: &mut Steps) {
-    formatting(steps);
-    house::run(steps);
-    steps.compile("the program signorini", || program::path().map(drop));
-    steps.beside(on_host, on_boards);
-    if steps.is_whole() {
-        at_length(steps);
-    } else {
-        witnesses(steps);
+/// How the verb is called.
+#[derive(Debug, Args)]
+pub struct Options {
+    #[command(flatten)]
+    pub mode: Mode,
+    /// Runs one part alone, as a job of continuous integration does
+    #[arg(long, value_name = "PART", value_enum)]
+    pub only: Option<Part>,
+}
+
+/// A part of the verb, which needs no other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Part {
+    /// Formatting, and rules of the house
+    House,
+    /// Clippy, tests, documentation
+    Host,
+    /// The kernel without std
+    NoStd,
+    /// The Python module
+    Python,
+    /// Controllers and images on emulated boards
+    Boards,
+    /// Sanitizer, mutants, an old processor, a little of each; with --all in full, and fuzzing, MPI, OSQP, PyVista too
+    Rest,
+}
+
+/// The verb: all parts, or one.
+pub fn run(steps: &mut Steps, only: Option<Part>) {
+    let runs = move |part: Part| only.is_none_or(|only| only == part);
+    if runs(Part::House) {
+        formatting(steps);
+        house::run(steps);
+    }
+    if !matches!(only, Some(Part::House | Part::NoStd)) {
+        steps.compile("the program signorini", || program::path().map(drop));
+    }
+    steps.beside(
+        |steps| on_host(steps, runs),
+        |steps| {
+            if runs(Part::Boards) {
+                on_boards(steps);
+            }
+        },
+    );
+    if runs(Part::Rest) {
+        match steps.is_whole() {
+            true => at_length(steps),
+            false => witnesses(steps),
+        }
     }
 }
 
@@ -67,18 +120,20 @@ fn formatting(steps: &mut Steps) {
     });
 }
 
-fn on_host(steps: &mut Steps) {
-    steps.group("host", &[&HOST[..], &PAGES].concat(), |steps| {
-        clippy(steps);
-        tests(steps);
-        steps.lint("documentation", || {
-            let mut doc = cargo(&["doc", "--release", "--workspace", "--no-deps", "--locked"]);
-            doc.env("RUSTDOCFLAGS", "-D warnings");
-            run_cargo(doc)
+fn on_host(steps: &mut Steps, runs: impl Fn(Part) -> bool) {
+    if runs(Part::Host) {
+        steps.group("host", &[&HOST[..], &PAGES].concat(), |steps| {
+            clippy(steps);
+            tests(steps);
+            documentation(steps);
         });
-    });
-    steps.group("the kernel without std", &["kernel", "tests/no_std"], no_std::run);
-    steps.group("Python", &["kernel", "host", "meshes"], python::run);
+    }
+    if runs(Part::NoStd) {
+        steps.group("the kernel without std", &["kernel", "tests/no_std"], no_std::run);
+    }
+    if runs(Part::Python) {
+        steps.group("Python", &["kernel", "host", "meshes"], python::run);
+    }
 }
 
 /// Clippy, on what the tests build.
@@ -89,6 +144,14 @@ pub fn clippy(steps: &mut Steps) {
         let mut command = cargo(&words);
         command.args(["--", "-D", "warnings"]);
         run_cargo(command)
+    });
+}
+
+fn documentation(steps: &mut Steps) {
+    steps.lint("documentation", || {
+        let mut doc = cargo(&["doc", "--release", "--workspace", "--no-deps", "--locked"]);
+        doc.env("RUSTDOCFLAGS", "-D warnings");
+        run_cargo(doc)
     });
 }
 
