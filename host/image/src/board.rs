@@ -214,7 +214,8 @@ mod tests {
 
     #[test]
     fn the_images_link_for_the_same_memory() {
-        let maps = include_str!("../../../tests/firmware/board/build.rs");
+        let maps = root().join("tests/firmware/board/build.rs");
+        let maps = std::fs::read_to_string(maps).expect("the maps");
         for (board, said) in [(M4F, "LENGTH = 4M\\nRAM"), (M4F_192K, "LENGTH = 1M\\nRAM")] {
             assert!(maps.contains(said) && said.contains(&format!("{}M", board.flash >> 20)));
         }
