@@ -15,12 +15,14 @@ mod firmware;
 mod flight;
 mod fuzz;
 mod house;
+mod installs;
 mod logs;
 mod modules;
 mod mutants;
 mod no_std;
 mod oldest;
 mod osqp;
+mod package;
 mod peers;
 mod program;
 mod python;
@@ -51,7 +53,7 @@ use steps::{Mode, Steps};
 const EXAMPLES: &str = "\
 Examples:
   cargo xtask test         before every commit, and what CI runs
-  cargo xtask test --all   fuzzing, sanitizer, mutants, MPI, OSQP, old processors, PyVista, every board, too
+  cargo xtask test --all   fuzzing, sanitizer, mutants, MPI, OSQP, old processors, PyVista, what is installed, every board, too
   cargo xtask no-std    after a change of the kernel's dependencies
   cargo xtask cost --bless    writes the record anew (boards, c, cost, house, logs, peers and size have one)
   cargo xtask firmware meshes/scenes/levee.toml    and `cargo xtask firmware --help`
@@ -84,6 +86,10 @@ enum Verb {
     Results(Mode),
     /// The Python module: built by pip in a fresh environment, tested beside the command line
     Python(Mode),
+    /// An archive of each crate, and each builds from its own; nothing is published
+    Package(Mode),
+    /// What users install works away from the checkout, or says what it lacks
+    Installs(Mode),
     /// Installs the tools for microcontrollers (Debian, as root)
     Setup(Mode),
     /// The kernel and all images for Cortex-M4 and M7
@@ -143,6 +149,8 @@ fn main() -> ExitCode {
         Verb::Sanitize(mode) => (mode, sanitize::run),
         Verb::Results(mode) => (mode, results::run),
         Verb::Python(mode) => (mode, python::run),
+        Verb::Package(mode) => (mode, package::verify),
+        Verb::Installs(mode) => (mode, installs::run),
         Verb::Setup(mode) => (mode, setup::run),
         Verb::Cross(mode) => (mode, cross::run),
         Verb::Boards(mode) => (mode, boards::run),

@@ -1,16 +1,21 @@
 //! Environments of Python, each in a folder below `target/python`; `cargo xtask python`: the module `signorini` is built by pip in a fresh environment, and its tests run there beside the command line.
+//! `cargo xtask installs` has the module as users get it, from a wheel and from the source distribution.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::program;
 use crate::steps::Steps;
 use signorini_image::cargo::{root, run as run_command, target_dir};
+use signorini_image::files;
 use signorini_image::toolchain::output;
 use signorini_image::tools::{ensured, install_packages};
 
 /// The package of the module: what it is linked to, pip knows.
 pub const PACKAGE: &str = "signorini-python";
+
+/// Its manifest.
+const MANIFEST: &str = "host/python/Cargo.toml";
 
 /// Packages that the library of Gmsh asks of a system.
 const OF_GMSH: [&str; 6] =
@@ -33,6 +38,46 @@ pub fn run(steps: &mut Steps) {
         tests.env("SIGNORINI", program::path()?).current_dir(root());
         run_command(tests)
     });
+}
+
+/// The steps of what is handed to users.
+pub fn distributed(steps: &mut Steps) {
+    let folder = target_dir("python").join("distributed");
+    let maturin = || {
+        files::emptied(&folder)?;
+        let python = environment("maturin", &["maturin>=1.8,<2"], &[])?;
+        Ok::<_, String>(python.with_file_name("maturin"))
+    };
+    steps.check("the wheel of this machine, in a fresh environment", || {
+        let mut build = Command::new(maturin()?);
+        build.args(["build", "--release", "--locked", "--manifest-path", MANIFEST, "--out"]);
+        // The folder of the program, whose crates serve the module.
+        build.arg(&folder).env("CARGO_TARGET_DIR", target_dir("")).current_dir(root());
+        output(&mut build)?;
+        imported("wheel-environment", &folder)
+    });
+    steps.check("the source distribution builds a wheel, in a fresh environment", || {
+        let mut pack = Command::new(maturin()?);
+        pack.args(["sdist", "--manifest-path", MANIFEST, "--out"]);
+        output(pack.arg(&folder).current_dir(root()))?;
+        imported("sdist-environment", &folder)
+    });
+}
+
+/// Installs the one file of a folder in a fresh environment, where the module then tells its version, away from the checkout.
+fn imported(name: &str, folder: &Path) -> Result<(), String> {
+    let _ = std::fs::remove_dir_all(target_dir("python").join(name));
+    let files = files::within(folder)?;
+    let [file] = &files[..] else { return Err(format!("{} files", files.len())) };
+    let built = [("CARGO_TARGET_DIR", target_dir(""))];
+    let python = environment(name, &[&file.display().to_string()], &built)?;
+    let mut import = Command::new(python);
+    import.args(["-I", "-c", "import signorini; print(signorini.__version__)"]);
+    let said = output(import.current_dir(std::env::temp_dir()))?;
+    match said.trim() == env!("CARGO_PKG_VERSION") {
+        true => Ok(()),
+        false => Err(format!("{} has version {}", file.display(), said.trim())),
+    }
 }
 
 /// The Python of the environment `name`, made just now where need be and possible, after `pip install` with these words; `variables` are

@@ -7,6 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::cargo::{root, target_dir};
+use crate::checkout::locked;
 use crate::toolchain::{Toolchain, first_words, output};
 
 /// The targets: ARMv7E-M without and with a floating-point unit, and ARMv8-M with one.
@@ -118,7 +119,8 @@ impl Board {
     pub fn build(&self, build: Build) -> Result<(Command, PathBuf), String> {
         let toolchain = Toolchain::find(self.triple)?;
         let mut command =
-            toolchain.cargo(&["build", "--release", "--locked", "-p", build.package], self.triple);
+            toolchain.cargo(&["build", "--release", "-p", build.package], self.triple);
+        command.args(locked());
         // Each set of flags has a `core` of its own: apart, they do not evict each other.
         let folder =
             target_dir("firmware").join(if self.cpu_flag.is_some() { self.name } else { "" });
