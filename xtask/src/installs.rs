@@ -12,7 +12,7 @@ use signorini_image::cargo::{cargo, root, run as run_cargo, target_dir};
 use signorini_image::files;
 use signorini_image::toolchain::output;
 
-/// A scene with its mesh, and one with a setting of its own, which a study measures in that alone.
+/// A scene with its mesh.
 const GIVEN: [&str; 2] = ["meshes/scenes/levee.toml", "meshes/scenes/levee.msh"];
 
 /// A command, the status it ends with, and a file that it leaves or words that it says.
@@ -40,13 +40,16 @@ const LIGHT: [Case; 3] = [
     Case::refused(&["trade"]),
 ];
 
+/// A library for C, which cargo builds from what the program carries.
+const OF_C: &[&str] = &["bake", "levee.toml", "--c", "c", "--board", "host"];
+
 /// The rest.
 const OTHERS: [Case; 6] = [
     Case::works(&["solve", "levee.toml"], "out/levee/edges.csv"),
     Case::works(&["tick", "levee.toml", "--ticks", "5"], "out/levee/ticks.csv"),
-    Case::works(&["bake", "levee.toml", "--c", "c", "--board", "host"], "c/liblevee.a"),
+    Case::works(OF_C, "c/liblevee.a"),
     Case::works(&["trade", "set.toml", "--no-peers"], "out/set/trade.json"),
-    Case::works(&["extremes", "--only", "contrast, 1e0"], "out/extremes/extremes.json"),
+    Case::works(&["extremes", "--random", "3"], "out/extremes/random.json"),
     Case::refused(&["trade", "levee.toml", "--target", "m4f"]),
 ];
 
@@ -62,6 +65,10 @@ pub fn run(steps: &mut Steps) {
     });
     if let (Ok(away), Ok(program)) = (&installed, &program) {
         LIGHT.iter().chain(&OTHERS).for_each(|case| away.step(steps, program, case));
+        let lacks = Case { words: OF_C, status: 2, shows: "install Rust's toolchain" };
+        steps.check("away from the checkout and from cargo: signorini bake --c", || {
+            away.ends(away.command(program).env("PATH", &away.0), &lacks)
+        });
         steps.check("the baked module compiles against what it names", || away.compile("levee"));
     }
     python::distributed(steps);
@@ -93,6 +100,7 @@ impl Away {
             let name = Path::new(file).file_name().unwrap_or_default();
             files::write(&away.0.join(name), &text)?;
         }
+        // A study measures a scene with a setting of its own in that alone.
         let scene = files::text(&root().join(GIVEN[0]))?;
         files::write(&away.0.join("set.toml"), scene + "\n[setting]\nscalar = \"f32\"\n")?;
         Ok(away)
@@ -100,13 +108,14 @@ impl Away {
 
     fn step(&self, steps: &mut Steps, program: &Path, case: &Case) {
         let name = format!("away from the checkout: signorini {}", case.words.join(" "));
-        steps.check(name.trim_end(), || self.ends(program, case));
+        steps.check(name.trim_end(), || self.ends(&mut self.command(program), case));
     }
 
     /// `Ok` where the program ends as the case says.
-    fn ends(&self, program: &Path, case: &Case) -> Result<(), String> {
-        let ended = self.command(program).args(case.words).output();
-        let ended = ended.map_err(|error| format!("{}: {error}", program.display()))?;
+    fn ends(&self, program: &mut Command, case: &Case) -> Result<(), String> {
+        let ended = program.args(case.words).output();
+        let ended =
+            ended.map_err(|error| format!("{}: {error}", program.get_program().display()))?;
         let said = String::from_utf8_lossy(&ended.stderr);
         let is_shown = match case.status {
             0 => self.0.join(case.shows).is_file(),

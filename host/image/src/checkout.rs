@@ -1,5 +1,5 @@
-//! The checkout that this program works in, or what stands in for it: found when it runs, since a checkout that is copied with its programs is
-//! another one.
+//! The checkout that this program works in, or what stands in for it: found when it runs, since a checkout that is copied with
+//! its programs is another one.
 
 use std::env;
 use std::path::{Path, PathBuf};
