@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::command::{Folder, meshes, run, says, text};
+use crate::command::{Folder, meshes, repository, run, says, text};
 
 /// Exit status, standard output, standard error, and the module.
 type Baked = (i32, String, String, Option<String>);
@@ -211,7 +211,7 @@ fn the_explanation_tells_each_feature() {
     says(&stdout, &[&sides[..], &["largest seen", "error bound seen"]].concat());
     let (_, ranges) = stdout.split_once("Ranges of the inputs").expect("a section");
     let (ranges, worst) = ranges.split_once("\nWorst case").expect("a section");
-    let page = include_str!("../../docs/firmware.md");
+    let page = text(repository("docs/firmware.md"));
     for section in [format!("Ranges of the inputs{ranges}"), format!("Worst case{worst}")] {
         assert!(page.contains(&format!("```text\n{}\n```", section.trim_end())), "{section}");
     }

@@ -13,7 +13,7 @@
 //!
 //! This is the inner loop of the product, and the one place of the kernel with `unsafe` code: reading
 //! u without a test of the position saves half of the instructions of plain safe code, and a fifth of those
-//! of the best that was found (`tests/firmware/cost.txt`, `docs/decisions/packed-rows.md`).
+//! of the best that was found (`host/bake/records/cost.txt`, `docs/decisions/packed-rows.md`).
 
 use crate::error::{Array, Error, same_length};
 use crate::index::{Index, read};

@@ -6,7 +6,7 @@
 //! An edge has two cells and each lends its other sides, so a row has room for [`TRIANGLES`] = 4
 //! entries where all cells are triangles and for [`QUADS`] = 6 elsewhere; what it has less is filled
 //! up with zeros times its own u. A sweep then needs no row pointer, no division and no shift of an
-//! index: on a Cortex-M4 that is worth a factor 4 over CSR (`tests/firmware/cost.txt` has the record).
+//! index: on a Cortex-M4 that is worth a factor 4 over CSR (`host/bake/records/cost.txt` has the record).
 //!
 //! Rows are filled from CSR ([`Rows::set`]) or, where memory is dear, straight from the element
 //! matrices ([`Rows::gather`]), with the same bits. A new ω, matrix or load asks for them anew.

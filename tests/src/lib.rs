@@ -31,3 +31,8 @@ pub mod quadrature;
 pub mod random;
 pub mod targets;
 pub mod written;
+
+/// The example of the page on embedding is compiled and run: here, since a package of the kernel holds no page of `docs`.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/embedding.md")]
+struct Embedding;

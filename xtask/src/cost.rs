@@ -14,7 +14,7 @@ use crate::steps::Steps;
 
 /// Boards, the first of which counts in every run.
 const BOARDS: [Board; 3] = [M4F, M4, M7];
-const RECORD: &str = "tests/firmware/cost.txt";
+const RECORD: &str = "host/bake/records/cost.txt";
 
 /// An image that counts.
 struct Image {

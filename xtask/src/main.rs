@@ -16,12 +16,14 @@ mod firmware;
 mod flight;
 mod fuzz;
 mod house;
+mod installs;
 mod logs;
 mod modules;
 mod mutants;
 mod no_std;
 mod oldest;
 mod osqp;
+mod package;
 mod peers;
 mod program;
 mod python;
@@ -52,7 +54,7 @@ use steps::{Mode, Steps};
 const EXAMPLES: &str = "\
 Examples:
   cargo xtask test         before every commit, and what CI runs
-  cargo xtask test --all   fuzzing, sanitizer, mutants, MPI, OSQP, old processors, PyVista, every board, too
+  cargo xtask test --all   fuzzing, sanitizer, mutants, MPI, OSQP, old processors, PyVista, what is installed, every board, too
   cargo xtask test --only boards    one part of it: house, host, no-std, python, boards or rest
   cargo xtask no-std    after a change of the kernel's dependencies
   cargo xtask cost --bless    writes the record anew (boards, c, cost, house, logs, peers and size have one)
@@ -90,6 +92,10 @@ enum Verb {
     Archive(Mode),
     /// The Python module as a wheel, in target/dist; it solves a scene where pip has installed it
     Wheel(Mode),
+    /// An archive of each crate, and each builds from its own; nothing is published
+    Package(Mode),
+    /// What users install works away from the checkout, or says what it lacks
+    Installs(Mode),
     /// Installs the tools for microcontrollers (Debian, as root)
     Setup(Mode),
     /// The kernel and all images for Cortex-M4 and M7
@@ -153,6 +159,8 @@ fn main() -> ExitCode {
         Verb::Python(mode) => (mode, python::run),
         Verb::Archive(mode) => (mode, archive::run),
         Verb::Wheel(mode) => (mode, python::wheel),
+        Verb::Package(mode) => (mode, package::verify),
+        Verb::Installs(mode) => (mode, installs::run),
         Verb::Setup(mode) => (mode, setup::run),
         Verb::Cross(mode) => (mode, cross::run),
         Verb::Boards(mode) => (mode, boards::run),

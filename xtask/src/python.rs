@@ -1,4 +1,5 @@
-//! Environments of Python, each in a folder below `target/python`; `cargo xtask python`: the module `signorini` is built by pip in a fresh environment, and its tests run there beside the command line; `cargo xtask wheel`: the same module as one file that pip installs anywhere.
+//! Environments of Python, each in a folder below `target/python`; `cargo xtask python`: the module `signorini` is built by pip in a fresh environment, and its tests run there beside the command line.
+//! `cargo xtask wheel` has the same module as one file that pip installs anywhere, `cargo xtask installs` the source distribution, too.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -12,6 +13,9 @@ use signorini_image::tools::{ensured, install_packages};
 
 /// The package of the module: what it is linked to, pip knows.
 pub const PACKAGE: &str = "signorini-python";
+
+/// Its manifest.
+const MANIFEST: &str = "host/python/Cargo.toml";
 
 /// Packages that the library of Gmsh asks of a system.
 const OF_GMSH: [&str; 6] =
@@ -36,42 +40,65 @@ pub fn run(steps: &mut Steps) {
     });
 }
 
-/// The folder of the environment in which the wheel is tried.
-const TRIED: &str = "wheel-environment";
-/// What the wheel is tried with: the seepage of the levee in m²/s.
-const TRIAL: &str = "import signorini; r = signorini.solve('meshes/scenes/levee.toml'); \
-    assert 3e-5 < r.outputs['seepage'].value < 4e-5, r.outputs";
-
-/// The verb `wheel`: maturin builds the wheel, and a fresh environment solves a scene with it alone.
+/// The verb `wheel`: the module as one file, in target/dist.
 pub fn wheel(steps: &mut Steps) {
-    steps.check("maturin builds the wheel", || {
+    steps.check("the wheel of this machine, in a fresh environment", || {
         let dist = files::folder(&target_dir("dist"))?;
         wheels(&dist)?.iter().try_for_each(|old| {
             std::fs::remove_file(old).map_err(|error| format!("{}: {error}", old.display()))
         })?;
-        let maturin = environment("maturin-environment", &["maturin>=1.8,<2"], &[])?;
-        let mut build = Command::new(&maturin);
-        build.args(["-m", "maturin", "build", "--release", "--locked"]);
-        build.args(["--manifest-path", "host/python/Cargo.toml", "--out"]).arg(&dist);
-        build.current_dir(root());
-        run_command(build)
+        let mut build = Command::new(maturin()?);
+        build.args(["build", "--release", "--locked", "--manifest-path", MANIFEST, "--out"]);
+        // The folder of the program, whose crates serve the module.
+        build.arg(&dist).env("CARGO_TARGET_DIR", target_dir("")).current_dir(root());
+        output(&mut build)?;
+        installed("wheel-environment", &wheels(&dist)?)
     });
-    steps.check("the wheel solves a scene", || {
-        let built = wheels(&target_dir("dist"))?;
-        let [wheel] = &built[..] else { return Err(format!("{} wheels", built.len())) };
-        let _ = std::fs::remove_dir_all(target_dir("python").join(TRIED));
-        let wheel = wheel.display().to_string();
-        let python = environment(TRIED, &[wheel.as_str()], &[])?;
-        output(Command::new(&python).args(["-c", TRIAL]).current_dir(root()))?;
-        println!("{wheel}");
-        Ok(())
+}
+
+/// What is handed to users: the wheel, and the source distribution.
+pub fn distributed(steps: &mut Steps) {
+    wheel(steps);
+    steps.check("the source distribution builds a wheel, in a fresh environment", || {
+        let folder = target_dir("python").join("distributed");
+        files::emptied(&folder)?;
+        let mut pack = Command::new(maturin()?);
+        pack.args(["sdist", "--manifest-path", MANIFEST, "--out"]);
+        output(pack.arg(&folder).current_dir(root()))?;
+        installed("sdist-environment", &files::within(&folder)?)
     });
+}
+
+/// The program that packs modules.
+fn maturin() -> Result<PathBuf, String> {
+    let python = environment("maturin", &["maturin>=1.8,<2"], &[])?;
+    Ok(python.with_file_name("maturin"))
 }
 
 /// The wheels in a folder.
 fn wheels(folder: &Path) -> Result<Vec<PathBuf>, String> {
     let is_wheel = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "whl");
     Ok(files::within(folder)?.into_iter().filter(is_wheel).collect())
+}
+
+/// What an installed module is tried with: its version, and the seepage of the levee in m²/s.
+const TRIAL: &str = "import signorini, sys; r = signorini.solve(sys.argv[1]); \
+    assert 3e-5 < r.outputs['seepage'].value < 4e-5, r.outputs; print(signorini.__version__)";
+
+/// Installs one file in a fresh environment, where the module solves a scene away from the checkout.
+fn installed(name: &str, files: &[PathBuf]) -> Result<(), String> {
+    let _ = std::fs::remove_dir_all(target_dir("python").join(name));
+    let [file] = files else { return Err(format!("{} files", files.len())) };
+    let built = [("CARGO_TARGET_DIR", target_dir(""))];
+    let python = environment(name, &[&file.display().to_string()], &built)?;
+    let mut trial = Command::new(python);
+    trial.args(["-I", "-c", TRIAL]).arg(root().join("meshes/scenes/levee.toml"));
+    let said = output(trial.current_dir(std::env::temp_dir()))?;
+    match said.trim() == env!("CARGO_PKG_VERSION") {
+        true => Ok(()),
+        false => Err(format!("{} has version {}", file.display(), said.trim())),
+    }
+}
 }
 
 /// The Python of the environment `name`, made just now where need be and possible, after `pip install` with these words; `variables` are

@@ -9,7 +9,7 @@ use signorini_image::board::M4F_192K;
 use signorini_image::footprint::Footprint;
 use signorini_image::record::sizes;
 
-const RECORD: &str = "tests/firmware/size.txt";
+const RECORD: &str = "host/bake/records/size.txt";
 
 /// Bakes, builds, runs and prints.
 pub fn run(steps: &mut Steps) {

@@ -4,7 +4,8 @@
 //! ```text
 //!   formatting, house ─► signorini ─┬─► host: clippy, tests, documentation, Python
 //!                                   └─► boards: modules, images, C, audits, records
-//!   --all: more boards and breaches in the steps above; then fuzzing, sanitizer, mutants, MPI, OSQP, old processors, PyVista
+//!   --all: more boards and breaches in the steps above; then fuzzing, sanitizer, mutants, MPI, OSQP, old processors, PyVista,
+//!          archives, what is installed
 //! ```
 //! `--only PART` runs one of these parts, which no other has to go before: the jobs of `.github/workflows/test.yml`.
 //!
@@ -16,8 +17,8 @@ use crate::counted::counted_by;
 use crate::crates::{KERNEL, of_kernel};
 use crate::steps::{Mode, Steps};
 use crate::{
-    audit, boards, c, cost, cross, firmware, fuzz, house, logs, modules, mutants, no_std, oldest,
-    osqp, program, python, ranks, results, sanitize, seen, setup, size,
+    audit, boards, c, cost, cross, firmware, fuzz, house, installs, logs, modules, mutants, no_std,
+    oldest, osqp, package, program, python, ranks, results, sanitize, seen, setup, size,
 };
 use signorini_image::cargo::{cargo, require, run as run_cargo};
 use signorini_image::tools::ensure_for_c;
@@ -212,6 +213,8 @@ fn at_length(steps: &mut Steps) {
     osqp::check(steps);
     oldest::run(steps);
     results::run(steps);
+    package::run(steps);
+    installs::run(steps);
 }
 
 /// A small part of each of them. Others stand among the tests above: hostile bytes (fuzzing), a campaign's parts in one rank (MPI),
@@ -220,6 +223,8 @@ fn witnesses(steps: &mut Steps) {
     sanitize::witness(steps);
     mutants::witness(steps);
     oldest::witness(steps);
+    package::run(steps);
+    installs::witness(steps);
     steps.lint("packages apart: their lock files are whole", || {
         [fuzz::MANIFEST, osqp::MANIFEST, mutants::MANIFEST].iter().try_for_each(|manifest| {
             let words =

@@ -6,9 +6,9 @@ use signorini_image::record::counts::Counts;
 use signorini_image::record::sizes;
 use signorini_problem::scalar::Scalar;
 
-const RECORD: &str = include_str!("../../../tests/firmware/cost.txt");
+const RECORD: &str = include_str!("../records/cost.txt");
 /// Code, data, RAM and stack of baked scenes.
-const SIZES: &str = include_str!("../../../tests/firmware/size.txt");
+const SIZES: &str = include_str!("../records/size.txt");
 /// The board that is told of.
 const BOARD: &str = "M4F";
 

@@ -199,15 +199,14 @@ const VERSION: &str = concat!(
     "; bake the scene again\");\n"
 );
 
-/// The line of a Cargo.toml. The kernel is on no registry: it is found where the checkout stands that has baked this.
+/// The line of a Cargo.toml. The kernel is on no registry: it is found where the sources of the program stand that has baked this.
 fn dependency(features: &[&str]) -> String {
-    let (place, remark) = match checkout::find() {
-        Ok(root) => {
-            (root.join("kernel/device").display().to_string(), "the checkout that has baked this")
+    let (place, remark) = match (checkout::find(), checkout::sources()) {
+        (Ok(root), _) => (root.join("kernel/device"), "the checkout that has baked this"),
+        (_, Ok(root)) => {
+            (root.join("kernel/device"), "what `signorini` has put there; keep a copy of all of it")
         }
-        Err(_) => {
-            ("kernel/device".to_owned(), "the folder kernel/device of a checkout of signorini")
-        }
+        _ => ("kernel/device".into(), "the folder kernel/device of a checkout of signorini"),
     };
     format!(
         "signorini-device = {{ path = {place:?}, default-features = false, features = {features:?} }} # {remark}"

@@ -7,6 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::cargo::{root, target_dir};
+use crate::checkout::locked;
 use crate::toolchain::{Toolchain, first_words, output};
 
 /// The targets: ARMv7E-M without and with a floating-point unit, and ARMv8-M with one.
@@ -118,7 +119,8 @@ impl Board {
     pub fn build(&self, build: Build) -> Result<(Command, PathBuf), String> {
         let toolchain = Toolchain::find(self.triple)?;
         let mut command =
-            toolchain.cargo(&["build", "--release", "--locked", "-p", build.package], self.triple);
+            toolchain.cargo(&["build", "--release", "-p", build.package], self.triple);
+        command.args(locked());
         // Each set of flags has a `core` of its own: apart, they do not evict each other.
         let folder =
             target_dir("firmware").join(if self.cpu_flag.is_some() { self.name } else { "" });
@@ -214,7 +216,8 @@ mod tests {
 
     #[test]
     fn the_images_link_for_the_same_memory() {
-        let maps = include_str!("../../../tests/firmware/board/build.rs");
+        let maps = root().join("tests/firmware/board/build.rs");
+        let maps = std::fs::read_to_string(maps).expect("the maps");
         for (board, said) in [(M4F, "LENGTH = 4M\\nRAM"), (M4F_192K, "LENGTH = 1M\\nRAM")] {
             assert!(maps.contains(said) && said.contains(&format!("{}M", board.flash >> 20)));
         }

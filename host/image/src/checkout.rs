@@ -1,5 +1,5 @@
-//! The checkout that this program works in: found when it runs, since a checkout that is copied with its programs is
-//! another one.
+//! The checkout that this program works in, or what stands in for it: found when it runs, since a checkout that is copied with
+//! its programs is another one.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -19,9 +19,32 @@ pub fn find() -> Result<&'static Path, String> {
     found.map(PathBuf::as_path).map_err(Clone::clone)
 }
 
-/// The root of the checkout, for who comes after [`find`] has been asked.
+/// The folder that stands in for a checkout where there is none.
+static STAND_IN: OnceLock<PathBuf> = OnceLock::new();
+
+/// Makes a folder stand in for a checkout where there is none: it has the sources of a library for C, in the same places.
+pub fn stand_in(folder: PathBuf) {
+    // The first one stays: a program has one such folder.
+    let _ = STAND_IN.set(folder);
+}
+
+/// The root of the kernel's sources: the checkout, or what stands in for it.
+///
+/// # Errors
+/// There is neither: where a checkout was looked for, and what is missing there.
+pub fn sources() -> Result<&'static Path, String> {
+    find().or_else(|why| STAND_IN.get().map(PathBuf::as_path).ok_or(why))
+}
+
+/// The root of the sources, for who comes after [`find`] or [`sources`] has been asked.
 pub fn root() -> &'static Path {
-    find().unwrap_or(Path::new("."))
+    sources().unwrap_or(Path::new("."))
+}
+
+/// The word that holds cargo to a lock file. What stands in for a checkout has fewer members than its lock file knows: cargo keeps the
+/// versions there, and drops the rest first.
+pub fn locked() -> Option<&'static str> {
+    find().is_ok().then_some("--locked")
 }
 
 fn starts() -> Vec<PathBuf> {

@@ -15,6 +15,7 @@ use std::process::Command;
 use crate::binutils::Binutils;
 use crate::board::{Board, Build, M4, M4F, M7, M33};
 use crate::cargo::{build, cargo, root, target_dir};
+use crate::checkout::locked;
 use crate::files;
 use crate::lock;
 use crate::objects::ARM;
@@ -241,8 +242,8 @@ fn build_command(
         });
     }
     let folder = target_dir("desk");
-    let mut command = cargo(&["build", "--release", "--locked", "-p", PACKAGE, "--target-dir"]);
-    command.arg(&folder).arg("--features").arg(features.join(","));
+    let mut command = cargo(&["build", "--release", "-p", PACKAGE, "--target-dir"]);
+    command.arg(&folder).args(locked()).arg("--features").arg(features.join(","));
     command.current_dir(root().join("tests/firmware"));
     Ok((command, folder.join("release")))
 }

@@ -10,7 +10,11 @@ use signorini_scene::{Error, InputError, Result, Scene};
 /// # Errors
 /// There is none: where it was looked for, and what is missing there.
 pub fn root() -> Result<&'static Path> {
-    find().map_err(|why| InputError::new(why).hint("run this command inside of one").into())
+    find().map_err(|why| {
+        let hint =
+            "run this command inside of one: it has the standard scenes and what images for boards are built from";
+        InputError::new(why).hint(hint).into()
+    })
 }
 
 /// The scene files below `folder` whose materials store nothing, in the order of their names: all studies are of steady states.

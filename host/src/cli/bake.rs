@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, Args};
 
-use super::bake_c;
 use super::scene_arguments::{promised_problem_of, scene_at};
 use super::step_advice::step_advice;
 use super::tick_setting::length_of_step;
 use super::write_beside;
+use super::{bake_c, carried};
 use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::emit::{Emitted, emit};
 use signorini_bake::explain::{explanation, warnings};
@@ -58,7 +58,7 @@ more at 2 cycles an instruction there is a warning, and for a full model that is
 there is no more than that, since a deadline cuts it off. The error bound is never left out \
 to make room, but by certificate = false in [setting].
 
---c builds the controller as a library for C, in a checkout of the sources: m4 and m7 pass numbers in \
+--c builds the controller as a library for C, by cargo: m4 and m7 pass numbers in \
 floating-point registers, m4-soft in the others; m33 is a Cortex-M33 with its unit for f32, host this machine. The header says what each \
 function does; the example is a program with a timer, a watchdog and a state that outlives a reset:
   cmake -S out/levee/example -B out/levee/build
@@ -126,6 +126,8 @@ impl Arguments {
         let (problem, promise) = promised_problem_of(&scene)?;
         let promise = promise.as_ref();
         warn(&problem.warnings);
+        // The module names where the kernel is, and a library is built from it.
+        let sources = carried::sources();
         let emitted = match setting::scalar(&scene, self.scalar)? {
             ScalarKind::F32 => self.module::<f32>(&problem, promise)?,
             ScalarKind::F64 => self.module::<f64>(&problem, promise)?,
@@ -140,6 +142,7 @@ impl Arguments {
             });
         }
         if let Some(folder) = &self.c {
+            sources?;
             self.machines().try_for_each(|on| match self.board.len() {
                 0 | 1 => bake_c::write(&problem, &emitted, on, folder),
                 _ => bake_c::write(&problem, &emitted, on, &folder.join(on.word)),
@@ -267,7 +270,8 @@ mod tests {
     #[test]
     fn the_example_compiles_and_is_the_readme_s() {
         let lines = example();
-        let readme = include_str!("../../../README.md");
+        let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("../README.md");
+        let readme = std::fs::read_to_string(readme).expect("the page");
         assert!(
             readme.contains(&format!("```rust,ignore\n{}\n```", lines.join("\n"))),
             "{lines:?}"

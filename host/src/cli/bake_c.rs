@@ -7,11 +7,11 @@ use super::example::Written;
 use signorini_bake::c::{File, files, name_of};
 use signorini_bake::emit::Emitted;
 use signorini_files::atomic::{writable, writable_file, write_atomically};
-use signorini_image::checkout;
 use signorini_image::library::Machine;
+use signorini_image::tools::answer;
 use signorini_problem::Problem;
 use signorini_problem::progress::{note, waiting};
-use signorini_scene::error::{Error, Result};
+use signorini_scene::error::{Error, InputError, Result};
 
 /// Builds them, then writes them all; an example that somebody has changed stays.
 pub(super) fn write(
@@ -21,8 +21,10 @@ pub(super) fn write(
     folder: &Path,
 ) -> Result<()> {
     let failed = |why: String| Error::Check(format!("no library for {}: {why}", on.word));
-    checkout::find()
-        .map_err(|why| failed(format!("it is built from the sources, and there is {why}")))?;
+    answer(&["cargo"]).map_err(|why| {
+        InputError::new(format!("--c builds a library by cargo: {why}"))
+            .hint("install Rust's toolchain: https://rustup.rs")
+    })?;
     writable("--c", folder)?;
     let name = name_of(problem);
     let built =

@@ -3,6 +3,7 @@
 mod answer;
 mod bake;
 mod bake_c;
+mod carried;
 mod check;
 mod example;
 mod extremes;

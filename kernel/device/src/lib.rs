@@ -85,12 +85,7 @@ pub const fn is_version(version: &str) -> bool {
     own.is_empty() && other.is_empty()
 }
 
-/// The example of the page on embedding is compiled and run.
-#[cfg(doctest)]
-#[doc = include_str!("../../../docs/embedding.md")]
-struct Embedding;
-
-/// So is that of the crate's own page.
+/// The example of the crate's own page is compiled and run.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct OwnPage;

@@ -39,7 +39,7 @@ pub fn check(steps: &mut Steps) {
             firmware.verdict()?;
             within(row.median, firmware.instructions_per_tick.median)?;
             // What `bake` states was counted on the code of one compiler.
-            let counted = ["tests/firmware/cost.txt", "tests/firmware/size.txt"];
+            let counted = ["host/bake/records/cost.txt", "host/bake/records/size.txt"];
             let versions = record::versions()?;
             let is_counted = |record: &&str| record::is_of(record, &versions).unwrap_or_default();
             if row.is_explained && counted.iter().all(is_counted) {

@@ -9,7 +9,7 @@ use syn::visit_mut::{self, VisitMut};
 /// Folders that hold the project's programs, and no tests of other programs.
 const FOLDERS: [&str; 2] = ["kernel", "host"];
 /// Folders and files of them that no rule is about.
-const APART: [&str; 5] = ["tests", "tests.rs", "benches", "examples", "target"];
+const APART: [&str; 6] = ["tests", "tests.rs", "benches", "examples", "target", "carried"];
 
 /// A source file.
 #[derive(Debug, Default)]

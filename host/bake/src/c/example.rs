@@ -6,14 +6,14 @@ use super::names::field;
 use crate::module_api::ModuleApi;
 use signorini_image::library::Machine;
 
-const MAIN: &str = include_str!("../../../c/example/main.c");
-const BOARD_H: &str = include_str!("../../../c/example/board.h");
-const BOARD: &str = include_str!("../../../c/example/board.c");
-const LINKER: &str = include_str!("../../../c/example/board.ld");
-const CMAKE: &str = include_str!("../../../c/example/CMakeLists.txt");
-const TOOLCHAIN: &str = include_str!("../../../c/example/toolchain.cmake");
-const BOARD_HOST: &str = include_str!("../../../c/example/board_host.c");
-const CMAKE_HOST: &str = include_str!("../../../c/example/host.cmake");
+const MAIN: &str = include_str!("example/main.c");
+const BOARD_H: &str = include_str!("example/board.h");
+const BOARD: &str = include_str!("example/board.c");
+const LINKER: &str = include_str!("example/board.ld");
+const CMAKE: &str = include_str!("example/CMakeLists.txt");
+const TOOLCHAIN: &str = include_str!("example/toolchain.cmake");
+const BOARD_HOST: &str = include_str!("example/board_host.c");
+const CMAKE_HOST: &str = include_str!("example/host.cmake");
 
 /// Places on the example's board, by the tokens of its files: memories, timer and watchdog of CMSDK, and megahertz.
 const MPS2: [(&str, &str); 7] = [

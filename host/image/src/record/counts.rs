@@ -1,4 +1,4 @@
-//! Instructions of every stage by board and kind of data: `tests/firmware/cost.txt`.
+//! Instructions of every stage by board and kind of data: `host/bake/records/cost.txt`.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

@@ -1,4 +1,4 @@
-//! The sizes of images of baked scenes, by what the scenes contain: `tests/firmware/size.txt`.
+//! The sizes of images of baked scenes, by what the scenes contain: `host/bake/records/size.txt`.
 
 use std::fmt::Write as _;
 

@@ -29,4 +29,4 @@ __all__ = [
     "solve",
     "tick",
 ]
-__version__ = "0.1.0"
+__version__ = "0.9.0"
