@@ -44,7 +44,9 @@ const LIGHT: [Case; 3] = [
 const OF_C: &[&str] = &["bake", "levee.toml", "--c", "c", "--board", "host"];
 
 /// The rest.
-const OTHERS: [Case; 6] = [
+const OTHERS: [Case; 8] = [
+    Case::works(&["new", "levee.msh", "--out", "new.toml"], "new.toml"),
+    Case::works(&["check", "levee.toml", "--draw", "plan.svg"], "plan.svg"),
     Case::works(&["solve", "levee.toml"], "out/levee/edges.csv"),
     Case::works(&["tick", "levee.toml", "--ticks", "5"], "out/levee/ticks.csv"),
     Case::works(OF_C, "c/liblevee.a"),

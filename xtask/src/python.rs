@@ -99,7 +99,6 @@ fn installed(name: &str, files: &[PathBuf]) -> Result<(), String> {
         false => Err(format!("{} has version {}", file.display(), said.trim())),
     }
 }
-}
 
 /// The Python of the environment `name`, made just now where need be and possible, after `pip install` with these words; `variables` are
 /// for what pip runs.

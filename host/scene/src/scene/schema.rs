@@ -38,10 +38,7 @@ pub fn schema() -> Json {
 
 /// What stands above all tables.
 fn top_keys() -> impl Iterator<Item = (String, Json)> {
-    SECTIONS
-        .iter()
-        .filter(|section| section.header.is_empty())
-        .flat_map(|section| properties(section))
+    SECTIONS.iter().filter(|section| section.header.is_empty()).flat_map(properties)
 }
 
 /// The tables: those with names of the user's hold a table per name.
