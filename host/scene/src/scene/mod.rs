@@ -20,6 +20,7 @@ mod boundary;
 mod control;
 mod document;
 mod entry;
+mod exclusions;
 pub mod keys;
 mod material;
 mod output;

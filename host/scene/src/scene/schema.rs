@@ -1,7 +1,7 @@
 //! The JSON Schema of scene files, for editors that complete keys and underline mistakes.
 //!
-//! It is made of the list of [keys](super::keys). What takes more than one table to see it does not say: names of boundaries,
-//! variables of expressions, keys of the setting that exclude each other. `signorini check` does.
+//! It is made of the list of [keys](super::keys) and of what excludes each other in a setting. Names of groups and the
+//! variables of expressions it does not see; `signorini check` does.
 
 use serde_json::{Map, Value as Json, json};
 
@@ -50,9 +50,19 @@ fn tables() -> impl Iterator<Item = (String, Json)> {
             [one] => one.clone(),
             kinds => json!({ "oneOf": kinds }),
         };
+        let one = match table {
+            "setting" => excluding(one),
+            _ => one,
+        };
         let is_named = own.iter().any(|section| section.is_named());
         (table.to_owned(), if is_named { named(one) } else { one })
     })
+}
+
+/// The setting, without keys that exclude each other.
+fn excluding(mut setting: Json) -> Json {
+    setting["allOf"] = super::exclusions::in_schema();
+    setting
 }
 
 fn named(one: Json) -> Json {

@@ -4,6 +4,7 @@ use signorini_kernel::element::QuadElement;
 use toml::de::DeValue;
 
 use super::entry::Entry;
+use super::exclusions;
 use super::table::Table;
 use crate::error::{InputError, Result};
 use crate::goal::Goal;
@@ -67,9 +68,9 @@ pub(super) fn read_setting(table: &Table) -> Option<Setting> {
         certificate: certificate?,
         memory: memory?,
     };
-    match contradiction(&setting) {
+    match exclusions::broken(table) {
         None => Some(setting),
-        Some((key, message, hint)) => {
+        Some([key, message, hint]) => {
             table.document.faults.note(error_at(table, key, message).hint(hint));
             None
         }
@@ -112,57 +113,4 @@ fn goal(entry: &Entry) -> Result<Goal> {
 /// The error that the value of `key` does not go with another.
 fn error_at(table: &Table, key: &str, message: &str) -> InputError {
     table.get(key).map_or_else(|| table.absent(key), |entry| entry.error(message))
-}
-
-/// The first key that contradicts another one, why, and what to do.
-fn contradiction(setting: &Setting) -> Option<(&'static str, &'static str, &'static str)> {
-    const ONE: &str = "remove one of them";
-    const BOUND: &str = "write certificate = true, or a number of sweeps";
-    const NUMBER: &str = "remove it, or write a number of sweeps";
-    const SWEEP: &str = "remove it, or write solver = \"sweeps\"";
-    const EXACT: &str = "write solver = \"exact\", or take model = \"full\"";
-    const FACTOR: &str = "write solver = \"factor\", or take model = \"condensed\"";
-    const CONDENSED: &str = "remove it, or take model = \"condensed\"";
-    const ONE_FORMAT: &str = "write f32 or f64, or solver = \"sweeps\"";
-    const FORMAT: &str = "write f32 or f64, or take model = \"full\"";
-    const FULL: &str = "remove it, or take model = \"full\"";
-    const SINGLE: &str = "write scalar = \"f32\", or math = \"libm\"";
-    let Setting { scalar, model, omega, certificate, .. } = *setting;
-    let twice = setting.error.is_some() && setting.refine > 0;
-    let [swept, shared] = [setting.sweeps.is_some(), setting.share.is_some()];
-    let [exact, factored] = [Method::Exact, Method::Factor].map(|of| setting.solver == Some(of));
-    let remembers = setting.memory.is_some();
-    let condensed =
-        model == Some(ModelKind::Condensed) || ((exact || remembers) && model.is_none());
-    let [mixed, fast] = [scalar == Some(Precision::Mixed), setting.math == MathKind::Micromath];
-    let [fixed, cold] = [matches!(omega, Omega::Fixed(_)), setting.start == Start::Cold];
-    let wide = scalar.is_some_and(|scalar| scalar != Precision::F32);
-    let of_bound = "a share of the error bound, which certificate = false leaves out";
-    let roots =
-        "the condensed model has no search for ω, the one that takes square roots of either kind";
-    let rules = [
-        (twice, "refine", "excludes `error`, which says how fine the mesh becomes", ONE),
-        (swept && shared, "share", "excludes `sweeps`: one of them says when to stop", ONE),
-        (shared && !certificate, "share", of_bound, BOUND),
-        (shared && condensed, "share", "the condensed model has no share to stop at", NUMBER),
-        (factored && condensed, "solver", "a factor is for the full model", EXACT),
-        (remembers && !condensed, "memory", "states are those of a condensed model", CONDENSED),
-        (exact && !condensed, "solver", "the exact method is for the condensed model", FACTOR),
-        (swept && exact, "sweeps", "the exact method takes no number of sweeps", SWEEP),
-        (swept && factored, "sweeps", "a factor takes no sweeps", SWEEP),
-        (shared && factored, "share", "a factor leaves nothing of the bound to sweeps", SWEEP),
-        (mixed && factored, "scalar", "a factor is for one number format", ONE_FORMAT),
-        (fixed && condensed, "omega", "the condensed model has its own relaxation factor", FULL),
-        (cold && condensed, "start", "the condensed model has no cold start", FULL),
-        (fast && condensed, "math", roots, FULL),
-        (
-            mixed && condensed,
-            "scalar",
-            "the condensed model is solved in one number format",
-            FORMAT,
-        ),
-        (fast && wide, "math", "micromath is for f32 alone", SINGLE),
-    ];
-    let (_, key, message, hint) = rules.into_iter().find(|(is_broken, ..)| *is_broken)?;
-    Some((key, message, hint))
 }

@@ -19,6 +19,12 @@ material.default.conductivity = 2
 boundary.default = { kind = 'contact' }
 ";
 
+/// The cases of a file, a list of texts each.
+fn cases<const N: usize>(text: &str) -> Vec<[String; N]> {
+    let mut all: toml::Table = text.parse().expect("TOML");
+    all.remove("cases").and_then(|cases| cases.try_into().ok()).expect("lists of texts")
+}
+
 fn parse(text: &str) -> Result<Scene> {
     Scene::parse(text, Path::new("scenes/levee.toml"))
 }

@@ -83,63 +83,20 @@ fn what_is_written_is_read_again() {
     }
 }
 
-/// Lines of a setting, and the message after `FILE:`.
-#[rustfmt::skip] // A table.
-const WRONG: &[(&str, &str)] = &[
-    ("sweep = 3", "6: setting.sweep: unknown key of the setting"),
-    ("refine = 7", "6: setting.refine: expected a whole number from 0 to 6, found the number 7"),
-    ("refine = -1", "6: setting.refine: expected a whole number from 0 to 6, found the number -1"),
-    ("refine = 1.0", "6: setting.refine: expected a whole number from 0 to 6, found the number 1.0"),
-    ("error = 0", "6: setting.error: expected a number > 0, such as 0.01, or a part such as \"5%\", found the number 0"),
-    ("error = '5 percent'", "6: setting.error: expected a number > 0, such as 0.01, or a part such as \"5%\", found the text \"5 percent\""),
-    ("error = '5%'\nrefine = 1", "7: setting.refine: excludes `error`, which says how fine the mesh becomes"),
-    ("cells = 'hexagons'", "6: setting.cells: `hexagons` is not one of: triangles, quads"),
-    ("cells = 4", "6: setting.cells: expected a text, found the number 4"),
-    ("element = 'conforming'", "6: setting.element: `conforming` is not one of: parametric, nonparametric"),
-    ("scalar = 'f16'", "6: setting.scalar: `f16` is not one of: f32, f64, f32+f64"),
-    ("math = 'std'", "6: setting.math: `std` is not one of: libm, micromath"),
-    ("model = 'half'", "6: setting.model: `half` is not one of: full, condensed"),
-    ("solver = 'direct'", "6: setting.solver: `direct` is not one of: auto, sweeps, factor, exact"),
-    ("solver = 'multigrid'", "6: setting.solver: `multigrid` is a solver of the desk, no device has it"),
-    ("model = 'condensed'\nsolver = 'factor'", "7: setting.solver: a factor is for the full model"),
-    ("model = 'full'\nsolver = 'exact'", "7: setting.solver: the exact method is for the condensed model"),
-    ("solver = 'exact'\nsweeps = 9", "7: setting.sweeps: the exact method takes no number of sweeps"),
-    ("solver = 'exact'\nshare = 0.1", "7: setting.share: the condensed model has no share to stop at"),
-    ("solver = 'exact'\nomega = 1.5", "7: setting.omega: the condensed model has its own relaxation factor"),
-    ("solver = 'exact'\nstart = 'cold'", "7: setting.start: the condensed model has no cold start"),
-    ("solver = 'factor'\nsweeps = 9", "7: setting.sweeps: a factor takes no sweeps"),
-    ("solver = 'factor'\nshare = 0.1", "7: setting.share: a factor leaves nothing of the bound to sweeps"),
-    ("solver = 'factor'\nscalar = 'f32+f64'", "7: setting.scalar: a factor is for one number format"),
-    ("start = 'hot'", "6: setting.start: `hot` is not one of: cold, warm"),
-    ("omega = 2", "6: setting.omega: 2 is not inside (0, 2)"),
-    ("omega = 0.0", "6: setting.omega: 0 is not inside (0, 2)"),
-    ("omega = nan", "6: setting.omega: not a finite number"),
-    ("omega = 'Auto'", "6: setting.omega: expected \"auto\" or a number inside (0, 2), found the text \"Auto\""),
-    ("omega = true", "6: setting.omega: expected \"auto\" or a number inside (0, 2), found true"),
-    ("sweeps = 0", "6: setting.sweeps: expected a whole number from 1 to 4294967295, found the number 0"),
-    ("sweeps = 4294967296", "6: setting.sweeps: expected a whole number from 1 to 4294967295, found the number 4294967296"),
-    ("share = 1", "6: setting.share: 1 is not inside (0, 1)"),
-    ("share = 'all'", "6: setting.share: expected a number, found the text \"all\""),
-    ("certificate = 1", "6: setting.certificate: expected true or false, found the number 1"),
-    ("share = 0.1\nsweeps = 3", "6: setting.share: excludes `sweeps`: one of them says when to stop"),
-    ("certificate = false\nshare = 0.1", "7: setting.share: a share of the error bound, which certificate = false leaves out"),
-    ("model = 'condensed'\nshare = 0.1", "7: setting.share: the condensed model has no share to stop at"),
-    ("model = 'condensed'\nomega = 1.5", "7: setting.omega: the condensed model has its own relaxation factor"),
-    ("model = 'condensed'\nstart = 'cold'", "7: setting.start: the condensed model has no cold start"),
-    ("scalar = 'f32+f64'\nmodel = 'condensed'", "6: setting.scalar: the condensed model is solved in one number format"),
-    ("scalar = 'f64'\nmath = 'micromath'", "7: setting.math: micromath is for f32 alone"),
-    ("math = 'micromath'\nscalar = 'f32+f64'", "6: setting.math: micromath is for f32 alone"),
-];
+/// Lines of a setting, and the message after `FILE:`. The schema is tried on them, too.
+fn wrong() -> Vec<[String; 2]> {
+    super::cases(include_str!("setting.toml"))
+}
 
 #[test]
 fn each_mistake_has_one_message_with_line_and_key() {
-    for (lines, message) in WRONG {
-        let error = parse(&with(lines)).expect_err(message);
+    for [lines, message] in wrong() {
+        let error = parse(&with(&lines)).expect_err(&message);
         assert_eq!(error.to_string(), format!("scenes/levee.toml:{message}"));
         assert_eq!(error.exit_status(), 2);
     }
-    for (lines, _) in WRONG.iter().filter(|(lines, _)| lines.contains('\n')) {
-        let error = parse(&with(lines)).expect_err(lines);
+    for [lines, _] in wrong().into_iter().filter(|[lines, _]| lines.contains('\n')) {
+        let error = parse(&with(&lines)).expect_err(&lines);
         assert!(!hint(&error).is_empty(), "{lines}");
     }
     let error = parse(&format!("setting = 3\n{SMALL}")).expect_err("a number");
