@@ -22,7 +22,9 @@ boundary.default = { kind = 'contact' }
 /// The cases of a file, a list of texts each.
 fn cases<const N: usize>(text: &str) -> Vec<[String; N]> {
     let mut all: toml::Table = text.parse().expect("TOML");
-    all.remove("cases").and_then(|cases| cases.try_into().ok()).expect("lists of texts")
+    let cases = all.remove("cases").expect("cases").try_into::<Vec<Vec<String>>>();
+    let exactly = |case: Vec<String>| case.try_into().expect("so many texts");
+    cases.expect("lists of texts").into_iter().map(exactly).collect()
 }
 
 fn parse(text: &str) -> Result<Scene> {
