@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::markup::{frame, list, unrolled};
+use super::markup::{enclosed, folded, frame, list, unrolled};
 use super::outcome_map::{OutcomeMap, key, outcome_map};
 use super::svg::escape;
 use super::table::Table;
@@ -44,16 +44,18 @@ pub fn extremes(found: &Extremes) -> String {
         let (key, outcome, means) = (key(outcome), escape(outcome), escape(means));
         let _ = writeln!(html, "<li>{key}<span><b>{outcome}</b>: {means}</span></li>");
     }
-    html += "</ul>\n<div class=\"studies\">\n";
-    html.extend(found.studies.iter().map(study));
-    let reasons = found.reasons.html(&[]);
-    let count = found.reasons.rows.len();
-    let _ = write!(
-        html,
-        "</div>\n<details class=\"card\">\n<summary>Why not correct<small>{count} cases</small></summary>\n\
-         {reasons}</details>\n"
-    );
-    html
+    let (alone, pairs): (Vec<_>, Vec<_>) =
+        found.studies.iter().partition(|study| study.maps.len() < 2);
+    let heading = format!("Two numbers pushed at once: {} studies", pairs.len());
+    let reasons = format!("Why {} cases are not correct", found.reasons.rows.len());
+    html + "</ul>\n"
+        + &studies(&alone)
+        + &folded(&heading, &studies(&pairs))
+        + &folded(&reasons, &found.reasons.html(&[]))
+}
+
+fn studies(studies: &[&ExtremesStudy]) -> String {
+    enclosed("<div class=\"studies\">", studies.iter().map(|of| study(of)), "</div>")
 }
 
 const LEAD: &str = "Scenes with exact solutions had their numbers pushed until something gave.";

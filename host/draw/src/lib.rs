@@ -52,7 +52,7 @@ pub use pareto::{ParetoPlot, ParetoPoint, pareto_file};
 pub use plan::{Plan, PlanBoundary, PlanKind, plan_file};
 pub use scale::plain;
 pub use table::{Column, Heading, Mark, Table, TableRow};
-pub use tradeoff::{TradePanel, TradeStudy, Tradeoff};
+pub use tradeoff::{TradePanel, TradeStudy, TradeTarget, Tradeoff};
 
 /// Everything the page shows, in the order it shows it.
 #[derive(Debug, Clone, Default)]
@@ -97,6 +97,8 @@ pub struct ScenePanel {
     pub name: String,
     /// The title.
     pub title: String,
+    /// Whether it is there to test the method, since its exact solution is known.
+    pub is_test: bool,
     /// A sentence that an engineer would say of it, if there is one.
     pub sentence: Option<String>,
     /// Whether every check on the scene holds.

@@ -1,4 +1,4 @@
-//! The page around the pictures: contents first, then the solutions, then what was found out about them.
+//! The page around the pictures: contents first, then the scenes, tests after them, then what was found out about both.
 //! Every tag is closed, so the page is well-formed XML as well.
 
 use std::fmt::Write;
@@ -25,6 +25,7 @@ pub fn html(report: &Report) -> String {
 fn sections(report: &Report) -> Vec<Section> {
     let all = [
         solutions(&report.scenes),
+        tests(&report.scenes),
         runs(report),
         further_checks(&report.checks),
         rates(report),
@@ -36,19 +37,41 @@ fn sections(report: &Report) -> Vec<Section> {
 }
 
 fn solutions(scenes: &[ScenePanel]) -> Option<Section> {
-    let panels: String = scenes.iter().enumerate().map(panel).collect();
-    let body = format!("{}<div class=\"panels\">\n{panels}</div>\n", scene_links(scenes));
-    section("solutions", "Solutions", scenes.len(), "scene", body)
+    let shown = || scenes.iter().enumerate().filter(|(_, scene)| !scene.is_test);
+    let panels: String = shown().map(panel).collect();
+    let links = scene_links(shown());
+    let body =
+        format!("{}{links}<div class=\"panels\">\n{panels}</div>\n", list("notes", &PICTURES));
+    section("solutions", "Scenes", shown().count(), "scene", body)
+}
+
+/// How to read a solution.
+const PICTURES: [&str; 3] = [
+    "The first picture: colour shows u, arrows its flux σ = A∇u, and a thick red line where there is contact.",
+    "The second one goes along the contact boundary C: the force λ, and how far u is from the gap ψ.",
+    "The third one shows which cells the error comes from, with a guaranteed bound on it: no exact solution is \
+     needed for that.",
+];
+
+fn tests(scenes: &[ScenePanel]) -> Option<Section> {
+    let shown = || scenes.iter().enumerate().filter(|(_, scene)| scene.is_test);
+    let panels: String = shown().map(panel).collect();
+    let lead = "The exact solution of these is known: each line says how wrong an answer can be, and how wrong it \
+                is; opened, it shows pictures and numbers.";
+    let body = format!("<p class=\"lead\">{lead}</p>\n{panels}");
+    section("tests", "Tests", shown().count(), "exact solution", body)
 }
 
 /// Links to the panels, where there are several.
-fn scene_links(scenes: &[ScenePanel]) -> String {
-    if scenes.len() < 2 {
+fn scene_links<'s>(scenes: impl Iterator<Item = (usize, &'s ScenePanel)>) -> String {
+    let link = |(at, scene): (usize, &ScenePanel)| {
+        format!("<li><a href=\"#scene-{at}\">{}</a></li>", escape(&scene.name))
+    };
+    let links: Vec<String> = scenes.map(link).collect();
+    if links.len() < 2 {
         return String::new();
     }
-    let names = scenes.iter().map(|scene| escape(&scene.name)).enumerate();
-    let entries = names.map(|(at, name)| format!("<li><a href=\"#scene-{at}\">{name}</a></li>"));
-    enclosed("<ul class=\"links\">", entries, "</ul>")
+    enclosed("<ul class=\"links\">", links.into_iter(), "</ul>")
 }
 
 fn runs(report: &Report) -> Option<Section> {
@@ -150,24 +173,13 @@ fn counted(count: usize, noun: &str) -> String {
 }
 
 fn header(report: &Report) -> String {
-    format!(
-        "<header>\n<h1>{}</h1>\n<p class=\"lead\">The scalar Signorini problem: u solves \
-         −∇·(A∇u) = f, and on the contact boundary C it stays above the gap ψ; it is pushed back \
-         by λ ≥ 0, and only where it touches.</p>\n{}{}</header>\n",
-        escape(&report.title),
-        list("notes", &PICTURES),
-        verdict(report)
-    )
+    let (title, verdict) = (escape(&report.title), verdict(report));
+    format!("<header>\n<h1>{title}</h1>\n<p class=\"lead\">{LEAD}</p>\n{verdict}</header>\n")
 }
 
-/// How to read a solution.
-const PICTURES: [&str; 4] = [
-    "In the picture of a solution, colour shows u.",
-    "Arrows show the flux σ = A∇u.",
-    "A thick red line marks the part of C in contact.",
-    "The picture beside it shows which cells the error comes from, with a guaranteed bound on it: no exact \
-     solution is needed for that.",
-];
+/// What one sees.
+const LEAD: &str = "Signorini problems, solved, drawn and checked: u solves −∇·(A∇u) = f, and on the contact \
+                    boundary C it stays above the gap ψ, pushed back by λ ≥ 0 only where it touches.";
 
 /// Whether everything holds, and otherwise how much does not.
 fn verdict(report: &Report) -> String {

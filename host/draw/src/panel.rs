@@ -1,32 +1,46 @@
-//! One solved scene: its pictures side by side, its numbers below; how wrong an answer can be, and why, for someone who
-//! does not know the theory.
-
-use std::fmt::Write;
+//! One solved scene: its pictures side by side, beside them how wrong its answer can be, for someone who does not know
+//! the theory; all its numbers are folded away below.
 
 use super::contact::contact;
 use super::field::{errors, field};
-use super::markup::{enclosed, list, mark};
+use super::markup::{enclosed, folded, list, mark, typeset};
 use super::scale::plain;
 use super::svg::escape;
 use super::{BoundaryKind, ContactState, ScenePanel};
 
-/// The panel, numbered for links to it.
+/// The card of a scene, numbered for links to it; that of a test opens below a line.
 pub fn panel((index, scene): (usize, &ScenePanel)) -> String {
+    let (mark, title, name) = (mark(scene.passed), escape(&scene.title), escape(&scene.name));
+    let body = body(scene);
+    if scene.is_test {
+        let error = error(scene);
+        return format!(
+            "<details class=\"card\">\n<summary>{mark} {title}<small>{name}{error}</small></summary>\n\
+             <article id=\"scene-{index}\">\n{body}</article>\n</details>\n"
+        );
+    }
+    format!(
+        "<article class=\"card\" id=\"scene-{index}\">\n<h3>{mark} {title}<small>{name}</small></h3>\n\
+         {body}</article>\n"
+    )
+}
+
+/// The bound and what it is on, where that is known, as the end of a line.
+fn error(scene: &ScenePanel) -> String {
+    let bound = scene.bound.map(|bound| format!("; error at most {}", plain(bound.total)));
+    let truth = scene.error.map(|error| format!(", in truth {}", plain(error)));
+    bound.into_iter().chain(truth).collect()
+}
+
+fn body(scene: &ScenePanel) -> String {
     let sentence = scene.sentence.as_ref().map_or_else(String::new, |sentence| {
         format!("<p class=\"sentence\">{}</p>\n", escape(sentence))
     });
-    let mut html = format!(
-        "<article class=\"card\" id=\"scene-{index}\">\n<h3>{} {}<small>{}</small></h3>\n{sentence}\
-         <div class=\"pictures\">\n<div>\n",
-        mark(scene.passed),
-        escape(&scene.title),
-        escape(&scene.name)
-    );
-    html += &solution_figure(scene);
-    html += &contact_figure(scene);
-    let (map, bound, facts) = (error_figure(scene), bound(scene), facts(scene));
-    let _ = write!(html, "</div>\n<div>\n{map}{bound}{facts}</div>\n</div>\n");
-    html + "</article>\n"
+    let figures = [solution_figure(scene), contact_figure(scene), error_figure(scene)].concat();
+    let bound = bound(scene);
+    let norms = if scene.bound.is_some() { list("notes", &NORMS) } else { String::new() };
+    let numbers = folded("All numbers of this scene", &(facts(scene) + &norms));
+    format!("{sentence}<div class=\"pictures\">\n{figures}<div>\n{bound}</div>\n</div>\n{numbers}")
 }
 
 fn solution_figure(scene: &ScenePanel) -> String {
@@ -91,7 +105,7 @@ const NORMS: [&str; 3] = [
     "The total counts those of s and τ together, with what Robin edges add.",
 ];
 
-/// How the terms are weighed, the total as a part of the solution, and the truth.
+/// The total as a part of the solution, and the truth.
 fn beside(panel: &ScenePanel, total: f64) -> Vec<String> {
     let (energy, name) = panel.energy;
     let part = 100.0 * total / energy;
@@ -99,7 +113,7 @@ fn beside(panel: &ScenePanel, total: f64) -> Vec<String> {
         .is_finite()
         .then(|| format!("The total is {} % of the solution’s energy norm {name}.", plain(part)));
     let truth = panel.error.map(|error| format!("In truth s and τ are {} off.", plain(error)));
-    NORMS.map(str::to_owned).into_iter().chain(size).chain(truth).collect()
+    size.into_iter().chain(truth).collect()
 }
 
 /// Letters of a fact that a column has room for.
@@ -109,7 +123,7 @@ fn facts(scene: &ScenePanel) -> String {
     let entry = |(name, value): &(String, String)| {
         // A sentence has a line of its own.
         let class = if value.chars().count() > LETTERS { " class=\"wide\"" } else { "" };
-        format!("<div{class}><dt>{}</dt><dd>{}</dd></div>", escape(name), escape(value))
+        format!("<div{class}><dt>{}</dt><dd>{}</dd></div>", typeset(name), escape(value))
     };
     enclosed("<dl class=\"facts\">", scene.facts.iter().map(entry), "</dl>")
 }

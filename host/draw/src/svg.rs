@@ -95,7 +95,7 @@ impl Svg {
         let [x, y] = at.map(number);
         let title =
             if text == whole { String::new() } else { format!("<title>{}</title>", escape(whole)) };
-        let text = escape(text);
+        let text = raised(text);
         let _ = writeln!(
             self.text,
             "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{text}{title}</text>"
@@ -162,6 +162,18 @@ fn number(value: f64) -> String {
     let text = format!("{value:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+/// Text of a picture, its powers of a half raised.
+fn raised(text: &str) -> String {
+    text.split_once("^½").map_or_else(
+        || escape(text),
+        |(base, rest)| {
+            let (base, rest) = (escape(base), raised(rest));
+            let half = "<tspan dy=\"-.4em\" font-size=\"75%\">½</tspan>";
+            format!("{base}{half}<tspan dy=\".3em\">{rest}</tspan>")
+        },
+    )
 }
 
 /// Text in which no character can be mistaken for markup.

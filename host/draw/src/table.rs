@@ -9,7 +9,7 @@ use std::fmt::Write;
 use std::iter::once;
 
 use super::ScenePanel;
-use super::markup::mark;
+use super::markup::{mark, typeset};
 use super::svg::escape;
 
 /// A column: its name, whether its cells are words or numbers, and how a cell is read off a row.
@@ -137,19 +137,20 @@ impl Table {
 
     /// The table of a page; names of `scenes` in the first column link to their panels.
     pub fn html(&self, scenes: &[ScenePanel]) -> String {
-        let first = if self.is_checked() { "<th></th>" } else { "" };
-        let mut html = format!("<div class=\"scroll\">\n<table>\n<thead><tr>{first}");
+        let mut html = "<div class=\"scroll\">\n<table>\n<thead><tr>".to_owned();
         for Heading { title, has_numbers, .. } in &self.headings {
-            let _ = write!(html, "<th{}>{}</th>", class(*has_numbers), escape(title));
+            let _ = write!(html, "<th{}>{}</th>", class(*has_numbers), typeset(title));
         }
         html += "</tr></thead>\n<tbody>\n";
         for row in &self.rows {
-            html += &row.mark.html();
+            let [open, mark] = row.mark.html();
+            html += open;
             for (at, (cell, heading)) in row.cells.iter().zip(&self.headings).enumerate() {
                 let scene = scenes.iter().position(|scene| at == 0 && scene.name == *cell);
                 let link = |scene| format!("<a href=\"#scene-{scene}\">{}</a>", escape(cell));
                 let text = scene.map_or_else(|| escape(cell), link);
-                let _ = write!(html, "<td{}>{text}</td>", class(heading.has_numbers));
+                let mark = if at == 0 { mark } else { "" };
+                let _ = write!(html, "<td{}>{mark}{text}</td>", class(heading.has_numbers));
             }
             html += "</tr>\n";
         }
@@ -176,13 +177,13 @@ impl Mark {
         }
     }
 
-    /// The beginning of its row on a page.
-    fn html(self) -> String {
+    /// The beginning of its row on a page, and of the first cell there.
+    fn html(self) -> [&'static str; 2] {
         match self {
-            Self::None => "<tr>".to_owned(),
-            Self::Chosen => "<tr class=\"marked\">".to_owned(),
-            Self::Passed => format!("<tr><td>{}</td>", mark(true)),
-            Self::Failed => format!("<tr class=\"failed\"><td>{}</td>", mark(false)),
+            Self::None => ["<tr>", ""],
+            Self::Chosen => ["<tr class=\"marked\">", ""],
+            Self::Passed => ["<tr>", mark(true)],
+            Self::Failed => ["<tr class=\"failed\">", mark(false)],
         }
     }
 }
@@ -227,10 +228,10 @@ mod tests {
         let table = Table::checked(&columns(), [("a", 1), ("b", 2)], |row| row.1 < 2);
         assert_eq!(table.text(), " scene  n   ok\n a      1  yes\n b      2   NO\n");
         let html = table.html(&[ScenePanel { name: "b".to_owned(), ..ScenePanel::default() }]);
-        assert!(
-            html.contains("<tr><th></th><th>scene</th><th class=\"number\">number &lt; 3</th>")
-        );
-        assert!(html.contains("<tr><td>") && html.contains("<tr class=\"failed\"><td>"), "{html}");
-        assert!(html.contains("<td><a href=\"#scene-0\">b</a></td><td class=\"number\">2</td>"));
+        assert!(html.contains("<tr><th>scene</th><th class=\"number\">number &lt; 3</th>"));
+        let [passed, failed] = [true, false].map(mark);
+        assert!(html.contains(&format!("<tr><td>{passed}a</td>")), "{html}");
+        assert!(html.contains(&format!("<tr class=\"failed\"><td>{failed}<a href=\"#scene-0\">")));
+        assert!(html.contains("b</a></td><td class=\"number\">2</td>"));
     }
 }

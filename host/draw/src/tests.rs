@@ -47,21 +47,25 @@ fn the_page_is_well_formed_and_complete_in_itself() {
     assert!(page.contains("Failed: 1 of 2 runs"));
     assert!(page.contains("<em>rate 2.00, expected 2</em>"));
     assert!(page.contains(">f32 &amp; &lt;fast&gt;</text>") && page.contains(">f64</text>"));
-    assert!(page.contains("The total is 10.0 % of the solution’s energy norm ‖A^½∇s‖."));
+    assert!(page.contains("The total is 10.0 % of the solution’s energy norm ‖A<sup>½</sup>∇s‖."));
     assert!(page.contains("In truth s and τ are 0.190 off."));
 }
 
 #[test]
 fn contents_lead_to_every_section_and_the_solutions_come_first() {
-    let page = assert_clean(&full(panel(4, false)));
-    let order = ["solutions", "runs", "checks", "convergence", "cut-off", "tradeoff", "extremes"];
+    let mut report = full(panel(4, false));
+    report.scenes.insert(0, ScenePanel { is_test: true, ..panel(2, false) });
+    let page = assert_clean(&report);
+    let order =
+        ["solutions", "tests", "runs", "checks", "convergence", "cut-off", "tradeoff", "extremes"];
     let sections: Vec<&str> = between(&page, "<section id=\"");
     assert_eq!(sections, order);
     let (contents, rest) = page.split_once("</nav>").unwrap();
     assert_eq!(between(contents, "<a href=\"#"), order);
     assert!(contents.contains("<nav") && !rest.contains("<nav"));
     let at = |text: &str| page.find(text).unwrap();
-    assert!(at("</header>") < at("<nav") && at("id=\"scene-0\"") < at("id=\"runs\""));
+    assert!(at("</header>") < at("<nav") && at("id=\"scene-1\"") < at("id=\"scene-0\""));
+    assert!(page.contains("error at most 0.200, in truth 0.190</small></summary>"));
 }
 
 #[test]

@@ -1,8 +1,6 @@
-//! Speed for accuracy: one table over all scenes, what it says of the knobs, and a folded block a scene.
+//! Speed for accuracy: a picture a target and what to take there; the study of every scene is folded away below.
 
-use std::fmt::Write;
-
-use super::markup::{enclosed, list, unrolled};
+use super::markup::{enclosed, findings, folded, list, unrolled};
 use super::pareto::{ParetoPlot, pareto};
 use super::svg::escape;
 use super::table::Table;
@@ -10,16 +8,31 @@ use super::table::Table;
 /// Cost and error of the settings of scenes.
 #[derive(Debug, Clone, Default)]
 pub struct Tradeoff {
-    /// A row a scene.
-    pub summary: Table,
+    /// What is found on each target.
+    pub targets: Vec<TradeTarget>,
     /// Findings over all scenes, a sentence each.
     pub findings: Vec<String>,
-    /// A study of problem sizes, as a table in text; empty where there is none.
-    pub sizes: String,
+    /// A study of problem sizes.
+    pub sizes: Table,
     /// Findings of that study, a sentence each.
     pub of_sizes: Vec<String>,
     /// The scenes; the section says what to do where there are none.
     pub scenes: Vec<TradePanel>,
+}
+
+/// What all scenes say of one target.
+#[derive(Debug, Clone, Default)]
+pub struct TradeTarget {
+    /// Whose cost decides.
+    pub heading: String,
+    /// The study of one scene, as an example.
+    pub example: ParetoPlot,
+    /// What to take for that scene, a sentence.
+    pub recommendation: String,
+    /// What to take, a row a scene.
+    pub taken: Table,
+    /// How often each value of a setting is on a front.
+    pub knobs: Table,
 }
 
 /// One scene, on one or more targets.
@@ -52,71 +65,74 @@ pub struct TradeStudy {
 
 /// The body of the section.
 pub fn tradeoff(found: &Tradeoff) -> String {
-    let mut html = String::new();
     if found.scenes.is_empty() {
-        html +=
-            "<p class=\"lead\">No committed trade record: run <code>signorini trade</code></p>\n";
-    } else {
-        let _ = writeln!(html, "<p class=\"lead\">{LEAD}</p>");
-        html += &list("notes", &COLUMNS);
-        html += &found.summary.html(&[]);
-        html += &findings(&found.findings);
+        return "<p class=\"lead\">No committed trade record: run <code>signorini trade</code></p>\n"
+            .to_owned();
     }
-    if !found.sizes.is_empty() {
-        let _ = write!(
-            html,
-            "<h3>From small problems to large ones</h3>\n<pre style=\"overflow-x: auto\">{}</pre>\n",
-            lines(&found.sizes)
-        );
-        html += &findings(&found.of_sizes);
+    let mut html = format!("<p class=\"lead\">{LEAD}</p>\n<div class=\"panels\">\n");
+    html.extend(found.targets.iter().map(target));
+    html += "</div>\n";
+    html += &findings(&found.findings);
+    html += &folded("How errors are measured here", &list("notes", &ERRORS));
+    if !found.sizes.rows.is_empty() {
+        let body = findings(&found.of_sizes) + &found.sizes.html(&[]);
+        html += &folded("How other solvers compare, from small problems to large ones", &body);
     }
-    html.extend(found.scenes.iter().map(panel));
-    html
+    let scenes = found.scenes.iter().map(panel);
+    html + &enclosed("<h3>Every scene, with all settings that nothing beats</h3>", scenes, "")
 }
 
-const LEAD: &str = "What a user can turn, measured: each scene was solved with many settings.";
+const LEAD: &str = "Each scene was solved with many settings, and what each costs was measured. A setting is worth \
+                    taking where no other is both cheaper and more accurate.";
 
-/// How to read the tables.
-const COLUMNS: [&str; 4] = [
+/// How to read the numbers.
+const ERRORS: [&str; 3] = [
     "Errors are distances to the exact solution, or to a much finer one, in percent of the energy norm ‖A^½∇u‖ \
      of the solution.",
     "The error of u_h is the gradient error, weighed by A (energy norm ‖A^½∇(u − u_h)‖); that of s, τ weighs \
      the gradient of s by A and the flux τ by A⁻¹, together.",
     "Bounds are certified, and are for the error of s, τ.",
-    "The last columns of the first table give the cycles of other solvers for the same condensed problem, \
-     from the answer of the tick before, over those of the kernel.",
 ];
 
-fn findings(sentences: &[String]) -> String {
-    let entries = sentences.iter().map(|sentence| format!("<li>{}</li>", unrolled(sentence)));
-    enclosed("<ul class=\"findings\">", entries, "</ul>")
+fn target(found: &TradeTarget) -> String {
+    let heading = escape(&found.heading);
+    let pictured = pictured(&found.example, &found.recommendation, "");
+    let knobs = if found.knobs.rows.is_empty() { String::new() } else { found.knobs.html(&[]) };
+    format!(
+        "<article class=\"card\">\n<h3>{heading}</h3>\n{pictured}<h4>What to take for each scene</h4>\n{}{}\
+         </article>\n",
+        found.taken.html(&[]),
+        folded("Which choices pay, counted over all scenes", &knobs)
+    )
+}
+
+/// The picture of a study, with words beside it.
+fn pictured(plot: &ParetoPlot, recommendation: &str, notes: &str) -> String {
+    let picture = pareto(plot).map(|picture| format!("<figure>\n{picture}</figure>\n"));
+    format!(
+        "<div class=\"beside\">\n{}<div>\n<div class=\"taken\">{}</div>\n{notes}</div>\n</div>\n",
+        picture.unwrap_or_default(),
+        unrolled(recommendation)
+    )
 }
 
 fn panel(scene: &TradePanel) -> String {
     let (name, title) = (escape(&scene.name), escape(&scene.title));
     let studies: String = scene.studies.iter().map(study).collect();
     format!(
-        "<details class=\"card\">\n<summary>{name}<small>{title}</small></summary>\n{studies}</details>\n"
+        "<details class=\"card\">\n<summary>{title}<small>{name}</small></summary>\n{studies}</details>\n"
     )
 }
 
 fn study(study: &TradeStudy) -> String {
     let heading = escape(&study.heading);
-    let recommendation = unrolled(&study.recommendation);
-    let picture = pareto(&study.picture).map(|picture| format!("<figure>\n{picture}</figure>\n"));
     let mut html = format!(
-        "<h3>{heading}</h3>\n<div class=\"taken\">{recommendation}</div>\n{}{}{}",
-        picture.unwrap_or_default(),
-        study.front.html(&[]),
-        findings(&study.notes)
+        "<h3>{heading}</h3>\n{}{}",
+        pictured(&study.picture, &study.recommendation, &findings(&study.notes)),
+        study.front.html(&[])
     );
     for (heading, table) in study.further.iter().filter(|(_, table)| !table.rows.is_empty()) {
-        let _ = write!(html, "<h4>{}</h4>\n{}", escape(heading), table.html(&[]));
+        html += &folded(&escape(heading), &table.html(&[]));
     }
     html
-}
-
-/// The text as HTML, line by line.
-fn lines(text: &str) -> String {
-    text.lines().map(|line| escape(line) + "\n").collect()
 }

@@ -52,6 +52,7 @@ pub fn panel(n: u32, mixed: bool) -> ScenePanel {
         name: "half-disc".to_owned(),
         title: "r^3/2 & <friends>".to_owned(),
         passed: true,
+        is_test: false,
         vertex_u: vertices
             .iter()
             .map(|&point| polar(point))
@@ -157,11 +158,17 @@ fn tradeoff() -> Tradeoff {
         front: front.clone(),
         ..TradeStudy::default()
     };
+    let target = TradeTarget {
+        example: study.picture.clone(),
+        taken: front.clone(),
+        knobs: front.clone(),
+        ..TradeTarget::default()
+    };
     let scene = TradePanel { studies: vec![study], ..TradePanel::default() };
     Tradeoff {
-        summary: front,
+        targets: vec![target],
         findings: vec!["f32 < f64".to_owned()],
-        sizes: "a < b".to_owned(),
+        sizes: front,
         of_sizes: vec!["a > b".to_owned()],
         scenes: vec![scene],
     }

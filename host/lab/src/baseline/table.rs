@@ -13,13 +13,8 @@ struct Line<'s> {
 }
 
 /// A line for each solver and size.
-pub fn table(sizes: &Sizes) -> String {
-    format!(
-        "Other solvers on the same matrices, at equal error: {}\n\
-         Ratio: to the kernel's fastest in f64 on that problem; ±: (largest − smallest)/median.\n{}\n",
-        sizes.title,
-        Table::new(&columns(), sizes.rows.iter().flat_map(lines)).text()
-    )
+pub fn table(sizes: &Sizes) -> Table {
+    Table::new(&columns(), sizes.rows.iter().flat_map(lines))
 }
 
 /// A start's figure for a column.
@@ -33,11 +28,11 @@ fn columns<'s>() -> Vec<Column<'s, Line<'s>>> {
         Column::words("problem", |line: &Line| line.problem.to_owned()),
         Column::words("solver", |line: &Line| line.solver.to_owned()),
     ];
-    for (start, cycles) in ["cold kcyc", "warm kcyc"].into_iter().enumerate() {
+    for (start, cycles) in ["cold, kilocycles", "warm, kilocycles"].into_iter().enumerate() {
         let figures: [(&str, Figure); 4] = [
             (cycles, |b| format!("{:.1}", 1e-3 * b.cycles)),
             ("±", |b| format!("{:.0} %", 100.0 * b.cycles_spread)),
-            ("iter", |b| b.iterations.to_string()),
+            ("iterations", |b| b.iterations.to_string()),
             ("ratio", |b| format!("{:.2}", b.ratio)),
         ];
         columns.extend(figures.map(|(name, figure)| {
@@ -76,10 +71,13 @@ fn lines(size: &Size) -> Vec<Line<'_>> {
     lines
 }
 
-/// Sentences that follow from the table, size by size, and the remarks.
+/// What the table is of, sentences that follow from it, size by size, and the remarks.
 pub fn findings(sizes: &Sizes) -> Vec<String> {
+    let matrices = format!("On the same matrices, at equal error. {}", sizes.title);
+    let columns = "The ratio is to the kernel’s fastest in f64 on that problem, ± (largest − smallest)/median.";
     let verdicts = sizes.rows.iter().map(|size| verdict(size.unknowns, &size.baselines));
-    verdicts.chain(sizes.notes.iter().cloned()).collect()
+    let all = [matrices, columns.to_owned()].into_iter().chain(verdicts);
+    all.chain(sizes.notes.iter().cloned()).collect()
 }
 
 /// The part of PSOR's cycles that is less by more than noise.

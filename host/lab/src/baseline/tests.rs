@@ -33,7 +33,7 @@ fn all_solvers_agree_on_small_grids() {
     }
     assert!(notes.iter().all(|note| note.contains("condensing")), "{notes:?}");
     let study = Sizes { title: scene.title, registers: String::new(), rows, notes };
-    let text = table(&study);
+    let text = table(&study).text();
     assert!(text.contains("Clarabel") && text.contains("kernel pivoting f64"), "{text}");
     let json = serde_json::to_string(&study).unwrap();
     assert_eq!(serde_json::from_str::<Sizes>(&json).unwrap().rows.len(), 3);

@@ -24,6 +24,7 @@ pub fn panel(problem: &Problem, solution: &Solution, case: &KnownScene) -> Scene
     ScenePanel {
         name: case.name.clone(),
         title: case.title.clone(),
+        is_test: problem.scene.exact.is_some(),
         passed: case.checks.iter().all(|check| check.passed),
         vertices: problem.mesh.vertices.clone(),
         triangles: problem.mesh.triangles.clone(),

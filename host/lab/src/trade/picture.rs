@@ -31,7 +31,7 @@ pub fn picture(trade: &Trade) -> ParetoPlot {
         recommended: recommended.is_some_and(|taken| taken.name == point.name),
     };
     ParetoPlot {
-        title: format!("{}: error over cost on the {}", trade.title, trade.target.title()),
+        title: format!("{}: error over cost on the {}", trade.scene, trade.target.title()),
         cost: format!("{} a tick", trade.target.cost_unit()),
         size: trade.energy,
         points: trade.points.iter().map(point).collect(),

@@ -9,23 +9,31 @@ use super::record::{Point, Trade};
 use super::records::Records;
 use super::table::{ERRORS, costs, front, further, skipped};
 use super::target::Target;
-use super::verdict::{certificate, knob_values, sentences};
+use super::verdict::{self, certificate, knob_values};
 use crate::baseline;
 use crate::baseline::Baseline;
-use signorini_draw::{Column, Table, TradePanel, TradeStudy, Tradeoff, plain};
+use signorini_draw::{Column, Table, TradePanel, TradeStudy, TradeTarget, Tradeoff};
+
+/// The scene whose study is the example, where there is one of it.
+const EXAMPLE: &str = "levee";
 
 pub fn section(records: &Records) -> Tradeoff {
-    let all = || records.host.iter().chain(&records.m4f);
-    let mut findings = sentences(&knob_values(all()));
-    findings.extend(certificate(&records.host));
     let scenes = scenes(records);
     Tradeoff {
-        summary: summary(&scenes),
-        findings,
+        targets: [&records.host, &records.m4f].into_iter().filter_map(|of| target(of)).collect(),
+        findings: certificate(&records.host).into_iter().collect(),
         sizes: records.sizes.as_ref().map(baseline::table).unwrap_or_default(),
         of_sizes: records.sizes.as_ref().map(baseline::findings).unwrap_or_default(),
         scenes: scenes.iter().map(panel).collect(),
     }
+}
+
+/// What the studies on one target say together; nothing where there is none.
+fn target(trades: &[Trade]) -> Option<TradeTarget> {
+    let example = trades.iter().find(|trade| trade.scene == EXAMPLE).or(trades.first())?;
+    let TradeStudy { heading, recommendation, picture, .. } = study(example);
+    let knobs = verdict::table(&knob_values(trades), example.target);
+    Some(TradeTarget { heading, example: picture, recommendation, taken: taken(trades), knobs })
 }
 
 /// A scene by its name: its study on the host and that on the M4F.
@@ -42,42 +50,48 @@ fn scenes(records: &Records) -> Vec<Scene<'_>> {
     scenes.into_iter().collect()
 }
 
-/// A row for each scene: what to take, and how much longer general solvers take.
-fn summary(scenes: &[Scene]) -> Table {
-    let number = |name: &str, at: usize, text: fn(&Trade, &Point) -> String| {
-        Column::number(name, move |(_, on): &&Scene| taken(on[at], text))
-    };
-    let setting = |name: &str, at: usize| {
-        Column::words(name, move |(_, on): &&Scene| taken(on[at], |_, point| point.name.clone()))
-    };
+/// A row for each scene of a target: what to take there and, on the host, how much longer general solvers take.
+fn taken(trades: &[Trade]) -> Table {
     let mut columns = vec![
-        Column::words("scene", |(name, _): &&Scene| (*name).to_owned()),
-        setting("take on the host", 0),
+        Column::words("scene", |trade: &&Trade| trade.scene.clone()),
+        Column::words("take", |trade: &&Trade| recommended(trade, |point| point.name.clone())),
     ];
-    columns.extend(ERRORS.map(|(name, text)| number(name, 0, text)));
-    columns.push(number("cycles/unknown", 0, |_, point| plain(point.cycles_per_unknown)));
-    columns.push(setting("take on the M4F", 1));
-    columns.extend(costs(Target::M4f).iter().map(|&(name, text)| {
-        Column::number(name, move |(_, on): &&Scene| taken(on[1], |_, point| text(point)))
-    }));
-    columns.extend(["Clarabel", "OSQP"].map(|solver| {
-        Column::number(solver, move |(_, on): &&Scene| or_dash(warm_ratio(on[0], solver), times))
-    }));
-    Table::new(&columns, scenes)
+    let number = |(name, text): (&'static str, fn(&Trade, &Point) -> String)| {
+        Column::number(name, move |trade: &&Trade| recommended(trade, |point| text(trade, point)))
+    };
+    columns.extend(ERRORS.map(number));
+    let target = trades.first().map_or(Target::Host, |trade| trade.target);
+    columns.extend(
+        costs(target).iter().map(|&(name, text)| {
+            Column::number(name, move |trade: &&Trade| recommended(trade, text))
+        }),
+    );
+    if target == Target::Host {
+        columns.extend(OTHERS.map(|(solver, title)| {
+            Column::number(solver, move |trade: &&Trade| or_dash(warm_ratio(trade, solver), times))
+                .titled(title)
+        }));
+    }
+    Table::new(&columns, trades)
 }
 
+/// General solvers, with what their columns say.
+const OTHERS: [(&str, &str); 2] = [
+    ("Clarabel", "Clarabel, condensed, warm: cycles over the kernel’s"),
+    ("OSQP", "OSQP, condensed, warm: cycles over the kernel’s"),
+];
+
 /// The words of `text` on the recommended setting; a dash where there is none.
-fn taken(trade: Option<&Trade>, text: impl FnOnce(&Trade, &Point) -> String) -> String {
-    let both = trade.and_then(|trade| Some((trade, trade.recommendation.point.as_ref()?)));
-    or_dash(both, |(trade, point)| text(trade, point))
+fn recommended(trade: &Trade, text: impl FnOnce(&Point) -> String) -> String {
+    or_dash(trade.recommendation.point.as_ref(), text)
 }
 
 /// Cycles of a warm solve of the condensed problem over those of the kernel.
-fn warm_ratio(trade: Option<&Trade>, solver: &str) -> Option<f64> {
+fn warm_ratio(trade: &Trade, solver: &str) -> Option<f64> {
     let same = |found: &&Baseline| {
         found.solver == solver && found.problem == "condensed" && found.start == "warm"
     };
-    trade?.baselines.iter().find(same).map(|found| found.ratio)
+    trade.baselines.iter().find(same).map(|found| found.ratio)
 }
 
 fn times(ratio: f64) -> String {
@@ -121,14 +135,16 @@ mod tests {
             sizes: None,
         };
         let found = section(&records);
-        let [levee, pit] = &found.summary.rows[..] else { panic!("{:?}", found.summary) };
-        let (levee, pit) = (&levee.cells, &pit.cells);
-        assert_eq!((levee.len(), &*levee[0], &*levee[6]), (12, "levee", "–"));
-        assert_eq!((&*pit[10], &*pit[11]), ("24.0×", "150×"));
-        assert_ne!(pit[6], "–");
+        let [host, on_board] = &found.targets[..] else { panic!("{:?}", found.targets) };
+        let [levee, pit] = &host.taken.rows[..] else { panic!("{:?}", host.taken) };
+        assert_eq!((levee.cells.len(), &*levee.cells[0]), (9, "levee"));
+        assert_eq!(pit.cells[7..], ["24.0×", "150×"]);
+        assert!(host.example.title.starts_with("levee: error over cost"));
+        assert_eq!(on_board.taken.rows.len(), 1);
+        assert_ne!(on_board.taken.rows[0].cells[1], "–");
         assert_eq!(found.scenes[1].studies.len(), 2);
         let page = html(&Report { tradeoff: Some(found), ..Report::default() });
-        assert_eq!(page.matches("<details").count(), 2);
+        assert_eq!(page.matches("<details class=\"card\">").count(), 2);
         assert!(page.contains("On the Cortex-M4F") && page.contains("Speed for accuracy"));
         assert!(!page.contains("NaN"));
     }
@@ -139,7 +155,7 @@ mod tests {
         board.recommendation.point = None;
         board.baselines.clear();
         let found = section(&Records { m4f: vec![board], ..Records::default() });
-        assert_eq!(found.summary.rows[0].cells[1..], ["–"; 11]);
+        assert_eq!(found.targets[0].taken.rows[0].cells[1..], ["–"; 7]);
     }
 
     #[test]

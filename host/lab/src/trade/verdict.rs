@@ -10,7 +10,7 @@ use serde::Serialize;
 use super::digits::grouped;
 use super::record::{Point, Trade};
 use super::target::Target;
-use signorini_draw::plain;
+use signorini_draw::{Column, Table, plain};
 
 /// A name and how to read it off a point.
 type Knob = (&'static str, fn(&Point) -> String);
@@ -72,35 +72,19 @@ pub fn knob_values<'t>(trades: impl IntoIterator<Item = &'t Trade>) -> Vec<KnobV
     found.into_iter().map(value).collect()
 }
 
-/// A sentence a target and knob: `On the host, scalar: f32 is on a front with 31 of 80 points; f64 never
-/// pays (0 of 40 points in 12 scenes)`.
-pub fn sentences(values: &[KnobValue]) -> Vec<String> {
-    let groups = values.chunk_by(|a, b| (a.target, a.knob) == (b.target, b.knob));
-    groups.map(sentence).collect()
-}
-
-fn sentence(values: &[KnobValue]) -> String {
-    let (paying, never): (Vec<_>, Vec<_>) = values.iter().partition(|value| value.on_front > 0);
-    let paying = paying.iter().enumerate().map(|(at, value)| {
-        let (on_front, points) = (grouped(value.on_front as u64), grouped(value.points as u64));
-        match at {
-            0 => format!("{} is on a front with {on_front} of {points} points", value.value),
-            _ => format!("{} with {on_front} of {points}", value.value),
-        }
-    });
-    let never = never.iter().map(|value| {
-        let plural = if value.studies == 1 { "" } else { "s" };
-        let points = grouped(value.points as u64);
-        format!(
-            "{} never pays (0 of {points} points in {} scene{plural})",
-            value.value, value.studies
-        )
-    });
-    let parts = [paying.collect::<Vec<_>>().join(", "), never.collect::<Vec<_>>().join(", ")];
-    let parts: Vec<&str> =
-        parts.iter().map(String::as_str).filter(|part| !part.is_empty()).collect();
-    let (target, knob) = values.first().map_or(("", ""), |of| (of.target.title(), of.knob));
-    format!("On the {target}, {knob}: {}", parts.join("; "))
+/// A row for each value on a target: how many settings with it were measured, and how many of them nothing beats.
+pub fn table(values: &[KnobValue], target: Target) -> Table {
+    let columns = [
+        Column::words("choice", |value: &&KnobValue| value.knob.to_owned()),
+        Column::words("value", |value: &&KnobValue| value.value.clone()),
+        Column::number("scenes", |value: &&KnobValue| grouped(value.studies as u64)),
+        Column::number("settings measured", |value: &&KnobValue| grouped(value.points as u64)),
+        Column::number("beaten by none", |value: &&KnobValue| grouped(value.on_front as u64)),
+        Column::number("part of them", |value: &&KnobValue| {
+            format!("{:.0} %", 100.0 * value.on_front as f64 / value.points as f64)
+        }),
+    ];
+    Table::new(&columns, values.iter().filter(|value| value.target == target))
 }
 
 /// The cost of the certificate: the median of cycles with it over cycles without, of points that differ in
@@ -151,17 +135,15 @@ mod tests {
     }
 
     #[test]
-    fn what_is_on_no_front_never_pays() {
+    fn what_nothing_beats_is_counted() {
         let trades = [
             trade("a", &[("f32", "exact", true), ("f64", "exact", false), ("f64", "exact", false)]),
             trade("b", &[("f32", "exact", false), ("f64", "exact", false), ("f32", "exact", true)]),
         ];
         let values = knob_values(&trades);
-        assert_eq!(
-            sentences(&values),
-            ["On the host, scalar: f32 is on a front with 2 of 3 points; \
-              f64 never pays (0 of 3 points in 2 scenes)"]
-        );
+        let [single, double] = &table(&values, Target::Host).rows[..] else { panic!() };
+        assert_eq!(single.cells, ["scalar", "f32", "2", "3", "2", "67 %"]);
+        assert_eq!(double.cells, ["scalar", "f64", "2", "3", "0", "0 %"]);
     }
 
     #[test]
@@ -191,9 +173,11 @@ mod tests {
         let host = trade("a", &[("f32", "exact", true), ("f64", "exact", false)]);
         let mut board = trade("a", &[("f32", "exact", false), ("f64", "exact", true)]);
         board.target = Target::M4f;
-        let found = sentences(&knob_values([&host, &board]));
-        assert!(found[0].contains("host") && found[0].contains("f64 never"), "{found:?}");
-        assert!(found[1].contains("Cortex-M4F") && found[1].contains("f32 never"), "{found:?}");
+        let values = knob_values([&host, &board]);
+        for (target, wins) in [(Target::Host, ["100 %", "0 %"]), (Target::M4f, ["0 %", "100 %"])] {
+            let found = table(&values, target);
+            assert_eq!([0, 1].map(|at: usize| &*found.rows[at].cells[5]), wins);
+        }
     }
 
     #[test]
