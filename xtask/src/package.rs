@@ -1,11 +1,14 @@
 //! `cargo xtask package`: each crate builds from its own archive, as a registry would hold it. Nothing is published.
 
+use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::{env, fs};
 
 use serde::Deserialize;
 
 use crate::steps::Steps;
 use signorini_image::cargo::{cargo, run as run_cargo, target_dir};
+use signorini_image::files;
 use signorini_image::toolchain::output;
 
 /// Packages of the workspace without an archive, and why. Their manifests say `publish = false`, those of all others do not.
@@ -49,12 +52,38 @@ fn archives(are_built: bool) -> Result<(), String> {
     let mut package = cargo(&["package", "--workspace", "--allow-dirty", "--locked"]);
     package.args(LEFT_OUT.iter().flat_map(|(name, _)| ["--exclude", name]));
     if are_built {
+        forget()?;
         // One folder for all: what they share is compiled once.
         package.env("CARGO_TARGET_DIR", target_dir("archives"));
+        // Archives do not have the workspace's profiles.
+        package.env("CARGO_PROFILE_DEV_DEBUG", "false");
     } else {
         package.arg("--no-verify");
     }
     run_cargo(package)
+}
+
+/// Removes what was unpacked and built of earlier archives: cargo takes equal versions for equal packages, so that a crate would be
+/// built with what another one was.
+fn forget() -> Result<(), String> {
+    let home = || Some(PathBuf::from(env::var_os("HOME")?).join(".cargo"));
+    let cargo = env::var_os("CARGO_HOME").map(PathBuf::from).or_else(home).unwrap_or_default();
+    // Registries of the web have a name before their number.
+    let unpacked = starting("-", &cargo.join("registry/src"));
+    let built = target_dir("archives").join("debug/.fingerprint");
+    unpacked.iter().chain([&built]).flat_map(|folder| starting("signorini", folder)).try_for_each(
+        |old| fs::remove_dir_all(&old).map_err(|error| format!("{}: {error}", old.display())),
+    )
+}
+
+/// The folders in a folder whose names start like this; none where there is no folder.
+fn starting(name: &str, folder: &Path) -> Vec<PathBuf> {
+    let mut folders = files::within(folder).unwrap_or_default();
+    let is_named = |path: &PathBuf| {
+        path.file_name().is_some_and(|own| own.to_string_lossy().starts_with(name))
+    };
+    folders.retain(is_named);
+    folders
 }
 
 fn packages() -> Result<Vec<Package>, String> {

@@ -52,7 +52,7 @@ pub fn wheel(steps: &mut Steps) {
         // The folder of the program, whose crates serve the module.
         build.arg(&dist).env("CARGO_TARGET_DIR", target_dir("")).current_dir(root());
         output(&mut build)?;
-        installed("wheel-environment", &wheels(&dist)?)
+        installed("wheel-environment", &wheels(&dist)?, &[])
     });
 }
 
@@ -65,7 +65,13 @@ pub fn distributed(steps: &mut Steps) {
         let mut pack = Command::new(maturin()?);
         pack.args(["sdist", "--manifest-path", MANIFEST, "--out"]);
         output(pack.arg(&folder).current_dir(root()))?;
-        installed("sdist-environment", &files::within(&folder)?)
+        let packed = files::within(&folder)?;
+        // A folder of its own, without what was built of the checkout's files, which cargo would take for these. That it builds is
+        // asked, not how fast it is.
+        let target = files::emptied(&target_dir("python").join("sdist-target"))?;
+        let variables =
+            [("CARGO_TARGET_DIR", target), ("CARGO_PROFILE_RELEASE_OPT_LEVEL", "0".into())];
+        installed("sdist-environment", &packed, &variables)
     });
 }
 
@@ -85,12 +91,11 @@ fn wheels(folder: &Path) -> Result<Vec<PathBuf>, String> {
 const TRIAL: &str = "import signorini, sys; r = signorini.solve(sys.argv[1]); \
     assert 3e-5 < r.outputs['seepage'].value < 4e-5, r.outputs; print(signorini.__version__)";
 
-/// Installs one file in a fresh environment, where the module solves a scene away from the checkout.
-fn installed(name: &str, files: &[PathBuf]) -> Result<(), String> {
+/// Installs one file in a fresh environment, where the module solves a scene away from the checkout; `variables` are for what builds it.
+fn installed(name: &str, files: &[PathBuf], variables: &[(&str, PathBuf)]) -> Result<(), String> {
     let _ = std::fs::remove_dir_all(target_dir("python").join(name));
     let [file] = files else { return Err(format!("{} files", files.len())) };
-    let built = [("CARGO_TARGET_DIR", target_dir(""))];
-    let python = environment(name, &[&file.display().to_string()], &built)?;
+    let python = environment(name, &[&file.display().to_string()], variables)?;
     let mut trial = Command::new(python);
     trial.args(["-I", "-c", TRIAL]).arg(root().join("meshes/scenes/levee.toml"));
     let said = output(trial.current_dir(std::env::temp_dir()))?;

@@ -218,11 +218,7 @@ mod tests {
         };
         let plan = Plan {
             boundaries: vec![
-                side(
-                    "wall",
-                    PlanKind::Prescribed(BoundaryKind::Dirichlet),
-                    [[0.0, 0.0], [0.0, 1.0]],
-                ),
+                side("wall", PlanKind::Prescribed(BoundaryKind::Dirichlet), [3, 0]),
                 side("roof", PlanKind::Open, [2, 3]),
             ],
             materials: vec![("sand".to_owned(), vec![0])],

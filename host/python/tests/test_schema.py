@@ -17,14 +17,13 @@ material.default.conductivity = 2
 boundary.default = { kind = 'contact' }
 """
 
-# What the schema cannot see: grammar of expressions, signs and relations of numbers, names in other tables, a `capacity` that
-# another table would need, characters of a unit.
+# What the schema cannot see: what is no TOML, grammar of expressions, signs and relations of numbers, infinite ones, which
+# JSON lacks, names in other tables, a `capacity` that another table would need, characters of a unit, and that 1.0 is no whole number.
 UNSEEN = [
-    "expected an operator", "unknown name", "its value is", "is negative", "expected a number, a name or", "no boundary",
-    "has no field", "from 5 to 0", "is outside the range", "expected a contact boundary", "no material", "no boundary or material",
-    "has a capacity", "less than flux", "leaves no flux", "leaves every flux", "comes before the first step", "nothing can be added",
-    "characters of a unit", "has a start", "expected a boundary", "expected a capacity", "not a finite number", "missing the",
-    "no function", "too deep", "end", "takes", "`)`", "range: missing",
+    "not TOML", "expected an operator", "unknown name", "its value is", "value: not a finite number", "is negative", "expected a number, a name or", "no boundary",
+    "has no field", "there is no value", "is outside the range", "expected a contact boundary", "no material", "less than flux",
+    "leaves no flux", "leaves every flux", "comes before the first step", "nothing can be added", "characters of a unit",
+    "has a start", "found the number 1.0",
 ]
 
 
@@ -61,7 +60,7 @@ def test_mistakes_are_refused(takes):
     cases += [(f"{SMALL}[setting]\n{lines}\n", said) for lines, said in settings]
     expressible = [case for case in cases if not any(words in case[1] for words in UNSEEN)]
     assert len(expressible) > 75
-    assert [said for text, said in expressible if takes(text)] == []
+    assert "\n".join(said for text, said in expressible if takes(text)) == ""
 
 
 def test_a_new_scene_lacks_what_is_to_be_filled_in(takes, command, tmp_path):

@@ -5,6 +5,7 @@
 
 use serde_json::{Map, Value as Json, json};
 
+use super::exclusions;
 use super::keys::{Key, SECTIONS, Section, Value, plain};
 use super::read::MOST_TABLES;
 
@@ -30,7 +31,7 @@ pub fn schema() -> Json {
         "title": "a scene of signorini",
         "description": "docs/scene.md describes it; `signorini check SCENE` tells all that is wrong with one",
         "oneOf": [
-            object(scene, &["mesh", "material", "boundary"]),
+            with_rules(object(scene, &["mesh", "material", "boundary"]), json!([ended()])),
             object(fragment, &["extends"]),
         ],
     })
@@ -51,7 +52,8 @@ fn tables() -> impl Iterator<Item = (String, Json)> {
             kinds => json!({ "oneOf": kinds }),
         };
         let one = match table {
-            "setting" => excluding(one),
+            "setting" => with_rules(one, exclusions::in_schema()),
+            "input" => with_rules(one, json!([ranged()])),
             _ => one,
         };
         let is_named = own.iter().any(|section| section.is_named());
@@ -59,10 +61,26 @@ fn tables() -> impl Iterator<Item = (String, Json)> {
     })
 }
 
-/// The setting, without keys that exclude each other.
-fn excluding(mut setting: Json) -> Json {
-    setting["allOf"] = super::exclusions::in_schema();
-    setting
+/// What else holds of a table.
+fn with_rules(mut table: Json, rules: Json) -> Json {
+    table["allOf"] = rules;
+    table
+}
+
+/// An input of a coefficient has a range.
+fn ranged() -> Json {
+    let acts = json!({ "properties": { "field": { "const": "coefficient" } } });
+    json!({ "anyOf": [{ "not": acts }, { "required": ["range"] }] })
+}
+
+/// The time has an end, where no material has a capacity.
+fn ended() -> Json {
+    let stores = json!({ "required": ["capacity"] });
+    let materials = json!({ "not": { "additionalProperties": { "not": stores } } });
+    json!({ "anyOf": [
+        { "properties": { "time": { "required": ["end"] } } },
+        { "properties": { "material": materials } },
+    ] })
 }
 
 fn named(one: Json) -> Json {
