@@ -63,9 +63,13 @@ const SIDES: f64 = 130.0;
 const TOP: f64 = 78.0;
 const FOOT: f64 = 84.0;
 /// From an edge to its name.
-const APART: f64 = 14.0;
+const APART: f64 = 12.0;
+/// The part of a normal that points aside, below which an edge counts as flat.
+const FLAT: f64 = 0.35;
 const LETTERS: f64 = 11.5;
 const TITLE: f64 = 15.0;
+/// As many materials as there are colours stand in the legend.
+const MOST_MATERIALS: usize = 6;
 /// Of the legend: where it begins, and how wide a line or an area is in it.
 const MARGIN: f64 = 18.0;
 const KEY: f64 = 22.0;
@@ -106,8 +110,7 @@ fn materials(svg: &mut Svg, plan: &Plan, view: &View) {
 
 /// The class of the area of a material.
 fn ground(at: usize) -> String {
-    const COLORS: usize = 6;
-    format!("ground-{}", at % COLORS)
+    format!("ground-{}", at % MOST_MATERIALS)
 }
 
 fn boundaries(svg: &mut Svg, plan: &Plan, view: &View) {
@@ -129,16 +132,27 @@ fn names(svg: &mut Svg, plan: &Plan, view: &View) {
     };
     for of in &plan.boundaries {
         let Some(edge) = nearest_to_mean(&of.edges, |&edge| middle(edge)) else { continue };
-        let inside = inside(&plan.panel, *edge).map(|centre| view.at(centre));
         let at = view.at(middle(*edge));
-        let [x, y] = inside.map_or([0.0, 1.0], |inside| [at[0] - inside[0], at[1] - inside[1]]);
-        let (shift, anchor) = match (x.abs() > y.abs(), x < 0.0) {
-            (false, _) => ([0.0, APART * y.signum() + 4.0], Anchor::Middle),
-            (true, true) => ([-APART, 4.0], Anchor::End),
-            (true, false) => ([APART, 4.0], Anchor::Start),
+        let ends = edge.map(|vertex| view.at(plan.panel.vertices[vertex as usize]));
+        let inside = inside(&plan.panel, *edge).map_or(at, |centre| view.at(centre));
+        let [x, y] = outward(ends, [at[0] - inside[0], at[1] - inside[1]]);
+        // Beside a steep edge the name begins or ends there, above and below a flat one it stands in the middle.
+        let anchor = match x {
+            x if x < -FLAT => Anchor::End,
+            x if x > FLAT => Anchor::Start,
+            _ => Anchor::Middle,
         };
-        svg.text("name", [at[0] + shift[0], at[1] + shift[1]], anchor, &of.name);
+        let name = shortened(&of.name, LETTERS, SIDES - APART);
+        let place = [at[0] + APART * x, at[1] + (APART + 0.5 * LETTERS * y.abs()) * y + 4.0];
+        svg.abridged("name", place, anchor, &name, &of.name);
     }
+}
+
+/// The unit normal of an edge, to the side that `away` points to.
+fn outward([[ax, ay], [bx, by]]: [[f64; 2]; 2], away: [f64; 2]) -> [f64; 2] {
+    let (x, y) = (by - ay, ax - bx);
+    let length = x.hypot(y).copysign(x * away[0] + y * away[1]);
+    if length == 0.0 { [0.0, 1.0] } else { [x / length, y / length] }
 }
 
 /// The centre of the cell behind an edge.
@@ -167,7 +181,7 @@ fn legend(svg: &mut Svg, plan: &Plan, y: f64) {
             entry(0, words, &mut |[x, y], svg| svg.line(class, [x, y - 4.0], [x + KEY, y - 4.0]));
         }
     }
-    for (at, (name, _)) in plan.materials.iter().enumerate() {
+    for (at, (name, _)) in plan.materials.iter().take(MOST_MATERIALS).enumerate() {
         let class = ground(at);
         entry(1, name, &mut |[x, y], svg| svg.rectangle(&class, [x, y - 9.0], [x + KEY, y + 2.0]));
     }

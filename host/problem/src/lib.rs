@@ -152,8 +152,10 @@ impl Problem {
         };
         faults.keep(problem.set_time(0.0));
         faults.into_result()?;
-        transfer::check(&problem)?;
-        corners::check_within_ranges(&problem)?;
+        let faults = Faults::default();
+        faults.keep(transfer::check(&problem));
+        faults.keep(corners::check_within_ranges(&problem));
+        faults.into_result()?;
         problem.warnings = warnings::warnings(&problem);
         Ok(problem)
     }

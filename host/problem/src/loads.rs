@@ -110,18 +110,20 @@ impl Loads {
     /// # Errors
     /// Data that are not finite.
     pub fn at_time(problem: &Problem, time: f64) -> Result<Self> {
-        let source = Sum::source(&problem.scene, time);
+        let (source, faults) = (Sum::source(&problem.scene, time), Faults::default());
         let mut loads = Self::default();
         if !source.is_zero() {
             let triangles = problem.mesh.triangles.len();
             let cells: Vec<_> = (0..problem.cells()).map(|at| Cell::of(problem, at)).collect();
-            let all = source.over(&cells)?;
-            let values = |of: &[Integral]| of.iter().map(|integral| integral.value).collect();
-            loads.triangles = values(&all[..triangles]);
-            loads.quads = values(&all[triangles..]);
-            loads.missed = all.iter().map(|integral| integral.missed).sum();
+            if let Some(all) = faults.keep(source.over(&cells)) {
+                let values = |of: &[Integral]| of.iter().map(|integral| integral.value).collect();
+                loads.triangles = values(&all[..triangles]);
+                loads.quads = values(&all[triangles..]);
+                loads.missed = all.iter().map(|integral| integral.missed).sum();
+            }
         }
-        loads.add_edges(problem, time)?;
+        faults.keep(loads.add_edges(problem, time));
+        faults.into_result()?;
         if loads.spans.iter().all(|&span| span == f64::INFINITY) {
             loads.spans.clear();
         }

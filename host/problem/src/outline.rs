@@ -68,10 +68,10 @@ pub struct HeldPart {
 
 impl Outline {
     /// The groups of a draft on its mesh.
-    pub fn of_draft(Draft { scene, open, .. }: &Draft, mesh: &Mesh) -> Self {
+    pub fn of_draft(Draft { scene, open, kinds, .. }: &Draft, mesh: &Mesh) -> Self {
         let is_open = |key: &String| open.contains(key);
         Self {
-            boundaries: boundaries(scene, mesh, is_open),
+            boundaries: boundaries(scene, mesh, kinds),
             materials: materials(scene, mesh, is_open),
             parts: Vec::new(),
         }
@@ -84,7 +84,7 @@ impl Outline {
     }
 }
 
-fn boundaries(scene: &Scene, mesh: &Mesh, is_open: impl Fn(&String) -> bool) -> Vec<BoundaryGroup> {
+fn boundaries(scene: &Scene, mesh: &Mesh, kinds: &[Option<&'static str>]) -> Vec<BoundaryGroup> {
     let named = |name: &str| mesh.curves.iter().find(|curve| curve.name == name);
     let mut rest: BTreeSet<[u32; 2]> = mesh.outer_edges().into_iter().collect();
     for curve in scene.boundaries.iter().filter_map(|boundary| named(&boundary.name.value)) {
@@ -92,13 +92,12 @@ fn boundaries(scene: &Scene, mesh: &Mesh, is_open: impl Fn(&String) -> bool) -> 
             rest.remove(edge);
         });
     }
-    let groups = scene.boundaries.iter().map(|boundary| {
+    let groups = scene.boundaries.iter().zip(kinds).map(|(boundary, &kind)| {
         let name = &boundary.name.value;
         let of = match (name == DEFAULT, named(name)) {
             (true, _) => rest.iter().copied().collect(),
             (false, curve) => curve.map_or_else(Vec::new, |curve| curve.edges.clone()),
         };
-        let kind = (!is_open(&boundary.name.key)).then(|| boundary.condition.kind());
         BoundaryGroup { name: name.clone(), kind, length: mesh.length(&of), edges: of.len(), of }
     });
     groups.collect()
@@ -132,10 +131,13 @@ fn held(problem: &Problem, parts: &Parts) -> Vec<HeldPart> {
     let mut cells = BTreeMap::<usize, usize>::new();
     (0..problem.cells()).for_each(|cell| *cells.entry(parts.of_cell(cell)).or_default() += 1);
     let mut by = BTreeMap::<usize, BTreeSet<&str>>::new();
+    let transfers = problem.loads.robin.iter().filter(|law| law.coefficient > 0.0);
+    let transfers: BTreeSet<usize> = transfers.map(|law| law.edge as usize).collect();
     for edge in 0..problem.ends.len() {
         let part = parts.of_cell(problem.topology.first_side(edge).0);
         let holds = match (problem.kinds[edge], parts.support(part)) {
-            (EdgeKind::Dirichlet | EdgeKind::Robin, Support::Held) => true,
+            (EdgeKind::Dirichlet, Support::Held) => true,
+            (EdgeKind::Robin, Support::Held) => transfers.contains(&edge),
             (EdgeKind::Contact, Support::Contact) => true,
             (EdgeKind::Interior | EdgeKind::Neumann, _) | (_, Support::None) => false,
             (EdgeKind::Dirichlet | EdgeKind::Robin, Support::Contact) => false,

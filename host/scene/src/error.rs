@@ -87,6 +87,11 @@ impl InputError {
         is_key.then_some(key)
     }
 
+    /// Whether it underlines exactly these bytes.
+    pub(crate) fn underlines(&self, bytes: &std::ops::Range<usize>) -> bool {
+        self.underlined.is_some_and(|own| (own.offset(), own.len()) == (bytes.start, bytes.len()))
+    }
+
     /// Adds what else is wrong with the same input.
     #[must_use]
     pub fn with_others(mut self, others: Vec<Self>) -> Self {

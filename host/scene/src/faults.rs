@@ -1,6 +1,7 @@
 //! All that is wrong with an input: who reads it goes on after a fault, so that one run tells of every one.
 
 use std::cell::RefCell;
+use std::ops::Range;
 
 use crate::error::{Error, InputError, Result};
 
@@ -27,6 +28,11 @@ impl Faults {
                 self.note(InputError::new(other.to_string()));
             }
         }
+    }
+
+    /// Whether one of them underlines these bytes.
+    pub fn mark(&self, bytes: &Range<usize>) -> bool {
+        self.0.borrow().iter().any(|fault| fault.underlines(bytes))
     }
 
     /// How many there are so far.

@@ -33,7 +33,7 @@ mod start;
 #[cfg(test)]
 mod tests;
 mod tuned;
-mod units;
+pub mod units;
 
 pub use cost::is_long_to_sweep;
 pub use ending::{Ending, Ran, status_name, went_well};

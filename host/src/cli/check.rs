@@ -6,14 +6,21 @@ use clap::Args;
 
 use signorini_draw::plan_file;
 use signorini_files::atomic::writable_file;
+use signorini_problem::cell::Cell;
+use signorini_problem::functional::Functional;
 use signorini_problem::outline::Outline;
+use signorini_problem::pointwise::{POINTS, exact_at_all};
 use signorini_problem::progress::{say, warn};
+use signorini_problem::quadrature::gauss;
 use signorini_problem::{Parts, Problem, check_groups};
 use signorini_scene::Faults;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::mesh::{Mesh, adapted};
 use signorini_scene::scene::term::at_rest_warning;
 use signorini_scene::scene::{Draft, Scene};
+use signorini_scene::setting::{Precision, Setting};
+use signorini_session::with_session;
+use signorini_solve::units;
 
 use super::{outlined, write_beside};
 
@@ -23,7 +30,8 @@ Examples:
   signorini check bar.toml --draw bar.svg     with a picture of groups and materials
   signorini check bar.toml --json             for programs: sizes, parts, inputs, outputs, faults
 
-Exit status: 0 the scene can be solved; 2 something is wrong, and all of it is told.";
+All that is wrong in the file and with its groups on the mesh is told; data are looked at once these are right.
+Exit status: 0 the scene can be solved; 2 something is wrong.";
 
 /// Arguments of `check`.
 #[derive(Debug, Args)]
@@ -74,12 +82,39 @@ impl Arguments {
     }
 
     fn draw(&self, look: &Look, file: &Path) -> Result<()> {
-        let Some((mesh, outline)) = &look.on_mesh else { return Ok(()) };
+        let Some((mesh, outline)) = &look.on_mesh else {
+            warn(&[format!("{}: without a mesh nothing is drawn", file.display())]);
+            return Ok(());
+        };
         let plan = outlined::plan(&look.draft.scene, mesh, outline);
         let picture = plan_file(&plan).ok_or_else(|| {
             InputError::new("the vertices span no area to draw").file(&look.draft.scene.mesh.value)
         })?;
-        write_beside(&look.draft.scene, "--draw", file, &picture)
+        write_beside(&look.draft.scene, "--draw", file, &picture)?;
+        if !self.json {
+            say(format_args!("{} is written", file.display()));
+        }
+        Ok(())
+    }
+}
+
+/// What a solution would ask of a sound problem: places of outputs, the exact solution, what the setting says.
+fn posed(problem: &Problem, faults: &Faults) {
+    for output in &problem.scene.outputs {
+        faults.keep(Functional::of(problem, output));
+    }
+    if let Some(exact) = &problem.scene.exact {
+        let cells = (0..problem.cells()).map(|at| Cell::of(problem, at));
+        let rule = gauss(POINTS);
+        let points = cells.flat_map(|cell| cell.points(&rule));
+        faults.keep(exact_at_all(&problem.scene, exact, &points.collect::<Vec<_>>(), problem.time));
+    }
+    faults.keep(units::choose(problem));
+    let is_followed = |setting: &Setting| {
+        setting.scalar == Some(Precision::Mixed) || !setting.of_method().is_empty()
+    };
+    if problem.scene.setting.as_ref().is_some_and(is_followed) {
+        faults.keep(with_session(problem, |_| Ok(())));
     }
 }
 
@@ -100,6 +135,7 @@ impl Look {
                 warnings.extend(problem.warnings.iter().cloned());
                 if let Some(parts) = faults.keep(Parts::examine(&problem)) {
                     outline = outline.with_parts(&problem, &parts);
+                    posed(&problem, &faults);
                 }
             }
             (mesh, outline)

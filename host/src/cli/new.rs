@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use pathdiff::diff_paths;
 use signorini_files::atomic::{writable_file, write_atomically};
-use signorini_problem::progress::say;
-use signorini_scene::error::{InputError, Result};
+use signorini_problem::progress::{say, warn};
+use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::mesh;
 use signorini_scene::scene::{blank, schema};
 
@@ -40,6 +41,7 @@ impl Arguments {
         let title = self.mesh.file_stem().unwrap_or_default().to_string_lossy();
         let folder =
             if to_output { Path::new("") } else { scene.parent().unwrap_or(Path::new("")) };
+        std::fs::create_dir_all(Path::new(".").join(folder)).map_err(Error::io(folder))?;
         let text = blank(&mesh, &title, &seen_from(folder, &self.mesh)?);
         if to_output {
             print!("{text}");
@@ -47,8 +49,8 @@ impl Arguments {
         }
         write_atomically(&scene, text.as_bytes())?;
         say(format_args!("{} is written", scene.display()));
-        write_schema(&folder.join(schema::FILE))?;
-        say(format_args!("fill in each \"?\", then: signorini check {}", scene.display()));
+        write_schema(&folder.join(schema::FILE));
+        say(format_args!("fill in each \"?\", then: signorini check '{}'", scene.display()));
         Ok(0)
     }
 }
@@ -56,36 +58,40 @@ impl Arguments {
 /// Refuses a scene that is there already.
 fn check_free(scene: &Path) -> Result<()> {
     writable_file("--out", scene)?;
-    if !scene.exists() {
+    if scene.symlink_metadata().is_err() {
         return Ok(());
     }
     let error = InputError::new("is there already, and is left as it is").file(scene);
     Err(error.hint("name another file with --out, or print it with --out -").into())
 }
 
-/// The schema for editors, where there is none.
-fn write_schema(file: &Path) -> Result<()> {
+/// The schema for editors, where there is none; where it cannot be written, that is a warning.
+fn write_schema(file: &Path) {
     let text = schema::text();
+    let left =
+        |why: &str| warn(&[format!("{}: {why}; `signorini schema` prints it", file.display())]);
     match std::fs::read_to_string(file) {
         Ok(own) if own == text => {}
-        Ok(_) => {
-            say(format_args!("{} is of another version, and is left as it is", file.display()))
-        }
-        Err(_) => {
-            write_atomically(file, text.as_bytes())?;
-            say(format_args!("{} is written: editors complete keys with it", file.display()));
-        }
+        Ok(_) => left("is of another version, and is left as it is"),
+        Err(_) => match write_atomically(file, text.as_bytes()) {
+            Ok(()) => {
+                say(format_args!("{} is written: editors complete keys with it", file.display()))
+            }
+            Err(error) => left(&error.reason()),
+        },
     }
-    Ok(())
 }
 
-/// The path of the mesh as a scene in `folder` has to name it.
+/// The path of the mesh as a scene in `folder` has to name it; both folders are there, and links are followed.
 fn seen_from(folder: &Path, mesh: &Path) -> Result<String> {
-    let absolute = |path: &Path| std::path::absolute(Path::new(".").join(path));
-    let absolute = |path: &Path| absolute(path).unwrap_or_else(|_| path.to_owned());
+    let real = |path: &Path| Path::new(".").join(path).canonicalize().ok();
+    let name = mesh.file_name().unwrap_or_default();
+    let home = mesh.parent().and_then(real);
     let relative = match mesh.is_absolute() && !folder.is_absolute() {
         true => None,
-        false => pathdiff::diff_paths(absolute(mesh), absolute(folder)),
+        false => {
+            home.zip(real(folder)).and_then(|(home, folder)| diff_paths(home.join(name), folder))
+        }
     };
     let path = relative.unwrap_or_else(|| mesh.to_owned());
     let text = path.to_str().map(|path| path.replace('\\', "/"));

@@ -35,7 +35,11 @@ pub(super) fn text(look: &Look) -> String {
             output.place("", str::to_owned),
         ]
     });
-    text + &rows("input", inputs.collect()) + &rows("output", outputs.collect())
+    let end = match look.faults.is_empty() {
+        true => "\nIt can be solved: `signorini solve` does.",
+        false => "",
+    };
+    text + &rows("input", inputs.collect()) + &rows("output", outputs.collect()) + end
 }
 
 fn groups(outline: &Outline) -> String {

@@ -62,7 +62,7 @@ fn materials(text: &mut String, mesh: &Mesh) {
             counted(cells.len(), "cell")
         );
         if !is_chosen {
-            let _ = writeln!(text, "\n# [{}]: {size}{}", header("material", name), why_not(name));
+            head(text, "# ", &header("material", name), &format!("{size}{}", why_not(name, false)));
             continue;
         }
         left.retain(|cell| cells.binary_search(cell).is_err());
@@ -79,7 +79,7 @@ fn materials(text: &mut String, mesh: &Mesh) {
 }
 
 fn material(text: &mut String, name: &str, size: &str) {
-    head(text, &header("material", name), size);
+    head(text, "", &header("material", name), size);
     let keys = Section::of("material.NAME", None).map_or(&[][..], |section| section.keys);
     for key in keys {
         line(text, None, key, key.default.is_none().then_some("\"?\""));
@@ -96,12 +96,8 @@ fn boundaries(text: &mut String, mesh: &Mesh, outer: &[[u32; 2]]) {
             format!("length {}, {}", shown(mesh.length(edges)), counted(edges.len(), "edge"));
         if !is_chosen {
             let is_inside = edges.iter().any(|edge| outer.binary_search(edge).is_err());
-            let why = if is_inside {
-                "; inside the domain, where no condition acts"
-            } else {
-                why_not(name)
-            };
-            let _ = writeln!(text, "\n# [{}]: {size}{why}", header("boundary", name));
+            let why = why_not(name, is_inside);
+            head(text, "# ", &header("boundary", name), &format!("{size}{why}"));
             continue;
         }
         left.retain(|edge| edges.binary_search(edge).is_err());
@@ -115,7 +111,7 @@ fn boundaries(text: &mut String, mesh: &Mesh, outer: &[[u32; 2]]) {
 }
 
 fn boundary(text: &mut String, name: &str, size: &str) {
-    head(text, &header("boundary", name), size);
+    head(text, "", &header("boundary", name), size);
     let kinds: Vec<_> = Section::kinds("boundary.NAME").collect();
     let _ = writeln!(text, "kind = \"?\"{}", comment(10, &kinds.join(", ")));
     for section in SECTIONS.iter().filter(|section| section.header == "boundary.NAME") {
@@ -124,8 +120,9 @@ fn boundary(text: &mut String, name: &str, size: &str) {
 }
 
 /// The header of a group, with its size.
-fn head(text: &mut String, header: &str, size: &str) {
-    let _ = writeln!(text, "\n[{header}]{}", comment(header.chars().count() + 2, size));
+fn head(text: &mut String, before: &str, header: &str, size: &str) {
+    let width = before.len() + header.chars().count() + 2;
+    let _ = writeln!(text, "\n{before}[{header}]{}", comment(width, size));
 }
 
 /// A table that a scene may have, as a comment.
@@ -141,13 +138,13 @@ fn example(text: &mut String, section: &Section) {
 fn line(text: &mut String, kind: Option<&str>, key: &Key, value: Option<&str>) {
     let start = match value {
         Some(value) => format!("{} = {value}", key.name),
-        None => format!("# {} = {}", key.name, key.value.sample()),
+        None => format!("# {} = {}", key.name, key.sample()),
     };
     let kind = kind.map_or_else(String::new, |kind| format!("{kind}: "));
     let unit = Some(plain(key.unit)).filter(|unit| !unit.is_empty());
     let unit = unit.map_or_else(String::new, |unit| format!(" [{unit}]"));
     let default = key.default.map_or_else(String::new, |of| format!("; default {}", plain(of)));
-    let words = format!("{kind}{}{unit}{default}", plain(key.meaning));
+    let words = format!("{kind}{}{}{unit}{default}", key.words(), plain(key.meaning));
     let _ = writeln!(text, "{start}{}", comment(start.chars().count(), &words));
 }
 
@@ -155,11 +152,17 @@ fn comment(column: usize, words: &str) -> String {
     format!("{}# {words}", " ".repeat(COMMENT_AT.saturating_sub(column).max(2)))
 }
 
-/// Why a group gets no table, where nothing else is said of it.
-fn why_not(name: &str) -> &'static str {
-    match name.parse::<u64>() {
-        Ok(_) => "; without a name in the mesh",
-        Err(_) => "; a part of it lies in another group, too",
+/// Why a group gets no table of its own.
+fn why_not(name: &str, is_inside: bool) -> &'static str {
+    match name {
+        _ if is_inside => "; edges of it lie inside the domain, where no condition acts",
+        "default" => "; \"default\" stands for all that is left",
+        number if number.parse::<u64>().is_ok() => {
+            "; without a name in the mesh, or with a number for one"
+        }
+        _ => {
+            "; a part of it lies in another group, too, or there are more groups than a scene may have"
+        }
     }
 }
 

@@ -28,6 +28,12 @@ pub(super) fn read_boundary(table: &Table) -> Option<Condition> {
     read(table)
 }
 
+/// The kind of the boundary of a table, where that is written and there is such a kind.
+pub(super) fn kind_of(table: &Table) -> Option<&'static str> {
+    let word = table.get("kind")?.word()?;
+    KINDS.iter().find(|(kind, _)| *kind == word).map(|(kind, _)| *kind)
+}
+
 fn read_dirichlet(table: &Table) -> Option<Condition> {
     let value = table.read("value", |entry| entry.expression(Variables::SpaceTime))?;
     Some(Condition::Dirichlet { value })

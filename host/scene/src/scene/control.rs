@@ -49,10 +49,11 @@ fn read_place(
     boundaries: &[Named<Condition>],
 ) -> Option<(Located<String>, Located<Field>)> {
     let (of, entry) = (table.require("of"), table.require("field"));
-    let (of, entry) = (of?, entry?);
-    let field = table.keep(entry.choice(&FIELDS))?;
-    table.keep(check_field(&of, &entry, field.value, boundaries))?;
-    Some((table.keep(of.text())?, field))
+    let name = of.as_ref().and_then(|of| table.keep(of.text()));
+    let field = entry.as_ref().and_then(|entry| table.keep(entry.choice(&FIELDS)));
+    let (name, field) = (name?, field?);
+    table.keep(check_field(&of?, &entry?, field.value, boundaries))?;
+    Some((name, field))
 }
 
 /// Refuses a default outside the range; where none is written the one that counts is 0, and the range is to blame.

@@ -40,7 +40,7 @@ impl<'a> Entry<'a> {
     }
 
     /// Whether somebody is still to write it: a new scene has "?" there.
-    fn is_open(&self) -> bool {
+    pub fn is_open(&self) -> bool {
         self.word().is_some_and(|text| text.trim() == "?")
     }
 

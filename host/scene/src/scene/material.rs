@@ -6,6 +6,7 @@ use super::units::Unit;
 use super::{Datum, Located};
 use crate::error::Result;
 use crate::expression::{Expression, Variables};
+use crate::faults::Faults;
 
 /// The coefficient tensor on one physical surface.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,7 +57,13 @@ fn read_tensor(entry: &Entry) -> Result<([Datum; 3], bool)> {
         ([a.clone(), zero, a], true)
     };
     match entry.array().as_deref() {
-        Some([axx, axy, ayy]) => Ok(([read(axx)?, read(axy)?, read(ayy)?], false)),
+        Some([axx, axy, ayy]) => {
+            let faults = Faults::default();
+            let [axx, axy, ayy] = [axx, axy, ayy].map(|entry| faults.keep(read(entry)));
+            faults.into_result()?;
+            let all = axx.zip(axy).zip(ayy).map(|((axx, axy), ayy)| ([axx, axy, ayy], false));
+            all.ok_or_else(|| entry.expected("three entries").into())
+        }
         Some([a]) => read(a).map(scalar),
         Some(_) => Err(entry.expected("a scalar or an array of three: a_xx, a_xy, a_yy").into()),
         None => read(entry).map(scalar),

@@ -10,7 +10,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::boundary::read_boundary;
+use super::boundary::{kind_of, read_boundary};
 use super::control::read_input;
 use super::document::{Document, document, load};
 use super::entry::Entry;
@@ -32,6 +32,8 @@ pub(super) const MOST_TABLES: usize = 256;
 pub struct Draft {
     /// The scene: a boundary without a condition that could be read has no flux, a material without one A = 1.
     pub scene: Scene,
+    /// The kind of each boundary, where that could be read.
+    pub kinds: Vec<Option<&'static str>>,
     /// The keys of what could not be read: `boundary.river`, `mesh`.
     pub open: Vec<String>,
     /// What is wrong with the file and with the one that it extends.
@@ -79,11 +81,26 @@ fn read(document: Document) -> Result<Draft> {
     let entries = document.parse()?;
     let root = Table::root(&document, &entries);
     let draft = match root.get("extends") {
-        Some(extends) => read_fragment(&root, &extends)?,
+        Some(extends) => match read_fragment(&root, &extends) {
+            Ok(draft) => draft,
+            // What else is wrong is told with it.
+            Err(error) => {
+                document.faults.add(error);
+                root.table("setting").as_ref().map(read_setting);
+                root.note_open();
+                drop(entries);
+                return Err(document.faults.into_result().err().unwrap_or_else(no_scene));
+            }
+        },
         None => read_scene(&root),
     };
+    root.note_open();
     drop(entries);
     Ok(Draft { faults: faults(document, draft.faults), ..draft })
+}
+
+fn no_scene() -> Error {
+    InputError::new("no scene").into()
 }
 
 /// The faults of a document, then those of the one that it extends.
@@ -99,7 +116,8 @@ fn faults(document: Document, extended: Vec<InputError>) -> Vec<InputError> {
 fn read_fragment(root: &Table, extends: &Entry) -> Result<Draft> {
     let hint = "a file that extends another changes [setting] and title alone";
     root.only_among("a fragment", &["extends", "title", "setting"], hint);
-    let document = load(&extended_path(extends)?)?;
+    let path = extended_path(extends)?;
+    let document = load(&path).map_err(|error| extends.error(error.reason()))?;
     let entries = document.parse()?;
     let extended = Table::root(&document, &entries);
     if extended.get("extends").is_some() {
@@ -115,6 +133,7 @@ fn read_fragment(root: &Table, extends: &Entry) -> Result<Draft> {
     let setting = root.table("setting").and_then(|table| read_setting(&table));
     scene.setting = setting.or(scene.setting);
     scene.fragment = Some(root.document.path.clone());
+    extended.note_open();
     drop(entries);
     Ok(Draft { faults: document.faults.into_vec(), ..draft })
 }
@@ -135,7 +154,11 @@ fn read_scene(root: &Table) -> Draft {
     let top: Vec<_> = Section::of("", None).into_iter().flat_map(Section::names).collect();
     let allowed = [top, tables()].concat();
     root.only_among("the scene", &allowed, &format!("allowed here: {}", allowed.join(", ")));
-    let boundaries = at_least_one(root, "boundary", read_boundary);
+    let tables =
+        at_least_one(root, "boundary", |table| Some((kind_of(table), read_boundary(table))));
+    let kinds = tables.iter().map(|(_, of)| of.as_ref().and_then(|(kind, _)| *kind)).collect();
+    let read = |(name, of): Named<(_, Option<Condition>)>| (name, of.and_then(|(_, of)| of));
+    let boundaries: Vec<Named<Condition>> = tables.into_iter().map(read).collect();
     let materials = at_least_one(root, "material", read_material);
     let stores = materials.iter().any(|(_, of)| of.as_ref().is_none_or(Material::stores));
     let inputs = each(root, "input", |table| read_input(table, &boundaries));
@@ -163,7 +186,7 @@ fn read_scene(root: &Table) -> Draft {
         path: root.document.path.clone(),
         text: root.document.text.clone(),
     };
-    Draft { scene, open, faults: Vec::new() }
+    Draft { scene, kinds, open, faults: Vec::new() }
 }
 
 /// The keys of the groups that could not be read.

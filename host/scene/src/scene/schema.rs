@@ -115,7 +115,7 @@ fn described(key: &Key) -> Json {
         key.default.map_or_else(String::new, |default| format!("; default {}", plain(default)));
     let mut values = values(key.value);
     if let Json::Object(fields) = &mut values {
-        let words = format!("{}{unit}{default}", plain(key.meaning));
+        let words = format!("{}{}{unit}{default}", key.words(), plain(key.meaning));
         fields.insert("description".to_owned(), words.into());
     }
     values

@@ -150,6 +150,14 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// Notes each value that is still to be filled in and that no reader has come to.
+    pub fn note_open(&self) {
+        for (name, value) in self.entries {
+            let at = self.locate(name.get_ref(), value.span(), value.get_ref());
+            note_open(&Entry { document: self.document, at });
+        }
+    }
+
     /// Something that the file leaves out: it stands where the table begins.
     pub fn missing<T>(&self, key: &str, value: T) -> Located<T> {
         self.locate(key, self.name.span.clone(), value)
@@ -160,12 +168,27 @@ impl<'a> Table<'a> {
     }
 }
 
+fn note_open(entry: &Entry) {
+    let document = entry.document;
+    match entry.at.value {
+        DeValue::Table(entries) => {
+            let name = entry.at.with(String::new());
+            Table { document, name, entries }.note_open();
+        }
+        DeValue::Array(_) => entry.array().iter().flatten().for_each(note_open),
+        _ if entry.is_open() && !document.faults.mark(&entry.at.span) => {
+            document.faults.note(entry.expected("a value"));
+        }
+        _ => {}
+    }
+}
+
 /// The key of a table or value inside another table, in quotes where TOML asks for them.
 pub(super) fn header(table: &str, key: &str) -> String {
     let bare = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_' || byte == b'-';
     let key = match key.bytes().all(bare) && !key.is_empty() {
         true => key.to_owned(),
-        false => format!("{key:?}"),
+        false => toml::Value::from(key).to_string(),
     };
     if table.is_empty() { key } else { format!("{table}.{key}") }
 }

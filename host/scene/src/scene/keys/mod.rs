@@ -83,19 +83,41 @@ pub enum Value {
     Goal,
 }
 
-impl Value {
+impl Key {
     /// A value to begin with, as TOML.
-    pub fn sample(self) -> &'static str {
-        match self {
-            Self::Text | Self::Unit | Self::Word(_) | Self::Name | Self::Names => "\"\"",
-            Self::Tensor(_) | Self::Positive | Self::Bytes => "1",
-            Self::Gradient(_) | Self::Pair => "[0, 0]",
-            Self::Expression(_) | Self::End(_) | Self::Number | Self::Whole(..) => "0",
-            Self::Share => "0.01",
-            Self::Boolean => "true",
-            Self::Omega => "\"auto\"",
-            Self::Goal => "\"5%\"",
+    pub fn sample(&self) -> String {
+        let text = match self.value {
+            Value::Word(words) => return format!("{:?}", words().first().unwrap_or(&"")),
+            Value::Text | Value::Name | Value::Names => "\"NAME\"",
+            Value::Unit => "\"m\"",
+            Value::End(_) if self.name == "limit" => "\"inf\"",
+            Value::Expression(_) if self.name == "initial" => "\"steady\"",
+            Value::Tensor(_) | Value::Positive | Value::Bytes => "1",
+            Value::Gradient(_) | Value::Pair => "[0, 0]",
+            Value::Expression(_) | Value::End(_) | Value::Number => "0",
+            Value::Whole(least, _) => return least.to_string(),
+            Value::Share => "0.01",
+            Value::Boolean => "true",
+            Value::Omega => "\"auto\"",
+            Value::Goal => "\"5%\"",
+        };
+        text.to_owned()
+    }
+
+    /// The words that its value may be, where its meaning does not tell them: "a, b or c: ".
+    pub fn words(&self) -> String {
+        match self.value {
+            Value::Word(words) if !self.meaning.contains('`') => format!("{}: ", listed(&words())),
+            _ => String::new(),
         }
+    }
+}
+
+/// "a, b or c".
+pub fn listed(words: &[&str]) -> String {
+    match words {
+        [most @ .., last] if !most.is_empty() => format!("{} or {last}", most.join(", ")),
+        words => words.join(", "),
     }
 }
 
@@ -135,15 +157,20 @@ pub fn tables() -> Vec<&'static str> {
     tables
 }
 
-/// Markdown without its links and marks: `[energy_norm](accuracy.md)` is "energy_norm".
+/// Markdown without its links and marks, and without references in brackets: `[energy_norm](accuracy.md)` is "energy_norm".
 pub fn plain(markdown: &str) -> String {
     let mut plain = String::new();
     let mut rest = markdown;
     while let Some((before, after)) = rest.split_once("](") {
         plain.push_str(before);
         rest = after.split_once(')').map_or("", |(_, rest)| rest);
-        if let Some(open) = plain.rfind('[') {
-            plain.remove(open);
+        let Some(open) = plain.rfind('[') else { continue };
+        match (plain[..open].strip_suffix(" ("), rest.strip_prefix(')')) {
+            (Some(head), Some(tail)) => {
+                rest = tail;
+                plain.truncate(head.len());
+            }
+            _ => drop(plain.remove(open)),
         }
     }
     plain.push_str(rest);
@@ -157,7 +184,7 @@ mod tests {
     #[test]
     fn links_are_left_out_of_plain_text() {
         assert_eq!(plain("a scalar or [axx, axy, ayy]"), "a scalar or [axx, axy, ayy]");
-        assert_eq!(plain("([how](accuracy.md#x)): `f` or [g](h)."), "(how): f or g.");
+        assert_eq!(plain("error ([how](accuracy.md#x)): `f` or [g](h)."), "error: f or g.");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The list of keys as a table of Markdown.
 
-use super::{Key, SECTIONS, Section};
+use super::{Key, SECTIONS, Section, listed};
 
 /// The line that stands before the table on the page, and the one behind it.
 pub const MARKS: [&str; 2] = ["<!-- keys: written by a test -->\n", "<!-- end of keys -->\n"];
@@ -18,7 +18,7 @@ pub fn table() -> String {
 }
 
 fn kinds(section: &Section) -> String {
-    let words: Vec<_> = Section::kinds(section.header).map(|kind| format!("`{kind}`")).collect();
+    let words: Vec<_> = Section::kinds(section.header).collect();
     format!("| `{}.kind` | {} | | required |\n", section.header, listed(&words))
 }
 
@@ -28,21 +28,6 @@ fn row(section: &Section, key: &Key) -> String {
         header => format!("{header}.{}", key.name),
     };
     let kind = section.kind.map_or_else(String::new, |kind| format!("{kind}: "));
-    let words = match key.value {
-        super::Value::Word(words) if !key.meaning.contains('`') => {
-            let words: Vec<_> = words().iter().map(|word| format!("`{word}`")).collect();
-            format!("{}: ", listed(&words))
-        }
-        _ => String::new(),
-    };
     let default = key.default.unwrap_or("required");
-    format!("| `{name}` | {kind}{words}{} | {} | {default} |\n", key.meaning, key.unit)
-}
-
-/// "a, b or c".
-fn listed(words: &[String]) -> String {
-    match words {
-        [most @ .., last] if !most.is_empty() => format!("{} or {last}", most.join(", ")),
-        words => words.join(", "),
-    }
+    format!("| `{name}` | {kind}{}{} | {} | {default} |\n", key.words(), key.meaning, key.unit)
 }
