@@ -122,6 +122,59 @@ fn check_tells_all_that_is_wrong() {
 }
 
 #[test]
+fn check_asks_what_a_solution_would_ask() {
+    let folder = Folder::new();
+    let levee = |changes: &[(&str, &str)]| folder.scene("levee.toml", "scenes/levee.toml", changes);
+    let with = |more: &str| {
+        let scene = levee(&[]);
+        folder.write("levee.toml", text(&scene) + more)
+    };
+    for (scene, part) in [
+        (
+            levee(&[(
+                "kind = \"probe\"",
+                "kind = \"probe\"\nunit = \"m\"\nat = [-99, 0]\n[output.other]\nkind = \"bound\" #",
+            )]),
+            "lies outside",
+        ),
+        (with("[setting]\nmath = \"micromath\"\n"), "setting.math"),
+        (with("[setting]\nmemory = 3\n"), "capacity"),
+        (with("[exact]\nu = \"ln(x - 5)\"\ngradient = [0, 0]\n"), "exact.u: not finite"),
+    ] {
+        let (status, found) = checked(&scene);
+        let faults = faults(&found);
+        assert!(status == 2 && faults.concat().contains(part), "{part}: {faults:#?}");
+        let solved = run(&["solve", &scene, "--out", &folder.word("out")]);
+        assert_eq!(solved.status, 2, "{part}: {}", solved.stderr);
+    }
+    // All question marks, wherever they stand.
+    let more = "[input.p]\nof = \"?\"\nfield = \"?\"\nrange = [\"?\", \"?\"]\n[exact]\nu = 1\ngradient = [\"?\", \"?\"]\n";
+    let open = faults(&checked(&with(more)).1);
+    let told = open.iter().filter(|fault| fault.ends_with("to be filled in")).count();
+    assert_eq!(told, 6, "{open:#?}");
+}
+
+#[test]
+fn a_new_scene_finds_its_mesh_from_any_folder() {
+    let folder = Folder::new();
+    for name in ["a b", "other"] {
+        std::fs::create_dir(folder.path(name)).expect("a folder");
+    }
+    let mesh =
+        folder.write("a b/x y.msh", std::fs::read(meshes("scenes/slab.msh")).expect("a mesh"));
+    let far = folder.word("a b/../other/far.toml");
+    run(&["new", &mesh, "--out", &far]).succeeds();
+    says(&text(&far), &["mesh = \"../a b/x y.msh\""]);
+    assert_eq!(faults(&checked(&far).1).len(), 7);
+    // Characters that Rust's own escapes would not show as TOML has them.
+    let odd = String::from_utf8_lossy(&std::fs::read(&mesh).expect("a mesh"))
+        .replace("\"ends\"", "\"en\u{a0}ds\"");
+    let odd = folder.write("odd.msh", odd);
+    run(&["new", &odd]).succeeds();
+    assert_eq!(faults(&checked(&folder.word("odd.toml")).1).len(), 7);
+}
+
+#[test]
 fn a_shell_a_manual_and_an_editor_know_the_commands() {
     let schema: Value = serde_json::from_str(&run(&["schema"]).succeeds().stdout).expect("JSON");
     assert!(schema["oneOf"][0]["properties"]["boundary"].is_object());

@@ -117,7 +117,8 @@ fn read_fragment(root: &Table, extends: &Entry) -> Result<Draft> {
     let hint = "a file that extends another changes [setting] and title alone";
     root.only_among("a fragment", &["extends", "title", "setting"], hint);
     let path = extended_path(extends)?;
-    let document = load(&path).map_err(|error| extends.error(error.reason()))?;
+    let document = load(&path)
+        .map_err(|error| extends.error(format_args!("{}: {}", path.display(), error.reason())))?;
     let entries = document.parse()?;
     let extended = Table::root(&document, &entries);
     if extended.get("extends").is_some() {

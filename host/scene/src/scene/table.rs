@@ -188,7 +188,8 @@ pub(super) fn header(table: &str, key: &str) -> String {
     let bare = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_' || byte == b'-';
     let key = match key.bytes().all(bare) && !key.is_empty() {
         true => key.to_owned(),
-        false => toml::Value::from(key).to_string(),
+        // Its escapes are those of TOML, but for one.
+        false => serde_json::Value::from(key).to_string().replace('\u{7f}', "\\u007f"),
     };
     if table.is_empty() { key } else { format!("{table}.{key}") }
 }

@@ -155,7 +155,7 @@ fn a_wrong_fragment_is_named() {
         assert_eq!(message(folder(text).path()), format!("fragment.toml:{expected}"));
     }
     let missing = message(folder("extends = 'levee.toml'").path());
-    assert!(missing.starts_with("levee.toml: No such file"), "{missing}");
+    assert!(missing.starts_with("fragment.toml:1: extends: levee.toml: No such file"), "{missing}");
     let foreign = folder("extends = 'base/levee.toml'\n[time]\nstep = 1\nend = 2");
     let error = Scene::read(&foreign.path().join("fragment.toml")).expect_err("a time");
     assert_eq!(hint(&error), "a file that extends another changes [setting] and title alone");
