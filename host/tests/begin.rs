@@ -124,23 +124,15 @@ fn check_tells_all_that_is_wrong() {
 #[test]
 fn check_asks_what_a_solution_would_ask() {
     let folder = Folder::new();
-    let levee = |changes: &[(&str, &str)]| folder.scene("levee.toml", "scenes/levee.toml", changes);
-    let with = |more: &str| {
-        let scene = levee(&[]);
-        folder.write("levee.toml", text(&scene) + more)
-    };
-    for (scene, part) in [
-        (
-            levee(&[(
-                "kind = \"probe\"",
-                "kind = \"probe\"\nunit = \"m\"\nat = [-99, 0]\n[output.other]\nkind = \"bound\" #",
-            )]),
-            "lies outside",
-        ),
-        (with("[setting]\nmath = \"micromath\"\n"), "setting.math"),
-        (with("[setting]\nmemory = 3\n"), "capacity"),
-        (with("[exact]\nu = \"ln(x - 5)\"\ngradient = [0, 0]\n"), "exact.u: not finite"),
+    let levee = text(folder.scene("levee.toml", "scenes/levee.toml", &[]));
+    let with = |more: &str| folder.write("levee.toml", levee.clone() + more);
+    for (more, part) in [
+        ("[output.far]\nkind = \"probe\"\nat = [-99, 0]\n", "lies outside"),
+        ("[setting]\nmath = \"micromath\"\n", "setting.math"),
+        ("[setting]\nmemory = 3\n", "capacity"),
+        ("[exact]\nu = \"ln(x - 5)\"\ngradient = [0, 0]\n", "exact.u: not finite"),
     ] {
+        let scene = with(more);
         let (status, found) = checked(&scene);
         let faults = faults(&found);
         assert!(status == 2 && faults.concat().contains(part), "{part}: {faults:#?}");
