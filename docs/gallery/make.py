@@ -41,10 +41,10 @@ PLAYED = [
      "A mat only heats, and gives no more than it can: below that the skin is colder than 2 °C.",
      "The flight's log changes airspeed, air and supply in every second."),
     ("A thermostat over a day", "docs/gallery/thermostat.toml", ["power", "floor"], {},
-     "A mat under a floor follows a set point that falls by 4 °C in the night, over a cold cellar.",
-     "The mat only heats, at most 60 W/m²: it switches off by itself when the set point falls.",
-     "In the evening the floor is warmer than asked, and the mat rests."),
-    ("A drain after a storm", "docs/gallery/drain.toml", ["outflow", "surface"], {},
+     "A mat under a floor over a cold cellar follows a set point that swings by 4 °C within a day.",
+     "The mat only heats, at most 60 W/m²: it never cools.",
+     "The mat gives most some time before the set point is highest: the floor has to be warmed on the way."),
+    ("A drain after a storm", "docs/gallery/drain.toml", ["outflow"], {},
      "Rain of four hours falls on a metre of ground above a drain.",
      "The drain lets water out and none in.",
      "The ground stores what the drain cannot take at once: the outflow comes later, and lasts longer."),
@@ -76,7 +76,7 @@ def solved(scene, told):
 
 def played(scene, told, words):
     """The ticks of a scene and the line with their largest values."""
-    words = {key: str(ROOT / of) for key, of in words.items()}
+    words = {key: str(ROOT / of) if key == "log" else of for key, of in words.items()}
     ticks = signorini.tick(ROOT / scene, **words)
     most = [f"`{name}` at most {max(ticks.outputs[name]):.3g} {unit_of(scene, name)}".rstrip() for name in told]
     return ticks, f"* {len(ticks.t)} ticks, each with its bound: {', '.join(most)}."
@@ -85,7 +85,7 @@ def played(scene, told, words):
 def lines(scene, verb, words, texts, number):
     """Five lines of a scene."""
     more = "".join(f" --{key} {of}" for key, of in words.items())
-    arguments = "".join(f', {key}="{of}"' for key, of in words.items())
+    arguments = "".join(f", {key}={of!r}" for key, of in words.items())
     what, contact, look = texts
     return "\n".join([
         f"* {what} {contact}",
@@ -113,7 +113,8 @@ def draw(result, told, file):
     if hasattr(result, "plot"):
         figure = result.plot().figure
     else:
-        figure, axes = plt.subplots(len(told), sharex=True, layout="constrained", figsize=(7, 4))
+        figure, axes = plt.subplots(len(told), squeeze=False, sharex=True, layout="constrained", figsize=(7, 4))
+        axes = axes[:, 0]
         for name, ax in zip(told, axes):
             ax.plot(result.t, result.outputs[name], color="#31688e")
             ax.set_ylabel(name)

@@ -2,8 +2,8 @@
 //!
 //! | who | takes from it |
 //! |---|---|
-//! | [`super::table::Table::only`] | which keys a table may hold |
-//! | `docs/scene.md` | its table of keys ([`page::rows`]) |
+//! | `scene::table` | which keys a table may hold |
+//! | `docs/scene.md` | its table of keys ([`page::table`]) |
 //! | `signorini schema` | the JSON Schema ([`super::schema`]) |
 //! | `signorini new` | the comments below each group |
 
