@@ -19,6 +19,7 @@ mod blank;
 mod boundary;
 mod control;
 mod document;
+mod draft;
 mod entry;
 mod exclusions;
 pub mod keys;
@@ -41,9 +42,9 @@ use std::sync::Arc;
 
 pub use blank::blank;
 pub use boundary::Role;
+pub use draft::Draft;
 pub use material::Material;
 pub use range::InputRange;
-pub use read::Draft;
 
 use crate::error::InputError;
 use crate::expression::Expression;

@@ -13,32 +13,19 @@ use std::path::{Path, PathBuf};
 use super::boundary::{kind_of, read_boundary};
 use super::control::read_input;
 use super::document::{Document, document, load};
+use super::draft::{Draft, bounded, unit, unread};
 use super::entry::Entry;
 use super::keys::{Section, tables};
 use super::material::read_material;
 use super::output::read_output;
 use super::setting::read_setting;
 use super::table::Table;
-use super::{Boundary, Condition, Exact, Located, Material, Named, Scene, Target, Time};
+use super::{Condition, Exact, Located, Material, Named, Scene, Target, Time};
 use crate::error::{Error, InputError, Result};
 use crate::expression::{Expression, Variables};
-use crate::faults::Faults;
 
 /// Most tables `[KIND.NAME]` of a kind: names are looked up one by one, and each input has a field of its own.
 pub(super) const MOST_TABLES: usize = 256;
-
-/// A scene file as far as it could be read.
-#[derive(Debug)]
-pub struct Draft {
-    /// The scene: a boundary without a condition that could be read has no flux, a material without one A = 1.
-    pub scene: Scene,
-    /// The kind of each boundary, where that could be read.
-    pub kinds: Vec<Option<&'static str>>,
-    /// The keys of what could not be read: `boundary.river`, `mesh`.
-    pub open: Vec<String>,
-    /// What is wrong with the file and with the one that it extends.
-    pub faults: Vec<InputError>,
-}
 
 impl Scene {
     /// Reads and checks the scene file at `path`, and the one it extends, if it is a fragment; the
@@ -65,15 +52,6 @@ impl Scene {
     /// A file that cannot be opened, or is no TOML.
     pub fn draft(path: &Path) -> Result<Draft> {
         read(load(path)?)
-    }
-}
-
-impl Draft {
-    /// The scene, if nothing is wrong with it.
-    fn finish(self) -> Result<Scene> {
-        let faults = Faults::default();
-        self.faults.into_iter().for_each(|fault| faults.note(fault));
-        faults.into_result().map(|()| self.scene)
     }
 }
 
@@ -188,25 +166,6 @@ fn read_scene(root: &Table) -> Draft {
         text: root.document.text.clone(),
     };
     Draft { scene, kinds, open, faults: Vec::new() }
-}
-
-/// The keys of the groups that could not be read.
-fn unread<T>(groups: &[Named<T>]) -> impl Iterator<Item = String> {
-    groups.iter().filter(|(_, of)| of.is_none()).map(|(name, _)| name.key.clone())
-}
-
-/// A boundary; without flux where its condition could not be read.
-fn bounded(name: Located<String>, condition: Option<Condition>) -> Boundary {
-    let none = || Condition::Neumann { flux: name.with(Expression::constant(0.0)) };
-    let condition = condition.unwrap_or_else(none);
-    Boundary { name, condition }
-}
-
-/// A material of A = 1.
-fn unit(name: Located<String>) -> Material {
-    let number = |value| name.with(Expression::constant(value));
-    let conductivity = [number(1.0), number(0.0), number(1.0)];
-    Material { conductivity, is_scalar: true, capacity: number(0.0), name }
 }
 
 /// The tables `[key.NAME]` by name, each read.
