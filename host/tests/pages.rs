@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use signorini_scene::scene::Scene;
-use signorini_scene::scene::keys::page::{MARKS, table};
+use signorini_scene::scene::keys::{Key, SECTIONS, Section, listed};
 
 use crate::command::{repository, text};
 
@@ -28,6 +28,36 @@ fn examples_are_scenes() {
     let (page, levee) = (page("docs/firmware.md"), page("meshes/scenes/levee.toml"));
     let (head, _) = levee.split_once("[input.").expect("inputs");
     Scene::parse(&(head.to_owned() + example(&page)), Path::new("levee.toml")).expect("a piece");
+}
+
+/// The line that stands before the table on the page, and the one behind it.
+const MARKS: [&str; 2] = ["<!-- keys: written by a test -->\n", "<!-- end of keys -->\n"];
+
+/// The table, a row per key and kind.
+fn table() -> String {
+    let head = "| key | meaning | unit | default |\n|---|---|---|---|\n".to_owned();
+    let mut known = "";
+    SECTIONS.iter().fold(head, |rows, section| {
+        let kinds = (section.kind.is_some() && section.header != known).then(|| kinds(section));
+        known = section.header;
+        let keys = section.keys.iter().map(|key| row(section, key));
+        rows + &kinds.unwrap_or_default() + &keys.collect::<String>()
+    })
+}
+
+fn kinds(section: &Section) -> String {
+    let words: Vec<_> = Section::kinds(section.header).collect();
+    format!("| `{}.kind` | {} | | required |\n", section.header, listed(&words))
+}
+
+fn row(section: &Section, key: &Key) -> String {
+    let name = match section.header {
+        "" => key.name.to_owned(),
+        header => format!("{header}.{}", key.name),
+    };
+    let kind = section.kind.map_or_else(String::new, |kind| format!("{kind}: "));
+    let default = key.default.unwrap_or("required");
+    format!("| `{name}` | {kind}{}{} | {} | {default} |\n", key.words(), key.meaning, key.unit)
 }
 
 /// The table of keys on the page is that of the list which the reader of scenes goes by; `SIGNORINI_BLESS=1` writes it anew.

@@ -172,12 +172,12 @@ impl Loads {
             if problem.kinds[edge] == EdgeKind::Interior {
                 continue;
             }
-            let boundary = problem.binding.boundary(problem.ends[edge]);
-            if let Err(error) = self.add_edge(problem, edge, time)
-                && !told.contains(&boundary)
-            {
-                told.push(boundary);
-                faults.add(error);
+            if let Err(error) = self.add_edge(problem, edge, time) {
+                let boundary = problem.binding.boundary(problem.ends[edge]);
+                if !told.contains(&boundary) {
+                    told.push(boundary);
+                    faults.add(error);
+                }
             }
         }
         faults.into_result()

@@ -145,6 +145,11 @@ impl InputError {
         self.time
     }
 
+    fn set_time(&mut self, time: f64) {
+        self.message = format!("{} (at t = {time})", self.message);
+        self.time = Some(time);
+    }
+
     /// Adds the text and the byte range to underline; the line number follows from it.
     pub fn excerpt(mut self, text: &Arc<str>, span: std::ops::Range<usize>) -> Self {
         let start = text.floor_char_boundary(span.start);
@@ -223,8 +228,8 @@ impl Error {
     /// Adds at which time of a scene the input is wrong.
     pub fn at_time(mut self, time: f64) -> Self {
         if let Self::Input(error) = &mut self {
-            error.message = format!("{} (at t = {time})", error.message);
-            error.time = Some(time);
+            error.set_time(time);
+            error.others.iter_mut().for_each(|other| other.set_time(time));
         }
         self
     }

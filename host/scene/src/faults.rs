@@ -30,8 +30,8 @@ impl Faults {
         }
     }
 
-    /// Whether one of them underlines these bytes.
-    pub fn mark(&self, bytes: &Range<usize>) -> bool {
+    /// Whether one of them underlines exactly these bytes.
+    pub fn underline(&self, bytes: &Range<usize>) -> bool {
         self.0.borrow().iter().any(|fault| fault.underlines(bytes))
     }
 
@@ -52,6 +52,12 @@ impl Faults {
     pub fn into_result(self) -> Result<()> {
         let mut all = self.into_vec().into_iter();
         all.next().map_or(Ok(()), |first| Err(first.with_others(all.collect()).into()))
+    }
+}
+
+impl From<Vec<InputError>> for Faults {
+    fn from(all: Vec<InputError>) -> Self {
+        Self(RefCell::new(all))
     }
 }
 

@@ -9,6 +9,7 @@ mod example;
 mod extremes;
 mod interruption;
 mod levels;
+mod look;
 mod new;
 mod outlined;
 mod picture;
@@ -33,7 +34,7 @@ const EXAMPLES: &str = "\
 Examples:
   signorini                                         all standard scenes, table and report
   signorini new bar.msh                             a scene for a mesh: bar.toml, to be filled in
-  signorini check bar.toml --draw bar.svg           what stands where, and all that is wrong, without solving
+  signorini check bar.toml --draw bar.svg           what stands where, and what is wrong with it
   signorini solve meshes/scenes/levee.toml          one scene; files in out/levee
   signorini solve my.toml --scalar f32 --out /tmp/a what a microcontroller would compute
   signorini tick my.toml --budget-sweeps 40         the scene over time, warm-started
@@ -59,7 +60,7 @@ pub struct Cli {
 enum Command {
     /// Write a scene for a mesh: a table per group, with "?" where somebody has to decide
     New(new::Arguments),
-    /// Tell what stands where in a scene and everything that is wrong with it, without solving it
+    /// Tell what stands where in a scene and what is wrong with it, without solving it
     Check(check::Arguments),
     /// Solve one scene and write edges.csv, summary.json, solution.vtu and contact.vtu
     Solve(solve::Arguments),

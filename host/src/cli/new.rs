@@ -11,11 +11,13 @@ use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::mesh;
 use signorini_scene::scene::{blank, schema};
 
+use super::shell::printed;
+
 const EXAMPLES: &str = "\
 Examples:
-  signorini new bar.msh                 writes bar.toml beside it: a table per group, with \"?\" where you decide
-  signorini new bar.msh --out -         the same on standard output
-  signorini check bar.toml              what is still to be filled in
+  signorini new bar.msh             writes bar.toml beside it, with \"?\" where you decide
+  signorini new bar.msh --out -     the same on standard output
+  signorini check bar.toml          what is still to be filled in
 
 Beside the scene it writes signorini.schema.json, where there is none: with it an editor completes keys.";
 
@@ -44,8 +46,7 @@ impl Arguments {
         std::fs::create_dir_all(Path::new(".").join(folder)).map_err(Error::io(folder))?;
         let text = blank(&mesh, &title, &seen_from(folder, &self.mesh)?);
         if to_output {
-            print!("{text}");
-            return Ok(0);
+            return printed(text.as_bytes());
         }
         write_atomically(&scene, text.as_bytes())?;
         say(format_args!("{} is written", scene.display()));

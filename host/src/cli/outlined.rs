@@ -10,7 +10,7 @@ use signorini_scene::error::{Error, InputError};
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::{Input, Output, Scene};
 
-use super::check::Look;
+use super::look::Look;
 
 /// The look as a person reads it.
 pub(super) fn text(look: &Look) -> String {

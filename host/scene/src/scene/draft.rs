@@ -21,9 +21,7 @@ pub struct Draft {
 impl Draft {
     /// The scene, if nothing is wrong with it.
     pub(super) fn finish(self) -> Result<Scene> {
-        let faults = Faults::default();
-        self.faults.into_iter().for_each(|fault| faults.note(fault));
-        faults.into_result().map(|()| self.scene)
+        Faults::from(self.faults).into_result().map(|()| self.scene)
     }
 }
 

@@ -66,8 +66,9 @@ fn read(document: Document) -> Result<Draft> {
                 document.faults.add(error);
                 root.table("setting").as_ref().map(read_setting);
                 root.note_open();
+                let lacking = extends.expected("a scene that stands on its own");
                 drop(entries);
-                return Err(document.faults.into_result().err().unwrap_or_else(no_scene));
+                return Err(document.faults.into_result().err().unwrap_or(lacking.into()));
             }
         },
         None => read_scene(&root),
@@ -75,10 +76,6 @@ fn read(document: Document) -> Result<Draft> {
     root.note_open();
     drop(entries);
     Ok(Draft { faults: faults(document, draft.faults), ..draft })
-}
-
-fn no_scene() -> Error {
-    InputError::new("no scene").into()
 }
 
 /// The faults of a document, then those of the one that it extends.

@@ -132,13 +132,13 @@ fn values(value: Value) -> Json {
             json!({ "type": "string", "minLength": 1, "maxLength": 24, "not": { "const": "?" } })
         }
         Value::Word(words) => json!({ "enum": words() }),
-        Value::Expression(_) | Value::End(_) => expression(),
-        Value::Tensor(_) => json!({ "anyOf": [
+        Value::Expression | Value::End => expression(),
+        Value::Tensor => json!({ "anyOf": [
             expression(),
             { "type": "array", "items": expression(), "minItems": 1, "maxItems": 1 },
             { "type": "array", "items": expression(), "minItems": 3, "maxItems": 3 },
         ] }),
-        Value::Gradient(_) => pair(expression()),
+        Value::Gradient => pair(expression()),
         Value::Pair => pair(json!({ "type": "number" })),
         Value::Number => json!({ "type": "number" }),
         Value::Positive => json!({ "type": "number", "exclusiveMinimum": 0 }),

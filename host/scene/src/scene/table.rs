@@ -176,7 +176,7 @@ fn note_open(entry: &Entry) {
             Table { document, name, entries }.note_open();
         }
         DeValue::Array(_) => entry.array().iter().flatten().for_each(note_open),
-        _ if entry.is_open() && !document.faults.mark(&entry.at.span) => {
+        _ if entry.is_open() && !document.faults.underline(&entry.at.span) => {
             document.faults.note(entry.expected("a value"));
         }
         _ => {}

@@ -2,7 +2,6 @@
 
 use super::Value as V;
 use super::{Key, Section};
-use crate::expression::Variables::{Space, SpaceTime};
 use crate::scene::control::FIELDS;
 use crate::scene::setting::{
     CELLS, ELEMENTS, FINEST, MATHS, MODELS, MOST_STATES, SCALARS, SOLVERS, STARTS,
@@ -60,31 +59,31 @@ pub const SECTIONS: &[Section] = &[
         key("extends", V::Text, "the scene that this fragment changes: it has `title` and `[setting]` alone", "", NONE),
     ]),
     table("material.NAME", "a material", &[
-        key("conductivity", V::Tensor(Space), "A, a scalar or [axx, axy, ayy], in x and y", "conductivity", REQUIRED),
-        key("capacity", V::Expression(Space), "c ≥ 0, what a unit of u stores per area, in x and y; its mean over each cell counts ([steps in time](time.md))", "conductivity · s/length²", Some("0")),
+        key("conductivity", V::Tensor, "A, a scalar or [axx, axy, ayy], in x and y", "conductivity", REQUIRED),
+        key("capacity", V::Expression, "c ≥ 0, what a unit of u stores per area, in x and y; its mean over each cell counts ([steps in time](time.md))", "conductivity · s/length²", Some("0")),
     ]),
     table("source", "the source", &[
-        key("f", V::Expression(SpaceTime), "f, what is produced inside, in x, y and t; `[source]` may be left out", "flux per length", REQUIRED),
+        key("f", V::Expression, "f, what is produced inside, in x, y and t; `[source]` may be left out", "flux per length", REQUIRED),
     ]),
     boundary("dirichlet", "a dirichlet boundary", &[
-        key("value", V::Expression(SpaceTime), "u = value, in x, y and t", "u", REQUIRED),
+        key("value", V::Expression, "u = value, in x, y and t", "u", REQUIRED),
     ]),
     boundary("neumann", "a neumann boundary", &[
-        key("flux", V::Expression(SpaceTime), "σ·n = flux, outward, in x, y and t", "flux", REQUIRED),
+        key("flux", V::Expression, "σ·n = flux, outward, in x, y and t", "flux", REQUIRED),
     ]),
     boundary("robin", "a robin boundary", &[
-        key("coefficient", V::Expression(Space), "σ·n = coefficient (ambient − u), at least 0, in x and y", "flux per u", REQUIRED),
-        key("ambient", V::Expression(SpaceTime), "what u relaxes to, in x, y and t", "u", REQUIRED),
+        key("coefficient", V::Expression, "σ·n = coefficient (ambient − u), at least 0, in x and y", "flux per u", REQUIRED),
+        key("ambient", V::Expression, "what u relaxes to, in x, y and t", "u", REQUIRED),
     ]),
     boundary("contact", "a contact boundary", &[
-        key("gap", V::Expression(SpaceTime), "u ≥ gap, and σ·n = flux where u > gap; in x, y and t", "u", Some("0")),
-        key("flux", V::End(SpaceTime), "σ·n ≥ flux, or \"-inf\" for no least flux; in x, y and t", "flux", Some("0")),
-        key("limit", V::End(SpaceTime), "σ·n ≤ limit, and σ·n = limit where u < gap; in x, y and t", "flux", Some("\"inf\": u ≥ gap")),
+        key("gap", V::Expression, "u ≥ gap, and σ·n = flux where u > gap; in x, y and t", "u", Some("0")),
+        key("flux", V::End, "σ·n ≥ flux, or \"-inf\" for no least flux; in x, y and t", "flux", Some("0")),
+        key("limit", V::End, "σ·n ≤ limit, and σ·n = limit where u < gap; in x, y and t", "flux", Some("\"inf\": u ≥ gap")),
     ]),
     table("input.NAME", "an input", &[
         key("of", V::Name, "the boundary that the input acts on, or `source`", "", REQUIRED),
         key("field", words!(FIELDS), "what it adds to", "", REQUIRED),
-        key("pattern", V::Expression(Space), "what it adds for the value 1, in x and y", "that of the field", REQUIRED),
+        key("pattern", V::Expression, "what it adds for the value 1, in x and y", "that of the field", REQUIRED),
         key("default", V::Number, "its value until the controller sets another", "", Some("0")),
         key("range", V::Pair, "`[lo, hi]`: the values that it may take; others are refused ([what ranges buy](firmware.md#ranges)). A coefficient needs one", "", Some("any")),
         key("unit", V::Unit, "a text that a baked module's documentation has for it, such as \"m/s\"", "", NONE),
@@ -115,11 +114,11 @@ pub const SECTIONS: &[Section] = &[
     table("time", "the time", &[
         key("step", V::Positive, "time from tick to tick", "s", REQUIRED),
         key("end", V::Positive, "time of the last tick; required where no material has a capacity", "s", NONE),
-        key("initial", V::Expression(Space), "u at the start of steps in time: \"steady\", or an expression in x and y", "u", Some("\"steady\"")),
+        key("initial", V::Expression, "u at the start of steps in time: \"steady\", or an expression in x and y", "u", Some("\"steady\"")),
     ]),
     table("exact", "the exact solution", &[
-        key("u", V::Expression(SpaceTime), "the exact solution, in x, y and t: errors are printed beside it, and a warning where they are above the bound", "u", REQUIRED),
-        key("gradient", V::Gradient(SpaceTime), "its gradient [∂u/∂x, ∂u/∂y]", "u per length", REQUIRED),
+        key("u", V::Expression, "the exact solution, in x, y and t: errors are printed beside it, and a warning where they are above the bound", "u", REQUIRED),
+        key("gradient", V::Gradient, "its gradient [∂u/∂x, ∂u/∂y]", "u per length", REQUIRED),
     ]),
     table("setting", "the setting", &[
         key("refine", V::Whole(0, FINEST), "uniform refinements of the mesh, 6 at most", "", Some("0")),

@@ -3,16 +3,13 @@
 //! | who | takes from it |
 //! |---|---|
 //! | `scene::table` | which keys a table may hold |
-//! | `docs/scene.md` | its table of keys ([`page::table`]) |
+//! | `docs/scene.md` | its table of keys, which a test of the command writes |
 //! | `signorini schema` | the JSON Schema ([`super::schema`]) |
 //! | `signorini new` | the comments below each group |
 
 mod list;
-pub mod page;
 
 pub use list::SECTIONS;
-
-use crate::expression::Variables;
 
 /// A table of a scene file, or one kind of such a table.
 #[derive(Debug, Clone, Copy)]
@@ -51,14 +48,14 @@ pub enum Value {
     Unit,
     /// One of these words.
     Word(fn() -> Vec<&'static str>),
-    /// A number, or an expression in these variables.
-    Expression(Variables),
+    /// A number, or an expression.
+    Expression,
     /// An expression, or an infinity.
-    End(Variables),
+    End,
     /// An expression, or an array of one or three of them.
-    Tensor(Variables),
+    Tensor,
     /// An array of two expressions.
-    Gradient(Variables),
+    Gradient,
     /// A number.
     Number,
     /// An array of two numbers.
@@ -90,11 +87,11 @@ impl Key {
             Value::Word(words) => return format!("{:?}", words().first().unwrap_or(&"")),
             Value::Text | Value::Name | Value::Names => "\"NAME\"",
             Value::Unit => "\"m\"",
-            Value::End(_) if self.name == "limit" => "\"inf\"",
-            Value::Expression(_) if self.name == "initial" => "\"steady\"",
-            Value::Tensor(_) | Value::Positive | Value::Bytes => "1",
-            Value::Gradient(_) | Value::Pair => "[0, 0]",
-            Value::Expression(_) | Value::End(_) | Value::Number => "0",
+            Value::End if self.name == "limit" => "\"inf\"",
+            Value::Expression if self.name == "initial" => "\"steady\"",
+            Value::Tensor | Value::Positive | Value::Bytes => "1",
+            Value::Gradient | Value::Pair => "[0, 0]",
+            Value::Expression | Value::End | Value::Number => "0",
             Value::Whole(least, _) => return least.to_string(),
             Value::Share => "0.01",
             Value::Boolean => "true",
