@@ -27,6 +27,7 @@ const ENVIRONMENT: &str = "module-environment";
 /// The steps.
 pub fn run(steps: &mut Steps) {
     // Pip builds into the folder of the program, whose crates serve the module.
+    let is_whole = steps.is_whole();
     steps.check("pip builds the module signorini, and its tests pass", || {
         let _ = std::fs::remove_dir_all(target_dir("python").join(ENVIRONMENT));
         let python = environment(ENVIRONMENT, &["./host/python[test]"], &[])?;
@@ -36,6 +37,9 @@ pub fn run(steps: &mut Steps) {
         let mut tests = Command::new(&python);
         tests.args(["-m", "pytest", "-q", "-p", "no:cacheprovider", "host/python/tests"]);
         tests.env("SIGNORINI", program::path()?).current_dir(root());
+        if is_whole {
+            tests.env("SIGNORINI_WHOLE", "1");
+        }
         run_command(tests)
     });
 }

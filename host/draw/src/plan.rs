@@ -67,7 +67,8 @@ const APART: f64 = 12.0;
 /// The part of a normal that points aside, below which an edge counts as flat.
 const FLAT: f64 = 0.35;
 const LETTERS: f64 = 11.5;
-const TITLE: f64 = 15.0;
+/// Size of the letters of a title: bold ones of 15 pixels are as wide.
+const TITLE: f64 = 17.0;
 /// As many materials as there are colours stand in the legend.
 const MOST_MATERIALS: usize = 6;
 /// Of the legend: where it begins, and how wide a line or an area is in it.
