@@ -37,9 +37,11 @@ pub const DOUBLE: Kind = Kind {
         let abi = name.strip_prefix("__aeabi_").is_some_and(|rest| {
             rest.starts_with('d') || rest.starts_with("cd") || rest.ends_with("2d")
         });
-        abi || ["df3", "df2", "dfsf2", "dfsi", "dfdi", "sidf", "didf"]
-            .iter()
-            .any(|end| name.ends_with(end))
+        let own = name.rsplit_once("__").is_some_and(|(_, own)| {
+            let ends = ["df3", "df2", "dfsf2", "dfsi", "dfdi", "sidf", "didf"];
+            ends.iter().any(|end| own.ends_with(end))
+        });
+        abi || own
     },
 };
 
@@ -201,8 +203,15 @@ mod tests {
         let abi =
             ["__aeabi_dmul", "__aeabi_ddiv", "__aeabi_f2d", "__aeabi_ui2d", "__aeabi_cdcmple"];
         let own = ["__truncdfsf2", "__muldf3", "__fixdfsi"];
-        let others =
-            ["__aeabi_uldivmod", "__aeabi_memcpy", "__aeabi_fmul", "__mulsf3", "__udivmoddi4"];
+        let others = [
+            "__aeabi_uldivmod",
+            "__aeabi_memcpy",
+            "__aeabi_fmul",
+            "__mulsf3",
+            "__udivmoddi4",
+            // A number in a name, which ends as a helper's does.
+            "linear_between_of_b318f3a05e7897bc_5295ddf2",
+        ];
         let heap = ["_RNvCsfLfy6EI15iL_7___rustc12___rust_alloc", "__rust_dealloc", "_malloc"];
         let no_heap = ["memcpy", "force_f32_u16", "_ZN4core5alloc6layout"];
         for (kind, names, is) in [
