@@ -56,6 +56,16 @@ const PAGES: [&str; 8] = [
     "SECURITY.md",
     "tests/firmware",
 ];
+/// What the module is built from, and the pages and scenes that its tests run.
+const PYTHON: [&str; 7] = [
+    "kernel",
+    "host",
+    "meshes",
+    "tests/firmware",
+    "docs/gallery",
+    "docs/gallery.md",
+    "docs/notebooks",
+];
 /// The sources and scenes of what boards run.
 const BOARDS: [&str; 5] = ["kernel", "host", "meshes", "tests/firmware", "docs/firmware.md"];
 
@@ -133,7 +143,7 @@ fn on_host(steps: &mut Steps, runs: impl Fn(Part) -> bool) {
         steps.group("the kernel without std", &["kernel", "tests/no_std"], no_std::run);
     }
     if runs(Part::Python) {
-        steps.group("Python", &["kernel", "host", "meshes"], python::run);
+        steps.group("Python", &PYTHON, python::run);
     }
 }
 
