@@ -27,6 +27,9 @@ pub enum SavedSession {
     Solve {
         /// Means of u, one per edge; none where the next solve starts anew.
         u: Vec<f64>,
+        /// Whether a contact edge was at its gap; none before the first answer, and in files of before 0.9.
+        #[serde(default)]
+        active: Vec<bool>,
         /// The ω that the last solve has found.
         omega: Option<f64>,
     },

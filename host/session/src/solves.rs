@@ -18,8 +18,8 @@ use signorini_scene::error::{InputError, Result};
 use signorini_scene::setting::{Omega, Precision, Setting};
 use signorini_solve::{Mixed, Options, Solution, read_off, unfit};
 
-use crate::saved::{SavedSession, narrowed};
-use crate::{Session, scalar_kind};
+use crate::saved::{SavedSession, check_length, narrowed};
+use crate::{Session, Then, scalar_kind};
 use sweeps::{Refused, Sweeps};
 
 /// Sweeps before the first certificate, where certificates tell when to end.
@@ -42,6 +42,8 @@ pub(crate) struct Solves<R: Scalar, S> {
     /// Whether `u` is an answer to start from.
     is_known: bool,
     u: Vec<R>,
+    /// Whether a contact edge was at its gap in that answer; nothing before the first tick.
+    active: Vec<bool>,
     /// `None` before the first tick.
     outcome: Option<Outcome<R>>,
     certificate: Option<Certificate<R>>,
@@ -50,11 +52,7 @@ pub(crate) struct Solves<R: Scalar, S> {
 }
 
 /// Calls `then` with a session of cold solves, in the scalar of the setting.
-pub(crate) fn with_solves<T>(
-    problem: &Problem,
-    setting: &Setting,
-    then: impl FnOnce(&mut dyn Session) -> Result<T>,
-) -> Result<T> {
+pub(crate) fn with_solves(problem: &Problem, setting: &Setting, then: Then) -> Result<()> {
     let certificate = setting.certificate;
     match setting.scalar {
         Some(Precision::Mixed) => {
@@ -121,6 +119,7 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Solves<R, S> {
             u: swept.assembled().start(),
             start: swept.assembled().start(),
             is_known: false,
+            active: Vec::new(),
             swept,
             certifier,
             enclosed,
@@ -133,7 +132,8 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Solves<R, S> {
         })
     }
 
-    /// Sets u to where the next solve starts.
+    /// Sets u to where the next solve starts. Edges that were at their gap go with it: the tolerance may be wider than the way,
+    /// and an edge that no sweep brings back to its gap would have no force.
     fn begin(&mut self) {
         let assembled = self.swept.assembled();
         if !self.is_warm {
@@ -145,6 +145,12 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Solves<R, S> {
         }
         let unknowns = assembled.edges().counts().unknowns();
         self.u[unknowns..].copy_from_slice(assembled.dirichlet());
+        let on_contact = self.u[assembled.edges().counts().free..].iter_mut();
+        for ((u, law), _) in
+            on_contact.zip(assembled.law().edges()).zip(&self.active).filter(|(_, active)| **active)
+        {
+            *u = law.gap();
+        }
     }
 
     fn advance(&mut self) -> Refused<u32> {
@@ -159,6 +165,10 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Solves<R, S> {
         self.is_known = outcome.status != Status::NotFinite;
         if outcome.status != Status::NotFinite {
             self.omega = Some(outcome.omega);
+            let assembled = self.swept.assembled();
+            let on_contact = self.u[assembled.edges().counts().free..].iter();
+            let touching = on_contact.zip(assembled.law().edges()).map(|(&u, law)| law.touches(u));
+            self.active = touching.collect();
         }
         Ok(outcome.sweeps)
     }
@@ -245,16 +255,22 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Session for Solves<R, S> {
 
     fn restart(&mut self) {
         (self.outcome, self.omega, self.is_known) = (None, None, false);
+        self.active.clear();
     }
 
     fn saved(&self) -> Option<SavedSession> {
         self.outcome?;
         let u = if self.is_known { widened(&self.u) } else { Vec::new() };
-        Some(SavedSession::Solve { u, omega: self.omega.map(R::wide) })
+        let active = self.active.clone();
+        Some(SavedSession::Solve { u, active, omega: self.omega.map(R::wide) })
     }
 
     fn restore(&mut self, saved: &SavedSession) -> Result<()> {
-        let SavedSession::Solve { u, omega } = saved else { return saved.foreign() };
+        let SavedSession::Solve { u, active, omega } = saved else { return saved.foreign() };
+        if !active.is_empty() {
+            let contact = self.swept.assembled().edges().counts().contact;
+            check_length("session.active", active.len(), contact)?;
+        }
         let omega = narrowed("session.omega", omega.as_slice(), omega.iter().len())?.pop();
         let is_one = |omega| Search::checked(Relaxation::Adaptive(omega)).is_ok();
         if !omega.is_none_or(is_one) {
@@ -265,6 +281,7 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Session for Solves<R, S> {
             self.is_known = true;
         }
         self.omega = omega;
+        self.active.clone_from(active);
         Ok(())
     }
 
