@@ -24,6 +24,7 @@ mod operation;
 mod parser;
 mod program;
 mod rounded;
+mod sharing;
 #[cfg(test)]
 mod tests;
 

@@ -1,7 +1,8 @@
 //! An expression in postfix order, and the stack machine that runs it.
 //!
 //! `2*x + y` is `2 x * y +`: operands are pushed, an operation replaces the topmost one or two by
-//! its result. The machine's stack has a fixed size, so running allocates nothing.
+//! its result. The machine's stack has a fixed size, so running allocates nothing. What is said twice is computed once
+//! ([`super::sharing`]).
 
 use std::array::from_fn;
 
@@ -9,6 +10,7 @@ use super::elementary::Elementary;
 pub(super) use super::operation::Numbers;
 use super::operation::{Binary, Unary};
 use super::rounded::{Rounded, Roundings};
+use super::sharing::{Order, orders};
 
 /// The most operands that may wait on the stack.
 pub(super) const STACK: usize = 64;
@@ -23,7 +25,7 @@ pub(super) enum Step {
 }
 
 /// A variable; the discriminant is its place in the point (x, y, t).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Variable {
     X = 0,
     Y = 1,
@@ -37,13 +39,19 @@ pub(super) enum Variable {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Program {
     pub(super) steps: Vec<Step>,
+    /// What the machine does for them.
+    orders: Vec<Order>,
     /// How far a constant may be off that was computed from others, at most.
     folded: f64,
 }
 
 impl Program {
+    fn new(steps: Vec<Step>, folded: f64) -> Self {
+        Self { orders: orders(&steps), steps, folded }
+    }
+
     pub fn constant(value: f64) -> Self {
-        Self { steps: vec![Step::Constant(value)], folded: 0.0 }
+        Self::new(vec![Step::Constant(value)], 0.0)
     }
 
     /// How far a constant may be off that was computed from others, at most.
@@ -98,7 +106,7 @@ impl Program {
             None => {
                 let mut steps = self.steps.clone();
                 steps.extend([Step::Constant(factor), Step::Binary(Binary::Multiply)]);
-                Self { steps, ..*self }
+                Self::new(steps, self.folded)
             }
         }
     }
@@ -113,7 +121,7 @@ impl Program {
             None => {
                 let mut steps = self.steps.clone();
                 steps.extend([Step::Constant(subtracted), Step::Binary(Binary::Subtract)]);
-                Self { steps, ..*self }
+                Self::new(steps, self.folded)
             }
         }
     }
@@ -132,22 +140,27 @@ impl Program {
     pub fn run<N: Numbers>(&self, numbers: &N, at: [N::Number; 3]) -> N::Number {
         let mut stack = [numbers.constant(0.0); STACK];
         let mut height = 0;
-        for step in &self.steps {
-            match *step {
-                Step::Constant(value) => {
+        for order in &self.orders {
+            match *order {
+                Order::Step(Step::Constant(value)) => {
                     stack[height] = numbers.constant(value);
                     height += 1;
                 }
-                Step::Variable(variable) => {
+                Order::Step(Step::Variable(variable)) => {
                     stack[height] = at[variable as usize];
                     height += 1;
                 }
-                Step::Unary(operation) => {
+                Order::Step(Step::Unary(operation)) => {
                     stack[height - 1] = numbers.unary(operation, stack[height - 1]);
                 }
-                Step::Binary(operation) => {
+                Order::Step(Step::Binary(operation)) => {
                     height -= 1;
                     stack[height - 1] = numbers.binary(operation, stack[height - 1], stack[height]);
+                }
+                Order::Keep(place) => stack[place] = stack[height - 1],
+                Order::Recall(place) => {
+                    stack[height] = stack[place];
+                    height += 1;
                 }
             }
         }
@@ -233,6 +246,6 @@ impl Builder {
     }
 
     pub fn finish(self) -> Program {
-        Program { steps: self.steps, folded: self.folded }
+        Program::new(self.steps, self.folded)
     }
 }

@@ -79,9 +79,15 @@ fn well_formed() -> impl Strategy<Value = String> {
     })
 }
 
+/// Texts that say the same twice, at different depths.
+fn repeating() -> impl Strategy<Value = String> {
+    (well_formed(), well_formed())
+        .prop_map(|(a, b)| format!("(({a})*({b})-({a}))/(({b})+x*({a}))+({a})*({b})"))
+}
+
 proptest! {
     #[test]
-    fn agrees_with_recursive_descent(text in well_formed()) {
+    fn agrees_with_recursive_descent(text in prop_oneof![well_formed(), repeating()]) {
         let mut naive = Naive(text.as_bytes());
         let expected = naive.sum();
         prop_assert!(naive.0.is_empty());
