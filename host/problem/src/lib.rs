@@ -174,7 +174,7 @@ impl Problem {
 
     /// Coordinates of the ends of an edge.
     pub fn segment(&self, edge: usize) -> [[f64; 2]; 2] {
-        self.ends[edge].map(|vertex| self.mesh.vertices[vertex as usize])
+        self.mesh.segment(self.ends[edge])
     }
 
     /// The point of an edge at the part t of its way.
@@ -208,9 +208,6 @@ impl Problem {
 
     /// The vertices of cell `at`, triangles first.
     pub fn vertices_of(&self, at: usize) -> &[u32] {
-        match self.mesh.triangles.get(at) {
-            Some(vertices) => vertices,
-            None => &self.mesh.quads[at - self.mesh.triangles.len()],
-        }
+        self.mesh.corners_of(at)
     }
 }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::Serialize;
 use signorini_kernel::mesh::components::Support;
 use signorini_scene::mesh::Mesh;
-use signorini_scene::scene::{Draft, Scene};
+use signorini_scene::scene::{Draft, Material, Scene};
 
 use crate::binding::DEFAULT;
 use crate::{EdgeKind, Parts, Problem};
@@ -85,45 +85,56 @@ impl Outline {
 }
 
 fn boundaries(scene: &Scene, mesh: &Mesh, kinds: &[Option<&'static str>]) -> Vec<BoundaryGroup> {
-    let named = |name: &str| mesh.curves.iter().find(|curve| curve.name == name);
-    let mut rest: BTreeSet<[u32; 2]> = mesh.outer_edges().into_iter().collect();
-    for curve in scene.boundaries.iter().filter_map(|boundary| named(&boundary.name.value)) {
-        curve.edges.iter().for_each(|edge| {
-            rest.remove(edge);
-        });
-    }
-    let groups = scene.boundaries.iter().zip(kinds).map(|(boundary, &kind)| {
-        let name = &boundary.name.value;
-        let of = match (name == DEFAULT, named(name)) {
-            (true, _) => rest.iter().copied().collect(),
-            (false, curve) => curve.map_or_else(Vec::new, |curve| curve.edges.clone()),
-        };
-        BoundaryGroup { name: name.clone(), kind, length: mesh.length(&of), edges: of.len(), of }
-    });
-    groups.collect()
+    let names: Vec<&str> = scene.boundaries.iter().map(|of| of.name.value.as_str()).collect();
+    let named = |name: &str| Some(&mesh.curves.iter().find(|of| of.name == name)?.edges[..]);
+    let groups = shared(&names, mesh.outer_edges(), named).into_iter().zip(names).zip(kinds);
+    let group = |((of, name), &kind): ((Vec<[u32; 2]>, &str), _)| BoundaryGroup {
+        name: name.to_owned(),
+        kind,
+        length: mesh.length(&of),
+        edges: of.len(),
+        of,
+    };
+    groups.map(group).collect()
 }
 
 fn materials(scene: &Scene, mesh: &Mesh, is_open: impl Fn(&String) -> bool) -> Vec<MaterialGroup> {
-    let named = |name: &str| mesh.surfaces.iter().find(|surface| surface.name == name);
-    let mut rest: BTreeSet<u32> = (0..mesh.cells() as u32).collect();
-    for surface in scene.materials.iter().filter_map(|material| named(&material.name.value)) {
-        surface.cells.iter().for_each(|cell| {
-            rest.remove(cell);
-        });
-    }
-    let groups = scene.materials.iter().map(|material| {
-        let name = &material.name.value;
-        let of: Vec<u32> = match (name == DEFAULT, named(name)) {
-            (true, _) => rest.iter().copied().collect(),
-            (false, surface) => surface.map_or_else(Vec::new, |surface| surface.cells.clone()),
-        };
+    let names: Vec<&str> = scene.materials.iter().map(|of| of.name.value.as_str()).collect();
+    let named = |name: &str| Some(&mesh.surfaces.iter().find(|of| of.name == name)?.cells[..]);
+    let groups = shared(&names, 0..mesh.cells() as u32, named).into_iter().zip(&scene.materials);
+    let group = |(of, material): (Vec<u32>, &Material)| {
         let entries = &material.conductivity[..if material.is_scalar { 1 } else { 3 }];
         let written = || entries.iter().map(|entry| entry.value.to_string()).collect();
-        let conductivity = (!is_open(&material.name.key)).then(written);
-        let area = mesh.area(of.iter().copied());
-        MaterialGroup { name: name.clone(), conductivity, area, cells: of.len(), of }
-    });
-    groups.collect()
+        MaterialGroup {
+            name: material.name.value.clone(),
+            conductivity: (!is_open(&material.name.key)).then(written),
+            area: mesh.area(of.iter().copied()),
+            cells: of.len(),
+            of,
+        }
+    };
+    groups.map(group).collect()
+}
+
+/// What each name has of `all`: that of its group in the mesh, and the default what no other one has.
+fn shared<'m, T: Copy + Ord + 'm>(
+    names: &[&str],
+    all: impl IntoIterator<Item = T>,
+    named: impl Fn(&str) -> Option<&'m [T]>,
+) -> Vec<Vec<T>> {
+    let taken: BTreeSet<T> = names
+        .iter()
+        .filter(|name| **name != DEFAULT)
+        .filter_map(|name| named(name))
+        .flatten()
+        .copied()
+        .collect();
+    let rest: Vec<T> = all.into_iter().filter(|item| !taken.contains(item)).collect();
+    let of = |&name: &&str| match name {
+        DEFAULT => rest.clone(),
+        name => named(name).unwrap_or_default().to_vec(),
+    };
+    names.iter().map(of).collect()
 }
 
 /// The parts with the boundaries that hold them.

@@ -39,7 +39,7 @@ impl Mesh {
     }
 
     /// The vertices of cell `at`, triangles first.
-    fn corners_of(&self, at: usize) -> &[u32] {
+    pub fn corners_of(&self, at: usize) -> &[u32] {
         match self.triangles.get(at) {
             Some(corners) => corners,
             None => &self.quads[at - self.triangles.len()],
