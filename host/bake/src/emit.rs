@@ -2,6 +2,7 @@
 
 use signorini_image::chosen::{Chosen, WorstCase};
 
+use crate::Bakes;
 use crate::choice::{Choice, Model};
 use crate::condensed;
 use crate::full;
@@ -12,7 +13,6 @@ use crate::worst;
 use signorini_intervals::described;
 use signorini_problem::Problem;
 use signorini_problem::functional::wanted;
-use signorini_problem::scalar::Scalar;
 use signorini_solve::decay::time_constants;
 
 /// A module of firmware.
@@ -25,7 +25,11 @@ pub struct Emitted {
 }
 
 /// The module of the model that was chosen.
-pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Emitted {
+pub fn emit<R: Bakes>(problem: &Problem, choice: &Choice<R>) -> Emitted {
+    R::emit(problem, choice)
+}
+
+pub(crate) fn module<R: Bakes>(problem: &Problem, choice: &Choice<R>) -> Emitted {
     let candidate = choice.candidate();
     let (model, features, worst_case, source) = match &candidate.model {
         Model::Condensed(baked) => {

@@ -3,6 +3,7 @@
 
 use std::fmt::Write as _;
 
+use super::Bakes;
 use super::choice::{Candidate, Choice, Model};
 use super::costs::{CYCLES, Costs};
 use super::ranges;
@@ -13,7 +14,11 @@ use signorini_problem::{EdgeKind, Problem, QuadCoefficient};
 use signorini_scene::scene::Quantity;
 
 /// The page that `--explain` prints.
-pub fn explanation<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> String {
+pub fn explanation<R: Bakes>(problem: &Problem, choice: &Choice<R>) -> String {
+    R::explain(problem, choice)
+}
+
+pub(crate) fn in_words<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> String {
     let mut text = candidates(choice);
     let chosen = choice.candidate();
     let _ = writeln!(text, "\n{}:", chosen.name);

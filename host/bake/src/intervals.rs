@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use signorini_device::intervals::{self as device, OutputWeights};
 
+use crate::Bakes;
 use crate::choice::{Choice, Origin};
 use crate::condensed::unit_of_amplitudes;
 use crate::text::{code, prose};
@@ -35,7 +36,11 @@ pub struct OutputIntervals {
 }
 
 /// Those of a chosen model.
-pub fn of_choice<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> OutputIntervals {
+pub fn of_choice<R: Bakes>(problem: &Problem, choice: &Choice<R>) -> OutputIntervals {
+    R::intervals(problem, choice)
+}
+
+pub(crate) fn guaranteed<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> OutputIntervals {
     if problem.scene.stores() {
         let why = "a controller has no intervals of a step in time yet";
         let outputs =

@@ -20,6 +20,7 @@ pub mod emit;
 pub mod explain;
 pub mod fingerprint;
 pub mod full;
+mod instances;
 pub mod intervals;
 mod item;
 mod meanings;
@@ -37,3 +38,5 @@ mod tests;
 pub mod text;
 pub mod trial;
 mod worst;
+
+pub use instances::Bakes;

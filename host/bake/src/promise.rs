@@ -6,6 +6,7 @@ use std::cell::Cell;
 
 use signorini_kernel::rows::{QUADS, TRIANGLES};
 
+use crate::Bakes;
 use crate::choice::{Choice, Model, Wanted};
 use crate::narrow::narrow;
 use crate::{condensed, full};
@@ -38,7 +39,15 @@ impl Tick<'_> {
 ///
 /// # Errors
 /// As for [`Choice::new`] and [`check`].
-pub fn kept<R: Scalar>(
+pub fn kept<R: Bakes>(
+    problem: &Problem,
+    wanted: Wanted,
+    promise: &Promise,
+) -> Result<(Choice<R>, usize)> {
+    R::keep(problem, wanted, promise)
+}
+
+pub(crate) fn keep<R: Bakes>(
     problem: &Problem,
     wanted: Wanted,
     promise: &Promise,

@@ -1,5 +1,6 @@
 //! Inputs without a range that make boundaries exclude each other: every model refuses them, and goes on as if it had not seen them.
 
+use signorini_bake::Bakes;
 use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::emit::emit;
 use signorini_bake::{condensed, full};
@@ -7,7 +8,6 @@ use signorini_kernel::Error;
 use signorini_kernel::rows::TRIANGLES;
 use signorini_problem::Problem;
 use signorini_problem::fixtures::on_grid;
-use signorini_problem::scalar::Scalar;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::setting::ModelKind;
 
@@ -39,7 +39,7 @@ const TICKS: [([f64; 2], bool); 7] = [
 ];
 
 /// Plays them all, and on another controller those alone that have an answer.
-fn check<R: Scalar, A: PartialEq + std::fmt::Debug>(
+fn check<R: Bakes, A: PartialEq + std::fmt::Debug>(
     mut one: impl FnMut(&[R]) -> Result<A, Error>,
     mut other: impl FnMut(&[R]) -> Result<A, Error>,
 ) {
@@ -53,7 +53,7 @@ fn check<R: Scalar, A: PartialEq + std::fmt::Debug>(
     }
 }
 
-fn by_both_models<R: Scalar>(problem: &Problem) {
+fn by_both_models<R: Bakes>(problem: &Problem) {
     let choice = Choice::<R>::new(problem, Wanted::model(ModelKind::Condensed)).expect("a model");
     let small = choice.condensed().expect("condensed").0;
     let [mut one, mut other] = [(); 2].map(|()| condensed::Controller::new(small));

@@ -1,11 +1,11 @@
 //! `signorini.bake`.
 
 use pyo3::prelude::*;
+use signorini_bake::Bakes;
 use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::emit::{Emitted, emit};
 use signorini_bake::setting;
 use signorini_problem::Problem;
-use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Error;
 use signorini_scene::setting::ModelKind;
 use signorini_solve::ScalarKind;
@@ -39,7 +39,7 @@ pub fn bake(
     Ok((source, serde_json::to_string(&chosen).unwrap_or_default()))
 }
 
-fn emitted<R: Scalar>(problem: &Problem, model: Option<ModelKind>) -> Result<Emitted, Error> {
+fn emitted<R: Bakes>(problem: &Problem, model: Option<ModelKind>) -> Result<Emitted, Error> {
     let wanted = Wanted { model, is_compared: false, has_all_edges: false };
     Ok(emit(problem, &Choice::<R>::new(problem, wanted)?))
 }

@@ -11,8 +11,8 @@ use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_solve::{Factored, Ran, Solution, unfit};
 
-use crate::Session;
 use crate::on_mesh::{Arrays, answer};
+use crate::{Session, Then};
 
 struct Full<'b, R: Scalar, const WIDTH: usize> {
     scene: &'b Scene,
@@ -23,11 +23,7 @@ struct Full<'b, R: Scalar, const WIDTH: usize> {
 }
 
 /// Calls `then` with a session of a baked model of `scene`.
-pub(crate) fn with_full<R: Scalar, T>(
-    scene: &Scene,
-    baked: &Baked<R>,
-    then: impl FnOnce(&mut dyn Session) -> Result<T>,
-) -> Result<T> {
+pub(crate) fn with_full<R: Scalar>(scene: &Scene, baked: &Baked<R>, then: Then) -> Result<()> {
     match baked.has_quads() {
         true => then(&mut Full::<R, QUADS>::new(scene, baked)),
         false => then(&mut Full::<R, TRIANGLES>::new(scene, baked)),

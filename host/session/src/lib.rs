@@ -31,6 +31,9 @@ use signorini_problem::scalar::Scalar;
 use signorini_scene::error::{InputError, Result};
 use signorini_solve::{ScalarKind, Solution};
 
+/// Who is lent a session.
+type Then<'t> = &'t mut dyn FnMut(&mut dyn Session) -> Result<()>;
+
 /// A scene that is answered tick after tick. The state that it carries is where the next tick starts.
 pub trait Session {
     /// Takes over the data of `at`: the session's problem with other inputs, or at another time. Data of a controller are

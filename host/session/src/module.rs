@@ -2,18 +2,17 @@
 
 use signorini_bake::choice::{Choice, Model, Wanted};
 use signorini_bake::intervals::{NarrowMidpoint, OutputIntervals, narrowed, of_choice};
-use signorini_bake::setting;
+use signorini_bake::{Bakes, setting};
 use signorini_certify::ErrorBound;
 use signorini_kernel::verdict::Certificate;
 use signorini_problem::Problem;
-use signorini_problem::scalar::Scalar;
-use signorini_scene::error::{InputError, Result};
+use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::setting::ModelKind;
 use signorini_solve::ScalarKind;
 
-use crate::Session;
 use crate::condensed::Condensed;
 use crate::full::with_full;
+use crate::{Session, Then};
 
 /// How far each output may be off where answers have such a bound.
 type PlusMinus = Box<dyn Fn(&ErrorBound) -> Vec<f64>>;
@@ -72,16 +71,35 @@ pub fn with_module<T>(
     asked: Option<ScalarKind>,
     then: impl FnOnce(&mut dyn Session, &Module) -> Result<T>,
 ) -> Result<T> {
+    let (mut then, mut found) = (Some(then), None);
+    lend_module(problem, asked, &mut |session, module| {
+        found = then.take().map(|then| then(session, module)).transpose()?;
+        Ok(())
+    })?;
+    found.ok_or_else(unlent)
+}
+
+/// A session without an answer.
+pub(crate) fn unlent() -> Error {
+    Error::Check("nobody asked the session".to_owned())
+}
+
+/// Lends the session of a module, once. Both scalars are compiled here, and not wherever one is asked for.
+fn lend_module(
+    problem: &Problem,
+    asked: Option<ScalarKind>,
+    then: &mut dyn FnMut(&mut dyn Session, &Module) -> Result<()>,
+) -> Result<()> {
     match setting::scalar(&problem.scene, asked)? {
-        ScalarKind::F32 => in_scalar::<f32, T>(problem, then),
-        ScalarKind::F64 => in_scalar::<f64, T>(problem, then),
+        ScalarKind::F32 => in_scalar::<f32>(problem, then),
+        ScalarKind::F64 => in_scalar::<f64>(problem, then),
     }
 }
 
-fn in_scalar<R: Scalar, T>(
+fn in_scalar<R: Bakes>(
     problem: &Problem,
-    then: impl FnOnce(&mut dyn Session, &Module) -> Result<T>,
-) -> Result<T> {
+    then: &mut dyn FnMut(&mut dyn Session, &Module) -> Result<()>,
+) -> Result<()> {
     let choice = Choice::<R>::new(problem, Wanted::default())?;
     let OutputIntervals { weighed, midpoints } = of_choice(problem, &choice);
     let reasons = weighed.iter().map(|of| of.as_ref().err().cloned()).collect();
@@ -100,27 +118,24 @@ fn in_scalar<R: Scalar, T>(
     let narrow =
         |of: &Option<_>| of.as_ref().and_then(|of| NarrowMidpoint::new(&problem.scene, of));
     let midpoints = midpoints.iter().map(narrow).collect();
-    with_choice(problem, &choice, midpoints, |session| then(session, &module))
+    with_choice(problem, &choice, midpoints, &mut |session| then(session, &module))
 }
 
 /// Calls `then` with a session of the condensed model of `problem`.
 ///
 /// # Errors
 /// What keeps that model from existing.
-pub(crate) fn with_condensed<R: Scalar, T>(
-    problem: &Problem,
-    then: impl FnOnce(&mut dyn Session) -> Result<T>,
-) -> Result<T> {
+pub(crate) fn with_condensed<R: Bakes>(problem: &Problem, then: Then) -> Result<()> {
     let choice = Choice::<R>::new(problem, Wanted::model(ModelKind::Condensed))?;
     with_choice(problem, &choice, Vec::new(), then)
 }
 
-fn with_choice<R: Scalar, T>(
+fn with_choice<R: Bakes>(
     problem: &Problem,
     choice: &Choice<R>,
     midpoints: Vec<Option<NarrowMidpoint<R>>>,
-    then: impl FnOnce(&mut dyn Session) -> Result<T>,
-) -> Result<T> {
+    then: Then,
+) -> Result<()> {
     if let Model::Full(baked) = &choice.candidate().model {
         return with_full(&problem.scene, baked, then);
     }

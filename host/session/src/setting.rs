@@ -11,10 +11,10 @@ use signorini_scene::scene::Scene;
 use signorini_scene::setting::{MathKind, Method, ModelKind, Precision, Setting, Start};
 use signorini_solve::{Ending, ScalarKind, Seconds, Solution};
 
-use crate::Session;
 use crate::full::with_full;
-use crate::module::with_condensed;
+use crate::module::{unlent, with_condensed};
 use crate::solves::with_solves;
+use crate::{Session, Then};
 
 /// The setting of a scene with what is left open filled in: full, in f64.
 pub fn completed(scene: &Scene) -> Setting {
@@ -34,6 +34,16 @@ pub fn with_session<T>(
     problem: &Problem,
     then: impl FnOnce(&mut dyn Session) -> Result<T>,
 ) -> Result<T> {
+    let (mut then, mut found) = (Some(then), None);
+    lend_session(problem, &mut |session| {
+        found = then.take().map(|then| then(session)).transpose()?;
+        Ok(())
+    })?;
+    found.ok_or_else(unlent)
+}
+
+/// Lends the session of a setting, once.
+fn lend_session(problem: &Problem, then: Then) -> Result<()> {
     let setting = completed(&problem.scene);
     let mixed = setting.scalar == Some(Precision::Mixed);
     let single = setting.scalar == Some(Precision::F32);
@@ -42,8 +52,8 @@ pub fn with_session<T>(
         (Some(ModelKind::Condensed), _) if mixed => {
             Err(no_mixed(&problem.scene, "a condensed model").into())
         }
-        (Some(ModelKind::Condensed), _) if single => with_condensed::<f32, _>(problem, then),
-        (Some(ModelKind::Condensed), _) => with_condensed::<f64, _>(problem, then),
+        (Some(ModelKind::Condensed), _) if single => with_condensed::<f32>(problem, then),
+        (Some(ModelKind::Condensed), _) => with_condensed::<f64>(problem, then),
         (_, Some(property)) => {
             refuse_tick_keys(&problem.scene, &setting, property)?;
             with_solves(problem, &setting, then)

@@ -9,6 +9,7 @@ use super::step_advice::step_advice;
 use super::tick_setting::length_of_step;
 use super::write_beside;
 use super::{bake_c, carried};
+use signorini_bake::Bakes;
 use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::emit::{Emitted, emit};
 use signorini_bake::explain::{explanation, warnings};
@@ -17,7 +18,6 @@ use signorini_bake::setting;
 use signorini_image::library::{MACHINES, Machine};
 use signorini_problem::Problem;
 use signorini_problem::progress::{note, say, waiting, warn};
-use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::goal::Goal;
 use signorini_scene::setting::ModelKind;
@@ -169,7 +169,7 @@ impl Arguments {
     }
 
     /// The module; what there is to say of it is said.
-    fn module<R: Scalar>(&self, problem: &Problem, promise: Option<&Promise>) -> Result<Emitted> {
+    fn module<R: Bakes>(&self, problem: &Problem, promise: Option<&Promise>) -> Result<Emitted> {
         let kind = match (self.full, self.condensed) {
             (true, _) => Some(ModelKind::Full),
             (_, true) => Some(ModelKind::Condensed),

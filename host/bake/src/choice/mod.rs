@@ -15,6 +15,7 @@ mod candidates;
 mod meshes;
 mod origin;
 
+use super::Bakes;
 use super::budget::{Budget, Needs, Shortfall};
 use super::range::{refuse_answers, refuse_inputs, refuse_lengths, refuse_loads, refuse_squares};
 use super::trial::Trial;
@@ -137,95 +138,11 @@ impl<R: Scalar> Choice<R> {
     /// # Errors
     /// No model fits what the scene declares: by how much the smallest one does not. What keeps a model that
     /// was asked for from existing, or a key of the setting from meaning anything to it.
-    pub fn new(problem: &Problem, wanted: Wanted) -> Result<Self> {
-        let budget = Budget::of(&problem.scene);
-        let setting = problem.scene.setting.unwrap_or_default();
-        let (asked, compared) = (wanted.model.or(setting.model_kind()), wanted.is_compared);
-        let forced = asked;
-        let stores = problem.scene.stores();
-        refuse_memory(&problem.scene, &setting)?;
-        if let Some((model, key)) =
-            forced.and_then(|model| Some((model, setting.foreign_to(model)?)))
-        {
-            return Err(foreign(&problem.scene, model, key).into());
-        }
-        let (mut candidates, mut excluded, mut origin) = (Vec::new(), Vec::new(), None);
-        let units = choose_for_inputs(problem)?;
-        refuse_answers::<R>(&problem.scene, &units)?;
-        refuse_lengths::<R>(problem)?;
-        // Condensation is in the scene's units, in f64.
-        let unsuited = match forced {
-            None => unsuited(problem, &units)?,
-            Some(_) => None,
-        };
-        if let Some(why) = unsuited {
-            excluded.push(format!("condensed: {why}"));
-        } else if forced != Some(ModelKind::Full) {
-            refuse_squares::<f64>(&problem.scene, &units)?;
-            // What modes refuse, a pattern of two signs say, the full model can treat, and so it can many cells that store something.
-            let may_be_full = Approach::condensing(problem) != Approach::Condensation;
-            let origin_of = || match stores {
-                true => Origin::stepped(problem, &setting),
-                false => Origin::new(problem, wanted, negligible::<R>()),
-            };
-            match origin_of() {
-                Ok(own) => {
-                    refuse_inputs::<R>(&problem.scene)?;
-                    refuse_loads::<R>(&problem.scene, own.model())?;
-                    match of_condensed(&problem.scene, &own, &budget) {
-                        Ok(found) => (candidates, origin) = (found, Some(own)),
-                        Err(error) if forced.is_some() => return Err(error),
-                        Err(error) => excluded.push(format!("condensed: {error}")),
-                    }
-                }
-                Err(error) if forced.is_some() || !may_be_full => return Err(error),
-                Err(error) => excluded.push(format!("condensed: {error}")),
-            }
-        }
-        let fits = candidates.iter().any(Candidate::has_all);
-        let large = candidates.iter().any(|candidate| candidate.needs.flash > LARGE);
-        if forced == Some(ModelKind::Full)
-            || (forced.is_none() && (compared || !fits || large || stores))
-        {
-            match of_full(problem, units, &budget, &mut excluded) {
-                Ok(mut found) => {
-                    // A deadline cuts its sweeps off, and its bound tells what is left: who asks for it is warned of
-                    // the time, not refused.
-                    for candidate in found.iter_mut().filter(|_| forced.is_some()) {
-                        candidate.shortfalls.retain(|short| short.key != "target.tick");
-                    }
-                    candidates.append(&mut found);
-                }
-                Err(error) if candidates.is_empty() => return Err(error),
-                Err(error) => excluded.push(format!("full: {error}")),
-            }
-        }
-        // Condensed models come first; a mesh that takes less than their dense blocks is preferred to them.
-        let flash = |at: &usize| candidates[*at].needs.flash;
-        let first = candidates.iter().position(Candidate::has_all);
-        let is_full = |candidate: &Candidate<R>| matches!(candidate.model, Model::Full(_));
-        let full = candidates.iter().position(|of| is_full(of) && of.has_all());
-        let quicker = |(first, full): (usize, usize)| {
-            time(&candidates[full].needs) < time(&candidates[first].needs)
-        };
-        let complete = match first.zip(full) {
-            // At short steps the full model takes a few sweeps.
-            Some(both) if stores && quicker(both) => full,
-            Some((first, full)) if flash(&first) > LARGE && flash(&full) < flash(&first) => {
-                Some(full)
-            }
-            _ => first,
-        };
-        // Without a bound only where no model has one: what is asked for and does not fit is not left out.
-        let is_bounded = |of: &Candidate<R>| of.unbounded.is_none() && !of.lacks_bound;
-        let last = || match candidates.iter().any(is_bounded) {
-            true => None,
-            false => candidates.iter().position(Candidate::may_be_chosen),
-        };
-        match complete.or_else(last) {
-            Some(chosen) => Ok(Self { candidates, chosen, budget, excluded, origin }),
-            None => Err(too_large(&problem.scene, &candidates).into()),
-        }
+    pub fn new(problem: &Problem, wanted: Wanted) -> Result<Self>
+    where
+        R: Bakes,
+    {
+        R::choose(problem, wanted)
     }
 
     /// Why the model chosen has no bound, where one is asked for.
@@ -245,6 +162,93 @@ impl<R: Scalar> Choice<R> {
     /// The model chosen.
     pub fn candidate(&self) -> &Candidate<R> {
         &self.candidates[self.chosen]
+    }
+}
+
+pub(crate) fn choose<R: Scalar>(problem: &Problem, wanted: Wanted) -> Result<Choice<R>> {
+    let budget = Budget::of(&problem.scene);
+    let setting = problem.scene.setting.unwrap_or_default();
+    let (asked, compared) = (wanted.model.or(setting.model_kind()), wanted.is_compared);
+    let forced = asked;
+    let stores = problem.scene.stores();
+    refuse_memory(&problem.scene, &setting)?;
+    if let Some((model, key)) = forced.and_then(|model| Some((model, setting.foreign_to(model)?))) {
+        return Err(foreign(&problem.scene, model, key).into());
+    }
+    let (mut candidates, mut excluded, mut origin) = (Vec::new(), Vec::new(), None);
+    let units = choose_for_inputs(problem)?;
+    refuse_answers::<R>(&problem.scene, &units)?;
+    refuse_lengths::<R>(problem)?;
+    // Condensation is in the scene's units, in f64.
+    let unsuited = match forced {
+        None => unsuited(problem, &units)?,
+        Some(_) => None,
+    };
+    if let Some(why) = unsuited {
+        excluded.push(format!("condensed: {why}"));
+    } else if forced != Some(ModelKind::Full) {
+        refuse_squares::<f64>(&problem.scene, &units)?;
+        // What modes refuse, a pattern of two signs say, the full model can treat, and so it can many cells that store something.
+        let may_be_full = Approach::condensing(problem) != Approach::Condensation;
+        let origin_of = || match stores {
+            true => Origin::stepped(problem, &setting),
+            false => Origin::new(problem, wanted, negligible::<R>()),
+        };
+        match origin_of() {
+            Ok(own) => {
+                refuse_inputs::<R>(&problem.scene)?;
+                refuse_loads::<R>(&problem.scene, own.model())?;
+                match of_condensed(&problem.scene, &own, &budget) {
+                    Ok(found) => (candidates, origin) = (found, Some(own)),
+                    Err(error) if forced.is_some() => return Err(error),
+                    Err(error) => excluded.push(format!("condensed: {error}")),
+                }
+            }
+            Err(error) if forced.is_some() || !may_be_full => return Err(error),
+            Err(error) => excluded.push(format!("condensed: {error}")),
+        }
+    }
+    let fits = candidates.iter().any(Candidate::has_all);
+    let large = candidates.iter().any(|candidate| candidate.needs.flash > LARGE);
+    if forced == Some(ModelKind::Full)
+        || (forced.is_none() && (compared || !fits || large || stores))
+    {
+        match of_full(problem, units, &budget, &mut excluded) {
+            Ok(mut found) => {
+                // A deadline cuts its sweeps off, and its bound tells what is left: who asks for it is warned of
+                // the time, not refused.
+                for candidate in found.iter_mut().filter(|_| forced.is_some()) {
+                    candidate.shortfalls.retain(|short| short.key != "target.tick");
+                }
+                candidates.append(&mut found);
+            }
+            Err(error) if candidates.is_empty() => return Err(error),
+            Err(error) => excluded.push(format!("full: {error}")),
+        }
+    }
+    // Condensed models come first; a mesh that takes less than their dense blocks is preferred to them.
+    let flash = |at: &usize| candidates[*at].needs.flash;
+    let first = candidates.iter().position(Candidate::has_all);
+    let is_full = |candidate: &Candidate<R>| matches!(candidate.model, Model::Full(_));
+    let full = candidates.iter().position(|of| is_full(of) && of.has_all());
+    let quicker = |(first, full): (usize, usize)| {
+        time(&candidates[full].needs) < time(&candidates[first].needs)
+    };
+    let complete = match first.zip(full) {
+        // At short steps the full model takes a few sweeps.
+        Some(both) if stores && quicker(both) => full,
+        Some((first, full)) if flash(&first) > LARGE && flash(&full) < flash(&first) => Some(full),
+        _ => first,
+    };
+    // Without a bound only where no model has one: what is asked for and does not fit is not left out.
+    let is_bounded = |of: &Candidate<R>| of.unbounded.is_none() && !of.lacks_bound;
+    let last = || match candidates.iter().any(is_bounded) {
+        true => None,
+        false => candidates.iter().position(Candidate::may_be_chosen),
+    };
+    match complete.or_else(last) {
+        Some(chosen) => Ok(Choice { candidates, chosen, budget, excluded, origin }),
+        None => Err(too_large(&problem.scene, &candidates).into()),
     }
 }
 

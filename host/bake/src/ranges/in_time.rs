@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::own::{ROUNDINGS, narrowed};
 use super::section;
+use crate::Bakes;
 use crate::choice::{Choice, Wanted};
 use crate::condensed::Controller;
 use crate::emit::emit;
@@ -62,7 +63,7 @@ input.heat = { of = \"source\", field = \"f\", pattern = \"1\", range = [-1.0, 1
     on_grid(text, grid(4, Cells::Triangles)).expect("a sound scene").1
 }
 
-fn choice<R: Scalar>(problem: &Problem) -> Choice<R> {
+fn choice<R: Bakes>(problem: &Problem) -> Choice<R> {
     Choice::new(problem, Wanted::model(ModelKind::Condensed)).expect("a model")
 }
 
@@ -126,7 +127,7 @@ fn roundings<R: Scalar>(of: &SteppedModel, terms: &[f64], x: &[f64], after: &[f6
 }
 
 /// 300 ticks of a controller: its answers stay on their sides, and rows and states are not off by more than is taken for granted.
-fn stays<R: Scalar>(problem: &Problem) -> [usize; 4] {
+fn stays<R: Bakes>(problem: &Problem) -> [usize; 4] {
     let choice = choice::<R>(problem);
     let (baked, origin) = choice.condensed().expect("condensed");
     let of = narrowed::<R>(origin.steps.as_ref().expect("steps"));
@@ -166,7 +167,7 @@ fn answers_stay_where_they_are_proved_to_be() {
 }
 
 /// Any state after any tableau: no tick takes more exchanges than are proved, and all end with the solution.
-fn exchanges<R: Scalar>(problem: &Problem) -> [u32; 2] {
+fn exchanges<R: Bakes>(problem: &Problem) -> [u32; 2] {
     let choice = choice::<R>(problem);
     let (baked, _) = choice.condensed().expect("condensed");
     let worst = baked.worst_case();

@@ -1,6 +1,7 @@
 //! Runs, reasons and reach on the standard scenes.
 
 use super::{constants, found, reach::Reach, runs::runs, section};
+use crate::Bakes;
 use crate::choice::{Choice, Wanted};
 use crate::condensed::Controller;
 use crate::tests::standard as problem;
@@ -8,7 +9,6 @@ use signorini_condense::ranges::outputs::intervals;
 use signorini_kernel::report::Ended;
 use signorini_problem::Problem;
 use signorini_problem::fixtures::on_grid;
-use signorini_problem::scalar::Scalar;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::setting::{ModelKind, Setting};
 
@@ -157,7 +157,7 @@ input.load = {{ of = \"left\", field = \"flux\", pattern = \"1\", range = [-{mos
     on_grid(&text, grid(6, Cells::Triangles)).expect("a sound scene").1
 }
 
-fn solves_every_tick<R: Scalar>(coefficient: f64, most: f64) {
+fn solves_every_tick<R: Bakes>(coefficient: f64, most: f64) {
     let problem = weakly_held(coefficient, most);
     let choice = Choice::<R>::new(&problem, Wanted::model(ModelKind::Condensed)).expect("a model");
     let (baked, origin) = choice.condensed().expect("condensed");

@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use signorini_bake::Bakes;
 use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::emit::{Emitted, emit};
 use signorini_bake::setting;
@@ -12,7 +13,6 @@ use signorini_image::firmware::Firmware;
 use signorini_image::module::Module;
 use signorini_image::room::NoResult;
 use signorini_problem::Problem;
-use signorini_problem::scalar::Scalar;
 use signorini_scene::{Error, Result};
 use signorini_solve::ScalarKind;
 
@@ -45,7 +45,7 @@ fn module(problem: &Problem, name: &str) -> Result<Module> {
     Module::new(name, write).map(Module::quietly).map_err(Error::Check)
 }
 
-fn emitted<R: Scalar>(problem: &Problem) -> Result<Emitted> {
+fn emitted<R: Bakes>(problem: &Problem) -> Result<Emitted> {
     Ok(emit(problem, &Choice::<R>::new(problem, Wanted::default())?))
 }
 

@@ -11,6 +11,8 @@
 //! its state and the answer before, as on a device.
 
 pub mod columns;
+#[cfg(test)]
+mod falling;
 pub mod half;
 mod intervals;
 pub mod log;
@@ -166,11 +168,9 @@ pub fn play_on<D: Into<Onward>>(
     budget: &Budget,
     mut done: impl FnMut(&TickRecord, Option<&Solution>) -> Result<D>,
 ) -> Result<Played> {
-    let done: play::Done = &mut |tick, solution| done(tick, solution).map(Into::into);
-    match budget.scalar {
-        ScalarKind::F64 => play::play::<f64>(problem, begin, moments, budget, done),
-        ScalarKind::F32 => play::play::<f32>(problem, begin, moments, budget, done),
-    }
+    play::in_scalar(problem, begin, moments, budget, &mut |tick, solution| {
+        done(tick, solution).map(Into::into)
+    })
 }
 
 /// Plays `moments` through the controller of `problem`, calling `done` after each, without a solution where the controller
@@ -185,9 +185,19 @@ pub fn replay<D: Into<Onward>>(
     (asked, shows_start): (Option<ScalarKind>, bool),
     mut done: impl FnMut(&TickRecord, Option<&Solution>) -> Result<D>,
 ) -> Result<(String, Vec<TickRecord>)> {
+    replay_to(problem, moments, (asked, shows_start), &mut |tick, solution| {
+        done(tick, solution).map(Into::into)
+    })
+}
+
+fn replay_to(
+    problem: &Problem,
+    moments: &[ScheduledTick],
+    (asked, shows_start): (Option<ScalarKind>, bool),
+    done: play::Done,
+) -> Result<(String, Vec<TickRecord>)> {
     let first = moments.first().map_or(0.0, |moment| moment.time);
     with_module(problem, asked, |session, module| {
-        let done: play::Done = &mut |tick, solution| done(tick, solution).map(Into::into);
         let (mut problem, mut ticks) = (problem.clone(), Vec::new());
         if let Some(start) = Start::of(&problem, first)? {
             problem = start.stepping(&problem)?;

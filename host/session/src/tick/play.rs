@@ -10,7 +10,7 @@ use signorini_problem::scalar::Scalar;
 use signorini_problem::{Approach, Loads, Parts, Problem};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::scene::units::Units;
-use signorini_solve::{Solution, Start, choose_units, in_scene, step_of};
+use signorini_solve::{ScalarKind, Solution, Start, choose_units, in_scene, step_of};
 
 use super::intervals::Intervals;
 use super::saved::{Moment, Saved};
@@ -32,8 +32,21 @@ struct Begun {
     ticks: Vec<TickRecord>,
 }
 
-/// Plays `given` in the scalar `R`.
-pub(super) fn play<R: Scalar>(
+/// Plays `given` in the scalar of `budget`; both are compiled here, and not wherever ticks are played.
+pub(super) fn in_scalar(
+    given: &Problem,
+    begin: Begin,
+    moments: &[ScheduledTick],
+    budget: &Budget,
+    done: Done,
+) -> Result<Played> {
+    match budget.scalar {
+        ScalarKind::F64 => play::<f64>(given, begin, moments, budget, done),
+        ScalarKind::F32 => play::<f32>(given, begin, moments, budget, done),
+    }
+}
+
+fn play<R: Scalar>(
     given: &Problem,
     begin: Begin,
     moments: &[ScheduledTick],

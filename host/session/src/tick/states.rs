@@ -2,6 +2,7 @@
 
 use super::steps::{HEATED, near};
 use super::{Budget, ScheduledTick, play, replay};
+use signorini_bake::Bakes;
 use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::compiled::printed;
 use signorini_bake::condensed::Controller;
@@ -77,12 +78,12 @@ fn a_condensed_controller_steps_as_this_machine_does() -> Result<()> {
     Ok(())
 }
 
-fn chosen<R: Scalar>(problem: &Problem) -> Result<Choice<R>> {
+fn chosen<R: Bakes>(problem: &Problem) -> Result<Choice<R>> {
     Choice::new(problem, Wanted::default())
 }
 
 /// Outputs of ticks, and what they leave.
-fn played<R: Scalar>(controller: &mut Controller<R>, ticks: std::ops::Range<u32>) -> Vec<Vec<R>> {
+fn played<R: Bakes>(controller: &mut Controller<R>, ticks: std::ops::Range<u32>) -> Vec<Vec<R>> {
     let tick = |at| {
         let (mut outputs, _) = controller.tick(&inputs(at).map(R::narrow)).expect("a tick");
         outputs.truncate(4);
@@ -214,7 +215,7 @@ fn a_condensed_model_gets_the_states_that_its_bound_needs() -> Result<()> {
 }
 
 /// Error bounds of a tick by the controller in its scalar, and by the host for the same terms and x, which is never above.
-fn bounds<R: Scalar>(problem: &Problem) -> Result<Vec<[f64; 2]>> {
+fn bounds<R: Bakes>(problem: &Problem) -> Result<Vec<[f64; 2]>> {
     let choice = chosen::<R>(problem)?;
     let (baked, origin) = choice.condensed().expect("a condensed model");
     let mut controller = Controller::new(baked);

@@ -1,6 +1,7 @@
 //! Steps in time by the controller that `bake` writes: beside this machine's own, and bit for bit with the module.
 
 use super::{Budget, ScheduledTick, TickRecord, play, replay};
+use signorini_bake::Bakes;
 use signorini_bake::choice::{Choice, Model, Wanted};
 use signorini_bake::compiled::printed;
 use signorini_bake::full::{Baked, Controller, source};
@@ -117,7 +118,7 @@ fn played<R: Scalar, const WIDTH: usize>(
     ticks.map(tick).collect()
 }
 
-fn stepping<R: Scalar>(problem: &Problem) -> Result<Baked<R>> {
+fn stepping<R: Bakes>(problem: &Problem) -> Result<Baked<R>> {
     match Choice::<R>::new(problem, Wanted::default())?.candidates.pop().expect("a model").model {
         Model::Full(baked) => Ok(*baked),
         Model::Condensed(_) => panic!("a condensed model"),
