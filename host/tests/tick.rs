@@ -4,6 +4,7 @@ use signorini_tolerances::command::{
     BAKED, COARSE_START, LIMIT_OF_TICKS, MOVING_FORCE, REPLAYED, STATED,
 };
 use std::path::Path;
+use std::sync::OnceLock;
 
 use signorini_problem::Problem;
 use signorini_scene::mesh;
@@ -67,13 +68,19 @@ pub fn played(scene: &str, more: &[&str]) -> Table {
     Table::read(folder.path("out/ticks.csv"))
 }
 
+/// The ticks of a moving contact: ten seconds of work, for several tests.
+fn moving() -> &'static Table {
+    static PLAYED: OnceLock<Table> = OnceLock::new();
+    PLAYED.get_or_init(|| played(MOVING, &[]))
+}
+
 #[test]
 fn a_line_a_tick_and_a_column_an_output() {
     let levee = played(LEVEE, &["--ticks", "3"]);
     let fixed = ["t", "status", "sweeps", "contact_force", "contact_length", "error_bound"];
     assert_eq!(levee.header, [&fixed[..], &["seepage", "wet", "head"]].concat());
     assert_eq!(levee.column("t"), ["0.0", "0.01", "0.02"]);
-    let moving = played(MOVING, &[]);
+    let moving = moving();
     assert_eq!(moving.header, [&fixed[..], &["error_combined"]].concat());
     assert_eq!(moving.lines.len(), 21);
     assert_eq!(moving.numbers("t")[20], 1.0);
@@ -134,8 +141,8 @@ fn a_series_has_a_file_for_each_tick_and_none_of_an_earlier_run() {
 
 #[test]
 fn the_force_of_a_moving_contact_is_pi_a_squared() {
-    for scalar in ["f64", "f32"] {
-        let table = played(MOVING, &["--scalar", scalar]);
+    let narrow = played(MOVING, &["--scalar", "f32", "--no-intervals"]);
+    for (scalar, table) in [("f64", moving()), ("f32", &narrow)] {
         for (t, force) in table.numbers("t").into_iter().zip(table.numbers("contact_force")) {
             let a = 0.55 + 0.1 * (2.0 * std::f64::consts::PI * t).sin();
             let exact = std::f64::consts::PI * a * a;
@@ -148,7 +155,7 @@ fn the_force_of_a_moving_contact_is_pi_a_squared() {
 fn ticks_start_from_the_last_answer() {
     let sweeps = played(LEVEE, &["--ticks", "4"]).numbers("sweeps");
     assert!(sweeps[0] > 100.0 && sweeps[1..].iter().all(|&sweeps| sweeps < 20.0), "{sweeps:?}");
-    let moving = played(MOVING, &[]).numbers("sweeps");
+    let moving = moving().numbers("sweeps");
     assert!(moving[1..].iter().all(|&warm| warm < 0.8 * moving[0]), "{moving:?}");
 }
 

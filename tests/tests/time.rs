@@ -1,5 +1,6 @@
 //! Steps in time against exact solutions whose contact opens, closes and travels: rates in h and dt.
 
+use signorini_tolerances::some;
 use std::path::Path;
 
 use signorini_problem::{Problem, State};
@@ -86,13 +87,13 @@ fn rate([coarse, fine]: [f64; 2]) -> f64 {
 /// With dt ~ h² the error falls like h², on triangles and quads.
 #[test]
 fn errors_fall_like_the_square_of_h() {
-    for (name, until) in [("breathing", 0.625), ("travelling", 0.5), ("oscillating", 0.125)] {
-        for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
-            let of = |n: u32| errors_in_time(name, grid(n, cells), 0.5 / f64::from(n * n), until);
-            let all = [4, 8].map(|n| of(n).unwrap()[0]);
-            println!("{name} {cells:?}: {all:?}, rate {:.2}", rate(all));
-            assert!(rate(all) > 1.85, "{cells:?}: {all:?}");
-        }
+    let solutions = [("breathing", 0.625), ("travelling", 0.5), ("oscillating", 0.125)];
+    let on = |of| [Cells::Triangles, Cells::Quads, Cells::Mixed].map(|cells| (of, cells));
+    for ((name, until), cells) in some(4, solutions.into_iter().flat_map(on)) {
+        let of = |n: u32| errors_in_time(name, grid(n, cells), 0.5 / f64::from(n * n), until);
+        let all = [4, 8].map(|n| of(n).unwrap()[0]);
+        println!("{name} {cells:?}: {all:?}, rate {:.2}", rate(all));
+        assert!(rate(all) > 1.85, "{cells:?}: {all:?}");
     }
 }
 

@@ -7,6 +7,7 @@ use signorini_scene::mesh::structured::{Cells, Trapezoids, grid, trapezoids};
 use signorini_solve::{Options, ScalarKind, SolverKind};
 use signorini_tests::random::Random;
 use signorini_tests::written::{Side, Smooth, TwoMaterials, Units};
+use signorini_tolerances::cases;
 use signorini_tolerances::twins::{
     BOUNDARY_FLUX, CONTACT_SIGN, FLUX_CONTINUITY, PATCH, SAME_ON_SQUARES, SHARPNESS, TRAPEZOID_RATE,
 };
@@ -77,7 +78,7 @@ fn identities() {
 
 #[test]
 fn the_bound_holds_on_random_scenes() {
-    for seed in 0..40 {
+    for seed in 0..cases(40) {
         check(&trial(seed, |text| with("nonparametric", &text)));
     }
 }

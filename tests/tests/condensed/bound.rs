@@ -7,6 +7,7 @@ use signorini_bake::condensed::{Baked, Controller, Work};
 use signorini_problem::scalar::Scalar;
 use signorini_tests::random::Random;
 use signorini_tests::written::{SIDES, Side, Smooth, TwoMaterials, Units};
+use signorini_tolerances::some;
 use signorini_tolerances::twins::{BOUND_ROUNDING, BOUND_ROUNDING_NARROW, OSCILLATING};
 
 use super::scenes::{EXACT, Model};
@@ -70,8 +71,7 @@ fn judge<R: Scalar>(model: &Model, mut draw: impl FnMut(usize) -> f64, found: &m
 #[test]
 fn of_random_scenes() {
     let (mut wide, mut narrow) = (Found::default(), Found::default());
-    let count = std::env::var("SEEDS").ok().and_then(|n| n.parse().ok()).unwrap_or(SEEDS);
-    for seed in 0..count {
+    for seed in 0..signorini_tolerances::cases(SEEDS) {
         let Some(model) = Model::random(seed, 5) else { continue };
         let random = &mut Random::new(seed);
         let defaults: Vec<f64> = model.scene.inputs.iter().map(|input| input.default).collect();
@@ -79,7 +79,8 @@ fn of_random_scenes() {
         judge::<f32>(&model, &mut draw, &mut narrow);
         judge::<f64>(&model, &mut draw, &mut wide);
     }
-    assert!(narrow.bounds > 200 && wide.bounds > 200);
+    let least = signorini_tolerances::cases(200) as usize;
+    assert!(narrow.bounds > least && wide.bounds > least);
     BOUND_ROUNDING_NARROW.check("condensed", narrow.share);
     BOUND_ROUNDING.check("condensed", wide.share);
 }
@@ -95,44 +96,42 @@ fn of_contrasts_units_levels_corners_and_floating_parts() {
     let cases = [soft, stiff, TwoMaterials::h(0.55), TwoMaterials::b()];
     let smooth = [(); 4].map(|()| Smooth::random(random).written());
     let all_written = cases.map(|case| case.written()).into_iter().chain(smooth);
-    for (at, written) in all_written.enumerate() {
-        let units = [(1.0, 1.0), (1e3, 1e15), (1e-3, 1e-15), (1.0, 1e-15), (1e5, 1e-10)];
-        for (length, value) in units {
-            for sides in [
-                [Dirichlet; 3],
-                [Dirichlet, Neumann, Robin],
-                [Robin, Neumann, Dirichlet],
-                [Neumann; 3],
-            ] {
-                let mut text = written.scene(sides, Units { length, value });
-                text += &input("drop", "contact", "gap", -0.1 * value);
-                // Levels of neighbouring Dirichlet sides could not change one at a time.
-                if sides != [Dirichlet; 3] {
-                    text += &input("level", "contact", "gap", value);
-                    for (name, side) in SIDES.into_iter().zip(sides) {
-                        text += &match side {
-                            Dirichlet => input(name, name, "value", value),
-                            Robin => input(name, name, "ambient", value),
-                            Neumann => String::new(),
-                        };
-                    }
-                }
-                let mesh = scaled(regular(4, KINDS[at % 3]), length);
-                let what = format!("{at} in {length:e} {value:e} with {sides:?}");
-                let model = match Model::of_text(what, &text, mesh) {
-                    // Where nothing touches, no load pushes.
-                    Err(error) if error.contains("no unique solution") => continue,
-                    model => model.unwrap_or_else(|error| panic!("{error}\n{text}")),
+    let all_units = [(1.0, 1.0), (1e3, 1e15), (1e-3, 1e-15), (1.0, 1e-15), (1e5, 1e-10)];
+    let all_sides =
+        [[Dirichlet; 3], [Dirichlet, Neumann, Robin], [Robin, Neumann, Dirichlet], [Neumann; 3]];
+    let in_units = |of| all_units.map(|units| (of, units));
+    let combined = |at| all_sides.map(|sides| in_units((at, sides)));
+    let all_written: Vec<_> = all_written.collect();
+    let combined = (0..all_written.len()).flat_map(combined).flatten();
+    for ((at, sides), (length, value)) in some(7, combined) {
+        let written = &all_written[at];
+        let mut text = written.scene(sides, Units { length, value });
+        text += &input("drop", "contact", "gap", -0.1 * value);
+        // Levels of neighbouring Dirichlet sides could not change one at a time.
+        if sides != [Dirichlet; 3] {
+            text += &input("level", "contact", "gap", value);
+            for (name, side) in SIDES.into_iter().zip(sides) {
+                text += &match side {
+                    Dirichlet => input(name, name, "value", value),
+                    Robin => input(name, name, "ambient", value),
+                    Neumann => String::new(),
                 };
-                let form = model.condensate.certificate.as_ref();
-                let form = form.unwrap_or_else(|why| panic!("{}: {why}", model.what));
-                has_corners |= !form.corners.is_empty();
-                has_floating |= !form.floating.is_empty();
-                for level in [0.0, 1e4] {
-                    let draw = |at| if at == 0 { random.between(0.0, 2.0) } else { level };
-                    judge::<f32>(&model, draw, &mut all);
-                }
             }
+        }
+        let mesh = scaled(regular(4, KINDS[at % 3]), length);
+        let what = format!("{at} in {length:e} {value:e} with {sides:?}");
+        let model = match Model::of_text(what, &text, mesh) {
+            // Where nothing touches, no load pushes.
+            Err(error) if error.contains("no unique solution") => continue,
+            model => model.unwrap_or_else(|error| panic!("{error}\n{text}")),
+        };
+        let form = model.condensate.certificate.as_ref();
+        let form = form.unwrap_or_else(|why| panic!("{}: {why}", model.what));
+        has_corners |= !form.corners.is_empty();
+        has_floating |= !form.floating.is_empty();
+        for level in [0.0, 1e4] {
+            let draw = |at| if at == 0 { random.between(0.0, 2.0) } else { level };
+            judge::<f32>(&model, draw, &mut all);
         }
     }
     assert!(has_corners && has_floating && all.bounds > all.without, "{all:?}");

@@ -14,6 +14,7 @@
 
 #[macro_use]
 mod tolerance;
+mod draws;
 mod seen;
 
 pub mod bake;
@@ -25,6 +26,7 @@ pub mod scene;
 pub mod solve;
 pub mod twins;
 
+pub use draws::{cases, is_whole, some};
 pub use tolerance::Tolerance;
 
 /// The entries of all crates.

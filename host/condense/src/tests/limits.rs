@@ -5,6 +5,7 @@ use signorini_problem::fixtures::distorted;
 use signorini_problem::fixtures::limited::{drawn, wall};
 use signorini_reference::ReferenceError;
 use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_tolerances::cases;
 
 /// Every input of the fixture, with a limit that lets a part of the edge fall below the gap.
 pub(super) fn limited(ends: &str, more: &str) -> String {
@@ -91,14 +92,15 @@ fn a_limit_below_the_flux_is_refused() -> Result<()> {
 #[test]
 fn random_problems_agree_with_the_full_solver() -> Result<()> {
     let mut sums = [0; 3];
-    let mut counted = 0;
-    for seed in 1..=150 {
+    let (mut counted, all) = (0, cases(150));
+    for seed in 1..=all {
         let (text, mesh) = drawn(seed);
         let Ok((_, problem)) = on_grid(&text, mesh) else { continue };
         add_to(&mut sums, compare(&problem, 0.0, 1)?.states);
         counted += 1;
     }
-    assert!(counted > 75 && sums.iter().all(|&count| count > 50), "{counted}, {sums:?}");
+    assert!(counted > all / 2, "{counted}");
+    assert!(sums.iter().all(|&count| count as u64 > all / 3), "{sums:?}");
     Ok(())
 }
 

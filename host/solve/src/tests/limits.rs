@@ -1,5 +1,6 @@
 //! Contact whose flux has two ends: closed forms with all three states, degenerate limits, and the reference.
 
+use signorini_tolerances::cases;
 use signorini_tolerances::solve::{DUVAUT, LIMITED, LIMITED_NARROW, LIMITED_RANDOM};
 
 use super::{Options, SolverKind, distance, mixed, solve};
@@ -172,16 +173,11 @@ fn ends_that_meet_have_a_bound() -> Result<()> {
     Ok(())
 }
 
-/// As many of them are solved, four times each: `PROBLEMS=10000 cargo test -p signorini-solve random_problems` takes ten minutes.
-fn problems() -> u64 {
-    std::env::var("PROBLEMS").map_or(400, |count| count.parse().expect("a number"))
-}
-
 /// Sweeps and the factor end where the reference does, on problems most of which have all three states.
 #[test]
 fn random_problems_agree_with_the_reference() -> Result<()> {
     let (mut counted, mut all_three) = (0_u64, 0_u64);
-    let problems = problems();
+    let problems = cases(400);
     for seed in 1..=problems {
         let (text, mesh) = drawn(seed);
         let (_, problem) = match on_grid(&text, mesh) {

@@ -4,6 +4,7 @@ use signorini_condense::CondensedModel;
 use signorini_condense::ranges::largest::LargestBound;
 use signorini_tests::random::Random;
 use signorini_tolerances::bake::GUARANTEE;
+use signorini_tolerances::{cases, is_whole};
 
 use super::standard::standard;
 use super::{drawn, limit};
@@ -28,7 +29,7 @@ fn holds(what: &str, model: &CondensedModel, found: LargestBound, samples: usize
 #[test]
 fn no_random_scene_exceeds_what_is_proved() {
     let (mut sharp, mut wide, mut refused) = (0, 0, 0);
-    for seed in 0..120 {
+    for seed in 0..cases(120) {
         let Some(model) = Model::random(seed, 5) else { continue };
         let mut whole = model.condensate;
         limit(&mut whole, &mut Random::new(seed ^ 0x5eed));
@@ -39,7 +40,7 @@ fn no_random_scene_exceeds_what_is_proved() {
         holds(&model.what, &whole, found, 40);
         *if found.is_sharp() { &mut sharp } else { &mut wide } += 1;
     }
-    assert!(sharp > 40 && refused > 0, "{sharp} {wide} {refused}");
+    assert!(sharp >= cases(40) && (refused > 0 || !is_whole()), "{sharp} {wide} {refused}");
 }
 
 /// Positive entries of the strip's matrix leave its enclosure wide, however small the pieces are.

@@ -3,6 +3,7 @@
 use signorini_condense::CondensedModel;
 use signorini_condense::ranges::sides::{EdgeSide, Sides};
 use signorini_tests::random::Random;
+use signorini_tolerances::cases;
 
 use super::standard::standard;
 use super::{Off, Pair, drawn};
@@ -93,7 +94,7 @@ fn every_wrong_side_of_the_standard_scenes_is_seen() {
 #[test]
 fn wrong_sides_of_random_scenes_are_seen() {
     let (mut all, mut unseen) = (0, Vec::new());
-    for seed in 0..80 {
+    for seed in 0..cases(80) {
         let Some(pair) = Pair::random(seed) else { continue };
         let (seen, others) = tried(&pair.what, &pair.whole);
         all += seen + others.len();

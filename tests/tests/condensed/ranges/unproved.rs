@@ -4,6 +4,7 @@ use signorini_condense::CondensedModel;
 use signorini_condense::ranges::reduced::Reduced;
 use signorini_condense::ranges::sides::{EdgeSide, Sides};
 use signorini_tests::random::Random;
+use signorini_tolerances::cases;
 
 use super::standard::standard;
 use super::{Pair, limit};
@@ -58,7 +59,7 @@ fn ranges_that_overflow_keep_all() {
 #[test]
 fn positive_entries_are_counted_or_refused() {
     let (mut refused, mut proved) = (0, 0);
-    for seed in 0..200 {
+    for seed in 0..cases(200) {
         let Some(model) = Model::random(seed, 5) else { continue };
         let (random, mut whole) = (&mut Random::new(seed), model.condensate);
         limit(&mut whole, random);
@@ -74,7 +75,8 @@ fn positive_entries_are_counted_or_refused() {
         pair.sampled(20, random).check(&model.what);
         proved += 1;
     }
-    assert!(refused > 10 && proved > 10, "{refused} {proved}");
+    let least = cases(10);
+    assert!(refused > least && proved > least, "{refused} {proved}");
 }
 
 /// Scenes to draw.
@@ -85,7 +87,7 @@ const SAMPLES: usize = 40;
 #[test]
 fn random_scenes_agree() {
     let (mut pairs, mut empty) = (0, 0);
-    let count = std::env::var("SEEDS").ok().and_then(|n| n.parse().ok()).unwrap_or(SEEDS);
+    let count = cases(SEEDS);
     for seed in 0..count {
         let Some(pair) = Pair::random(seed) else { continue };
         pairs += 1;
