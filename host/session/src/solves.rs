@@ -132,8 +132,7 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Solves<R, S> {
         })
     }
 
-    /// Sets u to where the next solve starts. Edges that were at their gap go with it: the tolerance may be wider than the way,
-    /// and an edge that no sweep brings back to its gap would have no force.
+    /// Sets u to where the next solve starts.
     fn begin(&mut self) {
         let assembled = self.swept.assembled();
         if !self.is_warm {
@@ -145,11 +144,22 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Solves<R, S> {
         }
         let unknowns = assembled.edges().counts().unknowns();
         self.u[unknowns..].copy_from_slice(assembled.dirichlet());
+        self.go_with_gaps();
+    }
+
+    /// Edges that were at their gap go with it, but where the way is longer than the range of u: the tolerance may be wider than a
+    /// short way, and an edge that no sweep brings back to its gap would have no force.
+    fn go_with_gaps(&mut self) {
+        let assembled = self.swept.assembled();
+        let ends = self.u.iter().fold([R::INFINITY, -R::INFINITY], |[least, most], &u| {
+            [least.or_smaller(u), most.or_larger(u)]
+        });
+        let range = ends[1] - ends[0];
         let on_contact = self.u[assembled.edges().counts().free..].iter_mut();
-        for ((u, law), _) in
-            on_contact.zip(assembled.law().edges()).zip(&self.active).filter(|(_, active)| **active)
-        {
-            *u = law.gap();
+        for ((u, law), &active) in on_contact.zip(assembled.law().edges()).zip(&self.active) {
+            if active && law.opening(*u).magnitude() <= range {
+                *u = law.gap();
+            }
         }
     }
 
@@ -163,12 +173,13 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Solves<R, S> {
         };
         self.outcome = Some(outcome);
         self.is_known = outcome.status != Status::NotFinite;
-        if outcome.status != Status::NotFinite {
+        self.active.clear();
+        if self.is_known {
             self.omega = Some(outcome.omega);
             let assembled = self.swept.assembled();
             let on_contact = self.u[assembled.edges().counts().free..].iter();
-            let touching = on_contact.zip(assembled.law().edges()).map(|(&u, law)| law.touches(u));
-            self.active = touching.collect();
+            let pairs = on_contact.zip(assembled.law().edges());
+            self.active.extend(pairs.map(|(&u, law)| law.touches(u)));
         }
         Ok(outcome.sweeps)
     }

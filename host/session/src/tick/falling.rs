@@ -1,6 +1,6 @@
 //! A gap that falls by less than the tolerance of a tick: what touches it goes with it.
 
-use super::{Begin, Budget, ScheduledTick, play_on};
+use super::{Begin, Budget, ScheduledTick, play, play_on};
 use signorini_problem::fixtures::on_grid;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
@@ -33,6 +33,23 @@ fn contact_goes_with_a_gap_that_falls_by_less_than_the_tolerance() -> Result<()>
         for force in first.iter().chain(&then) {
             assert!((force - first[0]).abs() < 1e-4, "{cells:?}: {first:?} {then:?}");
         }
+    }
+    Ok(())
+}
+
+/// A gap that is gone says that there is no contact: u stays near, and is nothing that overflows.
+#[test]
+fn what_touched_does_not_follow_a_gap_that_is_gone() -> Result<()> {
+    for far in ["1e6", "1e308"] {
+        let gone = SINKING.replace("-1e-8*t", &format!("-{far}*max(0, t - 0.5)"));
+        let (scene, problem) = on_grid(&gone, grid(4, Cells::Mixed))?;
+        let budget = Budget { tolerance: Some(1e-8), intervals: false, ..Budget::of(&scene) };
+        let at = |time: u32| ScheduledTick { time: f64::from(time), inputs: Vec::new() };
+        let moments = [0, 1, 2].map(at);
+        let ticks = play(&problem, None, &moments, &budget, |_, _| Ok(()))?;
+        let forces: Vec<_> = ticks.iter().map(|tick| tick.outputs[0]).collect();
+        assert!(ticks.iter().all(|tick| !tick.failed()), "{far}: {forces:?}");
+        assert!(forces[0] > Some(1.0) && forces[1..] == [Some(0.0); 2], "{far}: {forces:?}");
     }
     Ok(())
 }
