@@ -30,7 +30,9 @@ def executed(path, with_board):
     work = ROOT / "target" / "notebooks"
     work.mkdir(parents=True, exist_ok=True)
     # Pictures come where no other backend is asked for.
-    environment = {name: value for name, value in os.environ.items() if name != "MPLBACKEND"}
+    environment = {name: value for name, value in os.environ.items() if name not in ("MPLBACKEND", "PYTEST_CURRENT_TEST")}
+    # The kernel of this Python, whatever others a user has.
+    os.environ.setdefault("JUPYTER_PREFER_ENV_PATH", "1")
     with tempfile.TemporaryDirectory(dir=work) as folder:
         client = NotebookClient(
             notebook,

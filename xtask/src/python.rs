@@ -9,7 +9,7 @@ use crate::steps::Steps;
 use signorini_image::cargo::{root, run as run_command, target_dir};
 use signorini_image::files;
 use signorini_image::toolchain::output;
-use signorini_image::tools::{ensured, install_packages};
+use signorini_image::tools::{ensure_for_c, ensured, install_packages};
 
 /// The package of the module: what it is linked to, pip knows.
 pub const PACKAGE: &str = "signorini-python";
@@ -38,6 +38,8 @@ pub fn run(steps: &mut Steps) {
         tests.args(["-m", "pytest", "-q", "-p", "no:cacheprovider", "host/python/tests"]);
         tests.env("SIGNORINI", program::path()?).current_dir(root());
         if is_whole {
+            // A notebook goes to a board, and shows what the command says: nothing of packages.
+            ensure_for_c()?;
             tests.env("SIGNORINI_WHOLE", "1");
         }
         run_command(tests)

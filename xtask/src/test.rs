@@ -57,15 +57,7 @@ const PAGES: [&str; 8] = [
     "tests/firmware",
 ];
 /// What the module is built from, and the pages and scenes that its tests run.
-const PYTHON: [&str; 7] = [
-    "kernel",
-    "host",
-    "meshes",
-    "tests/firmware",
-    "docs/gallery",
-    "docs/gallery.md",
-    "docs/notebooks",
-];
+const PYTHON: [&str; 5] = ["kernel", "host", "meshes", "tests/firmware", "docs"];
 /// The sources and scenes of what boards run.
 const BOARDS: [&str; 5] = ["kernel", "host", "meshes", "tests/firmware", "docs/firmware.md"];
 

@@ -5,7 +5,7 @@ const WHOLE: &str = "SIGNORINI_WHOLE";
 
 /// Whether all cases are asked for.
 pub fn is_whole() -> bool {
-    std::env::var_os(WHOLE).is_some()
+    std::env::var_os(WHOLE).is_some_and(|word| !word.is_empty())
 }
 
 /// How many of `all` cases to try: an eighth, rounded up, but where all are asked for.

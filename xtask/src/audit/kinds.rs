@@ -39,7 +39,8 @@ pub const DOUBLE: Kind = Kind {
         });
         let own = name.rsplit_once("__").is_some_and(|(_, own)| {
             let ends = ["df3", "df2", "dfsf2", "dfsi", "dfdi", "sidf", "didf"];
-            ends.iter().any(|end| own.ends_with(end))
+            own.bytes().all(|byte| byte.is_ascii_alphanumeric())
+                && ends.iter().any(|end| own.ends_with(end))
         });
         abi || own
     },
@@ -211,6 +212,7 @@ mod tests {
             "__udivmoddi4",
             // A number in a name, which ends as a helper's does.
             "linear_between_of_b318f3a05e7897bc_5295ddf2",
+            "a__b_between_of_b318f3a05e7897bc_5295ddf2",
         ];
         let heap = ["_RNvCsfLfy6EI15iL_7___rustc12___rust_alloc", "__rust_dealloc", "_malloc"];
         let no_heap = ["memcpy", "force_f32_u16", "_ZN4core5alloc6layout"];

@@ -60,7 +60,7 @@ fn smooth(c: f64, ends: Ends) -> String {
         .replace("y^2 - 1 + (3*y - 6.5)", &format!("y^2 - 1 + {c}*y + (3*y - 6.5 - {half})"))
 }
 
-/// Both ends with each pair of signs, equal and nearly equal ones, one end alone; tiny and huge.
+/// Both ends with each pair of signs, equal and nearly equal ones, one end alone; tiny and huge. Each fourth is of another kind.
 fn all() -> Vec<(String, String)> {
     let pairs = [
         [0.0, 1.5],
@@ -76,7 +76,7 @@ fn all() -> Vec<(String, String)> {
     ];
     let transitions = pairs.map(|ends| (format!("{ends:?}"), two_transitions(ends)));
     let kinds =
-        [Ends::Lower, Ends::Upper, Ends::Both(0.1), Ends::Both(1.0), Ends::Both(20.0), Ends::Equal];
+        [Ends::Upper, Ends::Lower, Ends::Both(0.1), Ends::Both(1.0), Ends::Both(20.0), Ends::Equal];
     let smooth = [-3.0, 0.0, 3.0]
         .into_iter()
         .flat_map(|c| kinds.map(|ends| (format!("c = {c}, {ends:?}"), smooth(c, ends))));
@@ -117,7 +117,7 @@ fn holds(what: &str, text: &str, mesh: Mesh, stops: &[u32], is_identity: bool) -
 
 #[test]
 fn the_bound_holds_at_any_stop_for_all_signs_of_both_ends() -> Result<()> {
-    for (ends, text) in some(5, all()) {
+    for (ends, text) in some(4, all()) {
         for (name, mesh) in meshes(4).into_iter().take(2) {
             holds(&format!("{ends}, {name}"), &text, mesh, &STOPS, false)?;
         }

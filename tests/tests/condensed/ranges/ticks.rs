@@ -183,7 +183,7 @@ fn ticks_of_standard_scenes_may_be_cut_off() {
 fn ticks_of_random_scenes_may_be_cut_off() {
     let (mut unfinished, all) = (0, cases(150));
     of_random(all, |pair| unfinished += cut_off::<f32>(pair, 20) + cut_off::<f64>(pair, 20));
-    assert!(unfinished as u64 >= 4 * all, "{unfinished}");
+    assert!(unfinished as u64 > cases(1000) / 2, "{unfinished}");
 }
 
 /// Outside the box a controller refuses, and keeps its last answer.
