@@ -210,7 +210,7 @@ fn intervals_of_controllers_are_near_those_of_solves() -> Result<()> {
                 let outputs = &answer.outputs[..scene.outputs.len()];
                 let between = module.between(session, outputs, answer.bound.as_ref());
                 let by = module.plus_minus(answer.bound.as_ref());
-                let solved = of_outputs(&at, &solve(&at, &Options::default())?, Coverage::Small);
+                let solved = of_outputs(&at, &solve(&at, &Options::default())?, Coverage::Usual);
                 let all = scene.outputs.iter().zip(between.into_iter().zip(by)).zip(&mut ratios);
                 for ((output, told), [narrow, wide]) in all {
                     let ((Ok([least, most]), Ok(by)), Ok(of)) = (told, &solved[&output.name.value])

@@ -3,12 +3,17 @@
 use signorini_problem::Problem;
 use signorini_solve::MOST_FACTORED;
 
+/// Unknowns up to which a solution has intervals where nobody says whether.
+pub const MOST_BY_DEFAULT: usize = 2_500_000;
+
 /// The meshes on which intervals are worked out: each takes some solutions of a linear problem.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Coverage {
-    /// On meshes of up to [`MOST_FACTORED`] unknowns: one factor serves all outputs.
+    /// On meshes of up to [`MOST_BY_DEFAULT`] unknowns, as for one solution.
     #[default]
-    Small,
+    Usual,
+    /// On meshes of up to [`MOST_FACTORED`] unknowns, as for one solution after another: one factor serves them all.
+    Factored,
     /// On every mesh.
     All,
     /// On none.
@@ -18,15 +23,27 @@ pub enum Coverage {
 impl Coverage {
     /// Whether this problem is among them.
     pub fn takes(self, problem: &Problem) -> bool {
+        let unknowns = problem.topology.counts.unknowns();
         match self {
-            Self::Small => problem.topology.counts.unknowns() <= MOST_FACTORED,
+            Self::Usual => unknowns <= MOST_BY_DEFAULT,
+            Self::Factored => unknowns <= MOST_FACTORED,
             Self::All => true,
             Self::None => false,
         }
     }
 }
 
-/// Why a large mesh has none.
-pub(crate) fn too_many() -> String {
-    format!("the mesh has more than {MOST_FACTORED} unknowns; `solve --intervals` works them out")
+/// Why a problem without a solver has none.
+pub(crate) fn reason(problem: &Problem) -> String {
+    if Coverage::Factored.takes(problem) {
+        "its linear problem has no factor".to_owned()
+    } else if Coverage::Usual.takes(problem) {
+        format!(
+            "the mesh has more than {MOST_FACTORED} unknowns, too many for each tick; `solve` works them out"
+        )
+    } else {
+        format!(
+            "the mesh has more than {MOST_BY_DEFAULT} unknowns; `solve --intervals` works them out"
+        )
+    }
 }

@@ -12,7 +12,7 @@ use signorini_problem::{Loads, Problem, State};
 use signorini_scene::error::Result;
 use signorini_scene::expression::Expression;
 use signorini_scene::scene::{Condition, Field, Located, Scene};
-use signorini_solve::SharedSolver;
+use signorini_solve::{SharedSolver, Solution};
 
 /// z at the vertices and its bubbles, and ζ in the place of τ; z is not yet within what contact asks of it.
 pub(super) type Weights = CertifiedFields;
@@ -20,6 +20,8 @@ pub(super) type Weights = CertifiedFields;
 /// The linear problem of a goal, but for how far ζ·n may go on contact edges.
 pub(super) struct Dual {
     problem: Problem,
+    /// Its last solution, where the next one may begin.
+    last: Vec<f64>,
 }
 
 impl Dual {
@@ -43,7 +45,7 @@ impl Dual {
         if let Some(step) = &problem.loads.step {
             dual = dual.stepping(step.length, State::zero(problem))?;
         }
-        Ok(Self { problem: dual })
+        Ok(Self { problem: dual, last: Vec::new() })
     }
 
     /// Its problem.
@@ -67,8 +69,10 @@ impl Dual {
         let loads = &mut self.problem.loads;
         loads.contact_flux = bases;
         loads.spans = contact.iter().map(|of| 2.0 * part * of.room).collect();
-        let solution = solver.solve(&self.problem).ok()??;
-        solution.bound.map(|_| solution.certified)
+        let solution = solver.solve(&self.problem, &self.last).ok()??;
+        let Solution { u, bound, certified, .. } = solution;
+        self.last = u;
+        bound.map(|_| certified)
     }
 }
 

@@ -5,6 +5,7 @@ use std::sync::Mutex;
 
 use super::answer::{Answered, Found, OutputBound};
 use super::contact::ContactEdge;
+use super::coverage::Coverage;
 use super::dual::{Dual, Weights};
 use super::exact;
 use super::goal::Goal;
@@ -22,6 +23,8 @@ use signorini_solve::SharedSolver;
 
 /// Parts c that are tried, and by how much each is larger than the last.
 const TRIALS: usize = 8;
+/// The same on meshes without a factor, where each is a solution of its own.
+const LARGE_TRIALS: usize = 3;
 const STEP: f64 = 2.5;
 
 /// How far ζ·n may go beyond its usual size on a contact edge, where z is to keep its value: little enough to lose no digit beside.
@@ -91,7 +94,8 @@ impl Known<'_> {
         let room = rooms.get(rooms.len() / 2).copied().unwrap_or(1.0);
         let mut part = FAR * goal.size(self.problem) / room;
         let mut best = [f64::NEG_INFINITY, f64::INFINITY];
-        for trial in 0..TRIALS {
+        let is_large = !Coverage::Factored.takes(self.problem);
+        for trial in 0..if is_large { LARGE_TRIALS } else { TRIALS } {
             let name = &output.name.value;
             let Some(weights) = self.weights(name, &goal, &mut dual, part) else { break };
             let (first, differ) = self.braces(&goal, &weights, part, true)?;
@@ -104,7 +108,12 @@ impl Known<'_> {
             if self.contact.is_empty() || (trial > 0 && first.part < part) {
                 break;
             }
-            part = if trial == 0 { first.part } else { STEP * part };
+            part = match trial {
+                0 => first.part,
+                // Between a part and the one that suits its weights lies the one that suits its own.
+                _ if is_large => (part * first.part).sqrt(),
+                _ => STEP * part,
+            };
         }
         Ok(match best {
             [f64::NEG_INFINITY, f64::INFINITY] => Err(UNSOLVED.to_owned()),

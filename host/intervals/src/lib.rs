@@ -55,7 +55,7 @@ use std::sync::Mutex;
 
 pub use answer::{Answered, Found, OutputBound, zero_rounding};
 use contact::contact_edges;
-pub use coverage::Coverage;
+pub use coverage::{Coverage, MOST_BY_DEFAULT};
 use dual::Weights;
 pub use estimate::estimate;
 pub use evolved::over_time;
@@ -157,10 +157,7 @@ fn intervals(
     let none = |why: &str| Ok(vec![Err(why.to_owned()); all.len()]);
     let Some(bound) = answer.bound else { return none("the solution has no error bound") };
     let Some(solver) = &lasting.solver else {
-        return match Coverage::Small.takes(problem) {
-            true => none("its linear problem has no factor"),
-            false => none(&coverage::too_many()),
-        };
+        return none(&coverage::reason(problem));
     };
     let deviations = followed(problem, &answer.certified.admissible())?;
     let known = Known {

@@ -88,7 +88,7 @@ impl How {
 
     fn intervals(&self) -> Coverage {
         match self.intervals {
-            None => Coverage::Small,
+            None => Coverage::Usual,
             Some(true) => Coverage::All,
             Some(false) => Coverage::None,
         }

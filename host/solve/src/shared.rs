@@ -32,15 +32,16 @@ impl SharedSolver {
         Ok(Ldlt::new(&system).map_err(&unfit)?.map(Self::Factor))
     }
 
-    /// Solves a problem with this matrix, in the units that it has; nothing where it has no solution.
+    /// Solves a problem with this matrix, in the units that it has; nothing where it has no solution. Where that takes iterations they
+    /// begin at `start`, one mean per edge, or anew where that is empty.
     ///
     /// # Errors
     /// Numbers that f64 cannot hold.
-    pub fn solve(&self, problem: &Problem) -> Result<Option<Solution>> {
+    pub fn solve(&self, problem: &Problem, start: &[f64]) -> Result<Option<Solution>> {
         let (parts, options) = (Parts::examine(problem)?, Options::default());
         match self {
             Self::Factor(factor) => by_factor(problem, &parts, &options, &[], Some(factor)),
-            Self::Multigrid => by_multigrid::<f64>(problem, &parts, &options, &[]).map(Some),
+            Self::Multigrid => by_multigrid::<f64>(problem, &parts, &options, start).map(Some),
         }
     }
 }

@@ -60,7 +60,8 @@ pub struct Arguments {
     /// part of `energy_norm` in summary.json. (`trade --max-error` is about the true error.) Writes refined.msh, levels.csv and levels.pvd too
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     max_error: Option<Goal>,
-    /// Intervals of outputs on every mesh [default: on those of up to 200 000 unknowns]. Each takes some solutions of a linear problem
+    /// Intervals of outputs on every mesh [default: on those of up to 2.5 million unknowns]. Beyond 200 000
+    /// unknowns each takes up to three solutions of a linear problem
     #[arg(long)]
     intervals: bool,
     /// No intervals of outputs
@@ -139,10 +140,12 @@ impl Arguments {
     /// A warning of intervals that take longer than the solution.
     fn long_intervals(&self, problem: &Problem) -> Option<String> {
         let is_long =
-            self.intervals && !Coverage::Small.takes(problem) && !problem.scene.outputs.is_empty();
+            self.intervals && !Coverage::Usual.takes(problem) && !problem.scene.outputs.is_empty();
         is_long.then(|| {
             let unknowns = problem.topology.counts.unknowns();
-            format!("--intervals: on {unknowns} unknowns each output takes some solutions more")
+            format!(
+                "--intervals: on {unknowns} unknowns each output takes up to three solutions more"
+            )
         })
     }
 
@@ -151,7 +154,7 @@ impl Arguments {
         match (self.intervals, self.no_intervals) {
             (true, _) => Coverage::All,
             (_, true) => Coverage::None,
-            _ => Coverage::Small,
+            _ => Coverage::Usual,
         }
     }
 

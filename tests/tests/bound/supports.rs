@@ -90,7 +90,7 @@ fn summary(text: &str, mesh: Mesh) -> Value {
     let (_, problem) = posed(text, mesh);
     let solution = solve(&problem, &Options::default()).expect("loads in balance");
     assert!(solution.converged() && solution.bound.is_none());
-    let answer = Answer::new(problem, solution, None, SolverKind::Kernel, Coverage::Small, None);
+    let answer = Answer::new(problem, solution, None, SolverKind::Kernel, Coverage::Usual, None);
     serde_json::from_str(&answer.expect("an answer").summary().json()).expect("valid JSON")
 }
 

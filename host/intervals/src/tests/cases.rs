@@ -37,7 +37,7 @@ fn they_hold_the_values_of_an_exact_solution() -> Result<()> {
         let mut widths = Vec::new();
         for n in [4, 16] {
             let (_, problem) = on_grid(HARMONIC, grid(n, cells))?;
-            let found = of_outputs(&problem, &solve(&problem, &options())?, Coverage::Small);
+            let found = of_outputs(&problem, &solve(&problem, &options())?, Coverage::Usual);
             exact.iter().for_each(|&(name, value)| check(name, interval(&found, name), value));
             let width = |name| interval(&found, name).plus_minus;
             assert!(width("two") <= width("bottom") + width("cold"), "{cells:?}: {found:?}");
@@ -66,7 +66,7 @@ setting.element = "nonparametric"
         *vertex = [vertex[0], if vertex[0] < 0.0 { vertex[1] } else { 3.0 * vertex[1] }];
     }
     let (_, problem) = on_grid(TRAPEZOID, mesh)?;
-    let found = of_outputs(&problem, &solve(&problem, &options())?, Coverage::Small);
+    let found = of_outputs(&problem, &solve(&problem, &options())?, Coverage::Usual);
     let middle = interval(&found, "middle");
     check("the area's", middle, -5.0 / 12.0 + 2.0 * 13.0 / 12.0);
     assert!(middle.plus_minus < 1e-6, "{middle:?}");
@@ -101,7 +101,7 @@ fn a_sum_has_an_interval_where_its_parts_have_none() -> Result<()> {
         for n in [4, 8] {
             let (scene, problem) = on_grid(TAILWATER, grid(n, cells))?;
             let solution = solve(&problem, &options())?;
-            let found = of_outputs(&problem, &solution, Coverage::Small);
+            let found = of_outputs(&problem, &solution, Coverage::Usual);
             let values = outputs(&problem, &solution)?;
             for name in ["face", "weir", "force"] {
                 let why = found[name].as_ref().expect_err(name);
@@ -149,7 +149,7 @@ fn without_transfer_there_are_intervals_that_hold() -> Result<()> {
     let (_, fine) = on_grid(ROOF, grid(32, Cells::Triangles))?;
     let exact = outputs(&fine, &solve(&fine, &options())?)?;
     let (_, problem) = on_grid(ROOF, grid(4, Cells::Triangles))?;
-    let found = of_outputs(&problem, &solve(&problem, &options())?, Coverage::Small);
+    let found = of_outputs(&problem, &solve(&problem, &options())?, Coverage::Usual);
     for name in ["below", "side"] {
         check(name, interval(&found, name), exact[name].expect("a value"));
     }
@@ -189,7 +189,7 @@ fn contents_and_means_over_materials_hold_and_shrink() -> Result<()> {
             for n in [4, 16] {
                 let (_, problem) = on_grid(&stores(c, zero), mesh(n))?;
                 let solution = solve(&problem, &options())?;
-                let found = of_outputs(&problem, &solution, Coverage::Small);
+                let found = of_outputs(&problem, &solution, Coverage::Usual);
                 let values = outputs(&problem, &solution)?;
                 for (name, exact) in [
                     ("heat", c * (1.0 + 3.0 * zero)),

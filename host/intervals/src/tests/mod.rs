@@ -83,7 +83,7 @@ fn they_hold_the_values_of_finer_meshes() -> Result<()> {
     {
         let scene = scene(&format!("{name}.toml"))?;
         let (coarse, solution) = solved(&scene, 0)?;
-        let found: BTreeMap<String, Found> = of_outputs(&coarse, &solution, Coverage::Small);
+        let found: BTreeMap<String, Found> = of_outputs(&coarse, &solution, Coverage::Usual);
         let once = refined(&scene, &coarse, 1)?;
         let twice = refined(&scene, &coarse, 2)?;
         let mut count = 0;
@@ -115,7 +115,7 @@ fn multigrid_weighs_as_the_factor_does() -> Result<()> {
         let by_multigrid = Lasting { solver, ..Lasting::default() };
         let found = of_next(scaled, &own.into(), &by_multigrid);
         let mut count = 0;
-        for (output, expected) in of_answer(scaled, &own.into(), Coverage::Small) {
+        for (output, expected) in of_answer(scaled, &own.into(), Coverage::Usual) {
             let Ok(expected) = expected else { continue };
             let found = found[&output].as_ref().expect("an interval");
             let size = expected.plus_minus;
@@ -128,17 +128,17 @@ fn multigrid_weighs_as_the_factor_does() -> Result<()> {
     Ok(())
 }
 
-/// None where they are not asked for; on large meshes only where they are.
+/// None where they are not asked for; on large meshes of a solution, and not of each tick.
 #[test]
 fn they_are_worked_out_where_they_are_asked_for() -> Result<()> {
     let (problem, solution) = solved(&scene("strip.toml")?, 0)?;
     assert!(of_outputs(&problem, &solution, Coverage::None).is_empty());
     let of = |asked| of_outputs(&problem, &solution, asked);
     let count = |asked| of(asked).values().filter(|of| of.is_ok()).count();
-    assert_eq!(count(Coverage::All), count(Coverage::Small));
+    assert_eq!(count(Coverage::All), count(Coverage::Usual));
     let large = on_grid(signorini_problem::fixtures::SMOOTH, grid(200, Cells::Triangles))?.1;
     assert!(large.topology.counts.unknowns() > MOST_FACTORED);
-    assert!(Coverage::All.takes(&large) && !Coverage::Small.takes(&large));
+    assert!(Coverage::Usual.takes(&large) && !Coverage::Factored.takes(&large));
     Ok(())
 }
 
@@ -185,7 +185,7 @@ fn they_hold_the_values_of_the_catalogue_and_are_not_huge() -> Result<()> {
     for (name, scene) in known_scenes()? {
         for times in [0, 1] {
             let (problem, solution) = solved(&scene, times)?;
-            for (output, found) in of_outputs(&problem, &solution, Coverage::Small) {
+            for (output, found) in of_outputs(&problem, &solution, Coverage::Usual) {
                 let Ok(found) = found else { continue };
                 let exact = found.exact.expect("an exact solution");
                 check(&format!("{name}: {output}"), &found, exact);

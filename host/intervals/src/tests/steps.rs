@@ -83,7 +83,7 @@ fn step(text: &str, mesh: Mesh) -> Result<Problem> {
 /// Half-widths on a mesh, and those over the errors of the middles.
 fn checked(slab: &Slab, mesh: Mesh, of: &str) -> Result<Vec<[f64; 2]>> {
     let problem = step(&slab.text(), mesh)?;
-    let found = of_answer(&problem, &(&solve(&problem, &options())?).into(), Coverage::Small);
+    let found = of_answer(&problem, &(&solve(&problem, &options())?).into(), Coverage::Usual);
     let checked = slab.exact(&problem)?.map(|(name, exact)| {
         let interval = found[name].as_ref().unwrap_or_else(|why| panic!("{of} {name}: {why}"));
         check(&format!("{of} {name}"), interval, exact);

@@ -33,7 +33,7 @@ impl KnownOutputs {
         solution: &Solution,
     ) -> Result<(Self, Vec<Check>)> {
         let values = outputs(problem, solution)?;
-        let mut intervals = of_outputs(problem, solution, Coverage::Small);
+        let mut intervals = of_outputs(problem, solution, Coverage::Usual);
         estimate(problem, &values, &mut intervals);
         let all = wanted(&problem.scene);
         let stated: Vec<Stated> =

@@ -51,7 +51,7 @@ def solve(
     max_error : refine the mesh where the bound says until it is below this: "5%" of `energy_norm`, or an energy.
     max_unknowns : the largest mesh that may be tried for it.
     scalar, solver, tolerance, max_sweeps : as for `signorini solve`; the scene's own setting where left out.
-    intervals : whether outputs get intervals; on meshes of up to 200 000 unknowns where left out.
+    intervals : whether outputs get intervals; on meshes of up to 2.5 million unknowns where left out.
     out : a folder for the files of `signorini solve`.
 
     Raises

@@ -33,7 +33,7 @@ impl Intervals<'_> {
         match self {
             Self::Unasked => Ok(Vec::new()),
             Self::Anew(lasting) => {
-                if Coverage::Small.takes(problem) {
+                if Coverage::Factored.takes(problem) {
                     lasting.renew(problem)?;
                 }
                 let Solution { certified, scalar, .. } = solution;

@@ -232,7 +232,7 @@ mod tests {
         let kept = Kept::open(folder.path()).unwrap();
         let rows =
             |cases| kept.rows(cases, |number| number.to_string(), |number| row(5, number), || ());
-        let all = cases(80) as u32;
+        let all = cases(100) as u32;
         let mut found = rows(0..=all - 1).unwrap();
         let may_be = |number: &u32| posed(&Trajectory::draw(5, *number)).unwrap().is_some();
         for number in (all..).filter(may_be).take(all as usize / 5) {

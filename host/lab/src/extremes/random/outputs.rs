@@ -50,7 +50,7 @@ impl Held<'_> {
     pub fn intervals_by_finer(&self, finer: (&Problem, &Solution)) -> Intervals {
         let problem = with_outputs(self.problem, self.case, false);
         let its =
-            of_answer(&with_outputs(finer.0, self.case, false), &finer.1.into(), Coverage::Small);
+            of_answer(&with_outputs(finer.0, self.case, false), &finer.1.into(), Coverage::Usual);
         let known = its.into_iter().filter_map(|(name, found)| {
             let found = found.ok()?;
             Some((name, [found.center, found.plus_minus]))
@@ -68,7 +68,7 @@ impl Held<'_> {
                 all.add(format!("{word}{name}"), (value - middle).abs() - slack - rounded, by);
             }
         };
-        for (name, found) in of_answer(problem, &answered, Coverage::Small) {
+        for (name, found) in of_answer(problem, &answered, Coverage::Usual) {
             let Ok(found) = found else { continue };
             add("", &name, found.center, found.plus_minus, 0.0);
         }

@@ -89,9 +89,9 @@ fn check(scene: &Scene, mesh: Mesh, scalar: ScalarKind, sweeps: Option<u32>, of:
     let options = Options { solver: SolverKind::Factor, averages: true, ..Options::default() };
     let fine = finer(&problem, 2).unwrap();
     let truth = solve(&fine, &options).unwrap();
-    let its = of_answer(&fine, &(&truth).into(), Coverage::Small);
+    let its = of_answer(&fine, &(&truth).into(), Coverage::Usual);
     let mut ratios = Vec::new();
-    for (name, found) in of_answer(&problem, &(&answer).into(), Coverage::Small) {
+    for (name, found) in of_answer(&problem, &(&answer).into(), Coverage::Usual) {
         let Ok(OutputBound { center, plus_minus, .. }) = found else {
             println!("  {of} {name}: {}", found.unwrap_err());
             continue;
@@ -170,8 +170,8 @@ fn intervals_of_long_steps_are_those_of_the_steady_problem() {
         steady.set_time(step.time).unwrap();
         let options = Options { solver: SolverKind::Factor, averages: true, ..Options::default() };
         let at_rest = solve(&steady, &options).unwrap();
-        let expected = of_answer(&steady, &(&at_rest).into(), Coverage::Small);
-        for (name, found) in of_answer(&step, &(&answer).into(), Coverage::Small) {
+        let expected = of_answer(&steady, &(&at_rest).into(), Coverage::Usual);
+        for (name, found) in of_answer(&step, &(&answer).into(), Coverage::Usual) {
             let (found, expected) = match (found, expected[&name].clone()) {
                 (Ok(found), Ok(expected)) => (found, expected),
                 (found, expected) => {
