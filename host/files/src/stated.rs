@@ -39,9 +39,12 @@ impl<'a> Stated<'a> {
     /// Its value and interval in words, without the name.
     pub fn words(&self) -> String {
         let unit = self.unit();
-        let value = self.value.map_or("no value".to_owned(), |value| rounded(value, UNKNOWN, 0.0));
+        let said =
+            |digits| self.value.map_or("no value".to_owned(), |value| rounded(value, digits, 0.0));
+        let value = said(UNKNOWN);
         match self.interval {
             Some(Ok(found)) => {
+                let value = said(self.value.map_or(UNKNOWN, |value| digits_beside(found, value)));
                 let (of, at) = match self.output.quantity {
                     Quantity::Probe { .. } => (" in the mean over its cell", "at the point "),
                     _ => ("", ""),
@@ -98,6 +101,12 @@ fn printed_power(number: &str) -> String {
     format!("{head})·10{}", raised.collect::<String>())
 }
 
+/// How many digits of `value` have the places of the interval beside it.
+fn digits_beside(of: &OutputBound, value: f64) -> usize {
+    let digits = value.abs().log10().floor() - of.plus_minus.log10().floor() + 2.0;
+    if digits.is_finite() { (digits as usize).clamp(UNKNOWN, 12) } else { UNKNOWN }
+}
+
 /// "27.5 ± 3.6", "(3.31 ± 0.15)e-5": both numbers with the same places, the second rounded up so that all of the interval is said.
 pub fn with_error(of: &OutputBound) -> String {
     let OutputBound { center, plus_minus, .. } = *of;
@@ -138,6 +147,21 @@ mod tests {
         assert_eq!(printed_power("(3.31 ± 0.15)e-5"), "(3.31 ± 0.15)·10⁻⁵");
         assert_eq!(printed_power("(1.2 ± 0.3)e12"), "(1.2 ± 0.3)·10¹²");
         assert_eq!(printed_power("27.5 ± 3.6"), "27.5 ± 3.6");
+    }
+
+    #[test]
+    fn a_value_has_the_places_of_its_interval() {
+        let beside = |plus_minus, value| {
+            let (of, center) = (String::new(), 0.0);
+            let of =
+                OutputBound { center, plus_minus, of, estimate: None, exact: None, doubt: 0.0 };
+            rounded(value, digits_beside(&of, value), 0.0)
+        };
+        assert_eq!(beside(18.0, 1474.48), "1474");
+        assert_eq!(beside(0.54, 1490.2295), "1490.23");
+        assert_eq!(beside(14.0, 0.4), "0.400");
+        assert_eq!(beside(0.0, 0.4), "0.400");
+        assert_eq!(beside(1.0, 0.0), "0");
     }
 
     #[test]

@@ -29,6 +29,7 @@ pub mod outline;
 pub mod pieces;
 mod pinched;
 pub mod pointwise;
+mod polygon;
 pub mod progress;
 mod property;
 pub mod quadrature;

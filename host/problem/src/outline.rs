@@ -5,10 +5,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::Serialize;
 use signorini_kernel::mesh::components::Support;
 use signorini_scene::mesh::Mesh;
-use signorini_scene::scene::{Draft, Material, Scene};
+use signorini_scene::scene::{Boundary, Condition, Datum, Draft, Material, Scene};
 
 use crate::binding::DEFAULT;
+use crate::polygon::turn;
 use crate::{EdgeKind, Parts, Problem};
+
+/// Characters of a datum that a line has room for.
+const LONGEST: usize = 40;
 
 /// A scene on its mesh, told in words and sizes.
 #[derive(Debug, Clone, Serialize)]
@@ -28,10 +32,14 @@ pub struct BoundaryGroup {
     pub name: String,
     /// Its kind, where it could be read.
     pub kind: Option<&'static str>,
+    /// What it asks for, with its data as the scene writes them, where they could be read.
+    pub law: Option<String>,
     /// The length of its edges.
     pub length: f64,
     /// How many edges it has.
     pub edges: usize,
+    /// By how many degrees they turn at most from one to the next, where they look like a curve: what is guaranteed is so for the edges.
+    pub turn: Option<f64>,
     /// Its edges by their vertices.
     #[serde(skip)]
     pub of: Vec<[u32; 2]>,
@@ -71,7 +79,7 @@ impl Outline {
     pub fn of_draft(Draft { scene, open, kinds, .. }: &Draft, mesh: &Mesh) -> Self {
         let is_open = |key: &String| open.contains(key);
         Self {
-            boundaries: boundaries(scene, mesh, kinds),
+            boundaries: boundaries(scene, mesh, kinds, is_open),
             materials: materials(scene, mesh, is_open),
             parts: Vec::new(),
         }
@@ -84,18 +92,55 @@ impl Outline {
     }
 }
 
-fn boundaries(scene: &Scene, mesh: &Mesh, kinds: &[Option<&'static str>]) -> Vec<BoundaryGroup> {
+fn boundaries(
+    scene: &Scene,
+    mesh: &Mesh,
+    kinds: &[Option<&'static str>],
+    is_open: impl Fn(&String) -> bool,
+) -> Vec<BoundaryGroup> {
     let names: Vec<&str> = scene.boundaries.iter().map(|of| of.name.value.as_str()).collect();
     let named = |name: &str| Some(&mesh.curves.iter().find(|of| of.name == name)?.edges[..]);
-    let groups = shared(&names, mesh.outer_edges(), named).into_iter().zip(names).zip(kinds);
-    let group = |((of, name), &kind): ((Vec<[u32; 2]>, &str), _)| BoundaryGroup {
-        name: name.to_owned(),
+    let all = scene.boundaries.iter().zip(kinds);
+    let groups = shared(&names, mesh.outer_edges(), named).into_iter().zip(all);
+    let group = |(of, (boundary, &kind)): (Vec<[u32; 2]>, (&Boundary, _))| BoundaryGroup {
+        name: boundary.name.value.clone(),
         kind,
+        law: kind.filter(|_| !is_open(&boundary.name.key)).map(|_| law(&boundary.condition)),
         length: mesh.length(&of),
         edges: of.len(),
+        turn: turn(mesh, &of),
         of,
     };
     groups.map(group).collect()
+}
+
+/// A condition with its data: "u ≥ 20, σ·n ≥ 0".
+fn law(condition: &Condition) -> String {
+    let said = |of: &Datum| match of.value.to_string() {
+        long if long.chars().count() > LONGEST => "…".to_owned(),
+        short => short,
+    };
+    match condition {
+        Condition::Dirichlet { value } => format!("u = {}", said(value)),
+        Condition::Neumann { flux } => format!("σ·n = {}", said(flux)),
+        Condition::Robin { coefficient, ambient } => {
+            let is_number = coefficient.value.is_constant().is_some();
+            let [open, close] = if is_number { ["", ""] } else { ["(", ")"] };
+            format!("σ·n = {open}{}{close} ({} − u)", said(coefficient), said(ambient))
+        }
+        Condition::Contact { gap, flux, limit } => {
+            let is_endless = |of: &Datum| of.value.is_constant().is_some_and(f64::is_infinite);
+            let side = match [flux, limit].map(is_endless) {
+                [false, true] => "≥",
+                [true, false] => "≤",
+                _ => "against",
+            };
+            let least = (!is_endless(flux)).then(|| format!(", σ·n ≥ {}", said(flux)));
+            let most = (!is_endless(limit)).then(|| format!(", σ·n ≤ {}", said(limit)));
+            let ends = [least, most].map(Option::unwrap_or_default).concat();
+            format!("u {side} {}{ends}", said(gap))
+        }
+    }
 }
 
 fn materials(scene: &Scene, mesh: &Mesh, is_open: impl Fn(&String) -> bool) -> Vec<MaterialGroup> {

@@ -44,8 +44,13 @@ pub(super) fn text(look: &Look) -> String {
 
 fn groups(outline: &Outline) -> String {
     let boundaries = outline.boundaries.iter().map(|of| {
-        let size = format!("length {}, {} edges", plain(of.length), of.edges);
-        [of.name.clone(), of.kind.unwrap_or("?").to_owned(), size]
+        let turn = of.turn.map_or_else(String::new, |turn| {
+            format!("; they turn by up to {turn:.0}°: what is guaranteed is so for them, and not for a curve")
+        });
+        let size = format!("length {}, {} edges{turn}", plain(of.length), of.edges);
+        let kind = of.kind.unwrap_or("?");
+        let law = of.law.as_ref().map_or_else(String::new, |law| format!(": {law}"));
+        [of.name.clone(), format!("{kind}{law}"), size]
     });
     let materials = outline.materials.iter().map(|of| {
         let size = format!("area {}, {} cells", plain(of.area), of.cells);

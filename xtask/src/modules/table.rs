@@ -32,8 +32,6 @@ const M4_AT_LENGTH: Machines = Machines::and(&[], &["m4"]);
 const M7_AT_LENGTH: Machines = Machines::and(&[], &["m7", "m4", "m4-soft"]);
 /// Boards, and the machine at hand.
 const ALL: Machines = Machines::and(&["m4", "m4-soft", "m7", "host"], &["m33"]);
-/// A board and the machine at hand, and the others in a whole run.
-const HOST_TOO: Machines = Machines::and(&["m4", "host"], &["m4-soft", "m7", "m33"]);
 /// For the program with several controllers.
 const STATES: Machines = Machines::and(&["m4"], &["host"]);
 
@@ -93,7 +91,7 @@ pub const ROWS: [Row; 20] = [
         is_explained: true,
         worst: Some(2.2),
         size: Some(("slab, condensed, on quads", 34 * KIB)),
-        c: HOST_TOO,
+        c: ALL,
         c_played: M4_FIRST,
         c_counted: Some(101),
         ..CONDENSED

@@ -178,6 +178,12 @@ impl Parser<'_> {
             before.ends_with(|c: char| c.is_ascii_alphanumeric() || ".)_".contains(c));
         let (message, hint) = match self.token.kind {
             Kind::End => (format!("expected {expected}, found the end"), None),
+            Kind::Name if after_operand && self.may_be_unit(found) => (
+                format!("`{found}` is no variable"),
+                Some(format!(
+                    "numbers have no units here, and products a `*`: write `{before}`, in units that go together"
+                )),
+            ),
             Kind::Number(_) | Kind::Name | Kind::Symbol('(')
                 if expected != "`(`" && after_operand =>
             {
@@ -192,6 +198,16 @@ impl Parser<'_> {
             _ => (format!("expected {expected}, found `{found}`"), None),
         };
         ParseError { message, span, hint }
+    }
+
+    /// Whether a name is made of letters and means nothing here.
+    fn may_be_unit(&self, name: &str) -> bool {
+        let is_variable = match self.variables {
+            Variables::Space => ["x", "y"].contains(&name),
+            Variables::SpaceTime => ["x", "y", "t"].contains(&name),
+        };
+        let is_function = FUNCTIONS.iter().any(|(function, _)| *function == name);
+        !(is_variable || is_function || name == "pi") && name.chars().all(char::is_alphabetic)
     }
 
     fn unknown(&self, name: &str) -> ParseError {

@@ -15,10 +15,16 @@ const COMMENT_AT: usize = 26;
 /// The text of a scene on `mesh`, which is written as `name` in it. Its faults are exactly its question marks.
 pub fn blank(mesh: &Mesh, title: &str, name: &str) -> String {
     let outer = mesh.outer_edges();
+    let conditions = SECTIONS.iter().filter(|of| of.header == "boundary.NAME");
+    let conditions: String = conditions
+        .map(|of| format!("#     {:<16}{}\n", of.kind.unwrap_or_default(), of.about))
+        .collect();
     let mut text = format!(
         "#:schema {}\n# A scene of signorini. Fill in each \"?\", then run `signorini check` on this file.\n\
          #   inside:           −∇·(A∇u) = f\n\
          #   on the boundary:  one of four conditions, with the outward normal n and the flux σ·n = A∇u·n\n\
+         {conditions}#   heat:             u is a temperature, A a conductivity; where σ·n > 0 heat comes in\n\
+         #   seepage:          u is minus the head; where σ·n > 0 water goes out\n\
          title = {}\nmesh = {}\n",
         schema::FILE,
         quoted(title),
@@ -129,7 +135,8 @@ fn head(text: &mut String, before: &str, header: &str, size: &str) {
 fn example(text: &mut String, section: &Section) {
     let _ = writeln!(text, "# [{}]", section.header);
     if let Some(kind) = section.kind {
-        let _ = writeln!(text, "# kind = \"{kind}\"");
+        let start = format!("# kind = \"{kind}\"");
+        let _ = writeln!(text, "{start}{}", comment(start.chars().count(), section.about));
     }
     section.keys.iter().for_each(|key| line(text, None, key, None));
 }

@@ -27,9 +27,12 @@ impl Document {
     pub fn parse(&self) -> Result<DeTable<'_>> {
         let root = DeTable::parse(&self.text).map_err(|error| {
             let span = error.span().unwrap_or(0..0);
-            InputError::new(format!("not TOML: {}", error.message()))
-                .file(&self.path)
-                .excerpt(&self.text, span)
+            let wrong = InputError::new(format!("not TOML: {}", error.message()));
+            let wrong = wrong.file(&self.path).excerpt(&self.text, span);
+            match self.text.starts_with("$MeshFormat") {
+                true => wrong.hint("this is a mesh: `signorini new` writes a scene for it"),
+                false => wrong,
+            }
         })?;
         Ok(root.into_inner())
     }

@@ -113,7 +113,7 @@ fn constants_are_folded_and_recognised() {
 }
 
 /// text, culprit, a part of the message or of the hint
-const MALFORMED: [(&str, &str, &str); 33] = [
+const MALFORMED: [(&str, &str, &str); 34] = [
     ("", "", "found the end"),
     ("  ", "", "found the end"),
     ("2x", "x", "write `2*x`"),
@@ -123,7 +123,8 @@ const MALFORMED: [(&str, &str, &str); 33] = [
     ("x(2)", "(", "write `x*(`"),
     ("1.2.3", ".3", "write `1.2*.3`"),
     ("0x10", "x10", "write `0*x10`"),
-    ("1e", "e", "write `1*e`"),
+    ("1e", "e", "write `1`"),
+    ("160 W/(m K)", "W", "numbers have no units here"),
     ("1e999", "1e999", "beyond the largest number"),
     ("1e+999-x", "1e+999", "beyond the largest number"),
     ("1/0", "1/0", "its value is inf"),

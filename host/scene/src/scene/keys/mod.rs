@@ -20,6 +20,8 @@ pub struct Section {
     pub kind: Option<&'static str>,
     /// The table in words, as messages have it: "a robin boundary".
     pub what: &'static str,
+    /// Its kind in words; empty where it has none.
+    pub about: &'static str,
     /// The keys that it may hold, `kind` left out.
     pub keys: &'static [Key],
 }
