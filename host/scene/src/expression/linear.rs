@@ -1,7 +1,8 @@
 //! Expressions that are stated as numbers plus numbers times one product: c + k·e.
 
 use super::operation::{Binary, Unary};
-use super::program::{Program, Step};
+use super::program::Program;
+use super::step::Step;
 
 /// Part of two constants up to which they are the same.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;

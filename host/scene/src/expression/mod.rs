@@ -25,6 +25,7 @@ mod parser;
 mod program;
 mod rounded;
 mod sharing;
+mod step;
 #[cfg(test)]
 mod tests;
 

@@ -15,7 +15,8 @@ use std::ops::Range;
 
 use super::lexer::{Kind, Lexer, Token};
 use super::operation::{Binary, FUNCTIONS, Function, Unary};
-use super::program::{Builder, Program, STACK, Step, Variable};
+use super::program::{Builder, Program};
+use super::step::{STACK, Step, Variable};
 use super::{ParseError, Variables};
 
 const DEPTH: usize = 64;

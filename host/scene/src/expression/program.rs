@@ -11,26 +11,7 @@ pub(super) use super::operation::Numbers;
 use super::operation::{Binary, Unary};
 use super::rounded::{Rounded, Roundings};
 use super::sharing::{Order, orders};
-
-/// The most operands that may wait on the stack.
-pub(super) const STACK: usize = 64;
-
-/// One step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Step {
-    Constant(f64),
-    Variable(Variable),
-    Unary(Unary),
-    Binary(Binary),
-}
-
-/// A variable; the discriminant is its place in the point (x, y, t).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Variable {
-    X = 0,
-    Y = 1,
-    T = 2,
-}
+use super::step::{STACK, Step, Variable};
 
 /// Steps that leave one value.
 ///

@@ -9,7 +9,7 @@
 use std::collections::HashMap;
 
 use super::operation::{Binary, Unary};
-use super::program::{STACK, Step, Variable};
+use super::step::{STACK, Step, Variable};
 
 /// What the stack machine does next.
 #[derive(Debug, Clone, Copy, PartialEq)]
