@@ -5,6 +5,7 @@
 //! from the last answer, with the relaxation factor found there.
 
 mod sweeps;
+mod touching;
 
 use signorini_bound::certificate::Certificate;
 use signorini_certify::{
@@ -144,23 +145,7 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Solves<R, S> {
         }
         let unknowns = assembled.edges().counts().unknowns();
         self.u[unknowns..].copy_from_slice(assembled.dirichlet());
-        self.go_with_gaps();
-    }
-
-    /// Edges that were at their gap go with it, but where the way is longer than the range of u: the tolerance may be wider than a
-    /// short way, and an edge that no sweep brings back to its gap would have no force.
-    fn go_with_gaps(&mut self) {
-        let assembled = self.swept.assembled();
-        let ends = self.u.iter().fold([R::INFINITY, -R::INFINITY], |[least, most], &u| {
-            [least.or_smaller(u), most.or_larger(u)]
-        });
-        let range = ends[1] - ends[0];
-        let on_contact = self.u[assembled.edges().counts().free..].iter_mut();
-        for ((u, law), &active) in on_contact.zip(assembled.law().edges()).zip(&self.active) {
-            if active && law.opening(*u).magnitude() <= range {
-                *u = law.gap();
-            }
-        }
+        touching::go_with_gaps(assembled, &mut self.u, &self.active);
     }
 
     fn advance(&mut self) -> Refused<u32> {
@@ -176,10 +161,7 @@ impl<'p, R: Scalar, S: Sweeps<'p, R>> Solves<R, S> {
         self.active.clear();
         if self.is_known {
             self.omega = Some(outcome.omega);
-            let assembled = self.swept.assembled();
-            let on_contact = self.u[assembled.edges().counts().free..].iter();
-            let pairs = on_contact.zip(assembled.law().edges());
-            self.active.extend(pairs.map(|(&u, law)| law.touches(u)));
+            self.active = touching::edges(self.swept.assembled(), &self.u);
         }
         Ok(outcome.sweeps)
     }

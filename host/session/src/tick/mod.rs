@@ -16,6 +16,7 @@ mod falling;
 pub mod half;
 mod intervals;
 pub mod log;
+mod moments;
 mod play;
 mod record;
 pub mod refusals;
@@ -43,7 +44,7 @@ use signorini_solve::{MOST_SWEEPS, Options, ScalarKind, Solution, Start};
 
 use crate::with_module;
 use intervals::Intervals;
-use play::Play;
+use moments::{Done, Play};
 
 /// When a tick happens, and what the inputs are then.
 #[derive(Debug, Clone, PartialEq)]
@@ -168,9 +169,8 @@ pub fn play_on<D: Into<Onward>>(
     budget: &Budget,
     mut done: impl FnMut(&TickRecord, Option<&Solution>) -> Result<D>,
 ) -> Result<Played> {
-    play::in_scalar(problem, begin, moments, budget, &mut |tick, solution| {
-        done(tick, solution).map(Into::into)
-    })
+    let done: Done = &mut |tick, solution| done(tick, solution).map(Into::into);
+    play::of(budget.scalar)(problem, begin, moments, budget, done)
 }
 
 /// Plays `moments` through the controller of `problem`, calling `done` after each, without a solution where the controller
@@ -194,7 +194,7 @@ fn replay_to(
     problem: &Problem,
     moments: &[ScheduledTick],
     (asked, shows_start): (Option<ScalarKind>, bool),
-    done: play::Done,
+    done: Done,
 ) -> Result<(String, Vec<TickRecord>)> {
     let first = moments.first().map_or(0.0, |moment| moment.time);
     with_module(problem, asked, |session, module| {

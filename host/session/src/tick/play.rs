@@ -1,25 +1,20 @@
-//! One play: how its session begins, anew or where another one ended, and what happens at each moment.
-
-use std::sync::Arc;
+//! One play: how its session begins, anew or where another one ended.
 
 use signorini_certify::evolution::Evolution;
 use signorini_intervals::Lasting;
-use signorini_kernel::Error as KernelError;
 use signorini_kernel::mesh::components::PartCounts;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Approach, Loads, Parts, Problem};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::scene::units::Units;
-use signorini_solve::{ScalarKind, Solution, Start, choose_units, in_scene, step_of};
+use signorini_solve::{ScalarKind, Start, choose_units, step_of};
 
 use super::intervals::Intervals;
+use super::moments::{Done, Play, each, is_unsolvable};
 use super::saved::{Moment, Saved};
 use super::window_error::WindowError;
-use super::{Begin, Budget, Onward, Played, ScheduledTick, TickRecord};
+use super::{Begin, Budget, Played, ScheduledTick, TickRecord};
 use crate::{Session, coarse, kernel_tick, solves};
-
-/// Who looks at each tick, and says what follows.
-pub(super) type Done<'d> = &'d mut dyn FnMut(&TickRecord, Option<&Solution>) -> Result<Onward>;
 
 /// A problem at the moment that its session is made for, in the scene's units, and what comes before its first tick.
 struct Begun {
@@ -32,17 +27,15 @@ struct Begun {
     ticks: Vec<TickRecord>,
 }
 
-/// Plays `given` in the scalar of `budget`; both are compiled here, and not wherever ticks are played.
-pub(super) fn in_scalar(
-    given: &Problem,
-    begin: Begin,
-    moments: &[ScheduledTick],
-    budget: &Budget,
-    done: Done,
-) -> Result<Played> {
-    match budget.scalar {
-        ScalarKind::F64 => play::<f64>(given, begin, moments, budget, done),
-        ScalarKind::F32 => play::<f32>(given, begin, moments, budget, done),
+/// How a problem is played.
+type Playing = fn(&Problem, Begin, &[ScheduledTick], &Budget, Done) -> Result<Played>;
+
+/// The same in a scalar. Both are compiled here, and not wherever ticks are played.
+#[inline(never)]
+pub(super) fn of(scalar: ScalarKind) -> Playing {
+    match scalar {
+        ScalarKind::F64 => play::<f64>,
+        ScalarKind::F32 => play::<f32>,
     }
 }
 
@@ -212,101 +205,4 @@ fn unsolvable(problem: &Problem, moments: &[ScheduledTick], done: Done) -> Resul
             Ok(_) => Err(Error::Check("a moment without a solution has one".to_owned())),
         }
     })
-}
-
-/// Records of moments, until `done` stops it.
-fn each(
-    moments: &[ScheduledTick],
-    done: Done,
-    mut tick: impl FnMut(&ScheduledTick) -> Result<(TickRecord, Option<Solution>)>,
-) -> Result<Vec<TickRecord>> {
-    let mut ticks = Vec::new();
-    for moment in moments {
-        let (record, solution) = tick(moment)?;
-        let onward = done(&record, solution.as_ref())?;
-        ticks.push(record);
-        if onward == Onward::Stop {
-            break;
-        }
-    }
-    Ok(ticks)
-}
-
-/// Whether contact cannot hold the loads, or holds them at no one place, or data exclude each other where boundaries meet.
-fn is_unsolvable(error: &Error) -> bool {
-    use KernelError::{Excluded, NoSolution, NotUnique};
-    matches!(error.cause(), Some(NoSolution { .. } | NotUnique { .. } | Excluded { .. }))
-}
-
-/// A session and what reads it.
-pub(super) struct Play<'s> {
-    session: &'s mut dyn Session,
-    intervals: Intervals<'s>,
-    /// Units of the session; records are in the scene's.
-    units: Units,
-    /// The bound of the evolution, of steps in time that have one.
-    evolution: Option<Evolution>,
-    /// Its error, where that is known.
-    error: Option<WindowError>,
-}
-
-impl<'s> Play<'s> {
-    /// Of a session in the scene's units, without a bound of an evolution.
-    pub fn new(session: &'s mut dyn Session, intervals: Intervals<'s>) -> Self {
-        Self { session, intervals, units: Units::default(), evolution: None, error: None }
-    }
-
-    /// Goes through the moments; `problem` stays at the last.
-    pub fn through(
-        &mut self,
-        problem: &mut Problem,
-        moments: &[ScheduledTick],
-        done: Done,
-    ) -> Result<Vec<TickRecord>> {
-        each(moments, done, |moment| match moment.set(problem) {
-            // A controller has its own scalar and looks itself.
-            Err(error) if !is_unsolvable(&error) => Err(error),
-            Err(error) if !matches!(self.intervals, Intervals::Weighed(_)) => {
-                Ok((TickRecord::refused(problem, &error), None))
-            }
-            _ => {
-                let (mut tick, solution) = self.tick(problem)?;
-                if let (Some(error), Some(solution)) = (&mut self.error, &solution) {
-                    tick.window_error = Some(error.advance(moment, solution)?);
-                }
-                Ok((tick, solution))
-            }
-        })
-    }
-
-    /// Answers for `problem`; the next step of a problem in time begins from the answer.
-    fn tick(&mut self, problem: &mut Problem) -> Result<(TickRecord, Option<Solution>)> {
-        match self.session.play(problem) {
-            Ok(_) => {}
-            Err(error)
-                if is_unsolvable(&error) || matches!(self.intervals, Intervals::Weighed(_)) =>
-            {
-                return Ok((TickRecord::refused(problem, &error), None));
-            }
-            Err(error) => return Err(error.at_time(problem.time)),
-        }
-        let answer = self.session.answer(problem);
-        let solution = answer.map_err(|error| error.at_time(problem.time))?;
-        let mut tick = TickRecord::of(problem, &solution)?;
-        tick.intervals = self.intervals.of(problem, (&*self.session, &solution))?;
-        if let Some(evolution) = &mut self.evolution {
-            evolution.advance(&solution.certified.evolution);
-            tick.over_time =
-                self.intervals.over_time(problem, (&solution, evolution.distance()))?;
-        }
-        let window = self.evolution.as_ref().map(Evolution::window);
-        let window = window.or_else(|| self.session.window());
-        let mut tick = tick.with_window(&problem.scene, window);
-        let is_plain = self.units == Units::default();
-        let posed = (!is_plain).then(|| Arc::new(problem.clone()));
-        problem.advance(solution.state());
-        let Some(posed) = posed else { return Ok((tick, Some(solution))) };
-        tick.rescale(problem, &self.units);
-        Ok((tick, Some(in_scene(&posed, &self.units, solution))))
-    }
 }

@@ -109,8 +109,7 @@ fn played<R: Scalar, const WIDTH: usize>(
     ticks: std::ops::Range<u32>,
 ) -> Vec<Vec<R>> {
     let tick = |at| {
-        let inputs = inputs(at).map(R::narrow);
-        let (mut numbers, report) = controller.tick(&inputs).expect("a tick");
+        let (mut numbers, report) = controller.tick(&inputs(at).map(R::narrow)).expect("a tick");
         numbers.push(report.verdict.certificate().expect("a bound").total);
         numbers.push(controller.window().expect("a window").energy);
         numbers
