@@ -129,6 +129,29 @@ fn intervals_and_files_can_be_left_out() {
     assert!(command::refused("solve", &levee, &both).contains("cannot be used with"));
 }
 
+/// One file with the field, the contact, and each output as it is printed; never one that the scene is made of.
+#[test]
+fn a_solution_is_drawn() {
+    let levee = meshes("scenes/levee.toml");
+    let folder = Folder::new();
+    let picture = folder.path("levee.svg").display().to_string();
+    let (status, _, summary) = solve(&levee, &["--draw", &picture]);
+    assert_eq!(status, 0);
+    let svg = std::fs::read_to_string(&picture).expect("a picture");
+    for words in [">in contact</text>", ">Dirichlet</text>", "λ = σ·n − q", "guaranteed", "wet"]
+    {
+        assert!(svg.contains(words), "{words}");
+    }
+    assert_eq!(svg.matches("<svg").count(), svg.matches("</svg>").count());
+    assert!(
+        summary["outputs"].as_object().expect("an object").keys().all(|name| svg.contains(name))
+    );
+    assert!(
+        command::refused("solve", &levee, &["--draw", &levee])
+            .contains("the scene is made of this file")
+    );
+}
+
 /// Three states, each with the flux that belongs to it.
 #[test]
 fn edges_tell_the_side_of_the_gap() {

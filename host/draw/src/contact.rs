@@ -20,7 +20,7 @@ const ZONES: [(ContactState, &str); 2] =
     [(ContactState::Touching, "contact-zone"), (ContactState::Saturated, "saturated-zone")];
 
 /// The two diagrams; `None` without a finite edge of contact.
-pub fn contact(panel: &ScenePanel) -> Option<String> {
+pub fn contact(panel: &ScenePanel) -> Option<Svg> {
     let mut edges: Vec<&ContactEdge> = panel.contact.iter().collect();
     edges.retain(|edge| edge.arc_length.iter().all(|s| s.is_finite()));
     edges.sort_by(|a, b| a.arc_length[0].total_cmp(&b.arc_length[0]));
@@ -37,7 +37,7 @@ pub fn contact(panel: &ScenePanel) -> Option<String> {
     let mut axes = Axes { svg: &mut svg, across, up: with_zero(range, OPENING) };
     diagram(&mut axes, &edges, "opening", "u − ψ", |edge| edge.opening);
     axes.feet(6, "arc length along C");
-    Some(svg.finish())
+    Some(svg)
 }
 
 /// Draws a value that is constant on each edge: the area down to 0, and its upper end as a line.

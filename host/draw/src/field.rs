@@ -5,6 +5,7 @@ use super::arrows::arrows;
 use super::isobands::Surface;
 use super::plane::Plane;
 use super::scale::{extent, plain};
+use super::svg::Svg;
 
 /// Bands of colour; more cannot be told apart.
 const BANDS: u32 = 64;
@@ -16,7 +17,7 @@ const CLASSES: u32 = 24;
 
 /// The picture of a scene, with the |σ| of the longest arrows and a note where an axis is stretched; `None` when its
 /// vertices span no area.
-pub fn field(panel: &ScenePanel) -> Option<(String, Vec<String>)> {
+pub fn field(panel: &ScenePanel) -> Option<(Svg, Vec<String>)> {
     let mut plane = Plane::new(panel, "the solution u over the plane")?;
     let surface = Surface::new(panel, &plane.view, panel.vertex_u.iter().copied());
     if let Some([low, high]) = extent(surface.values()) {
@@ -45,7 +46,7 @@ pub fn errors(panel: &ScenePanel) -> Option<String> {
     let [_, most] = extent(values.iter().copied())?;
     plane
         .bands([0.0, most], CLASSES, "error", |level| cells.around(|at| is_in(&values, at, level)));
-    Some(plane.finish(panel))
+    Some(plane.finish(panel).finish())
 }
 
 /// Whether a cell has a value of at least `level`.

@@ -25,6 +25,7 @@ mod extremes;
 mod field;
 mod figure;
 mod isobands;
+mod legend;
 mod lettering;
 mod look;
 mod markup;
@@ -37,6 +38,7 @@ mod plan;
 mod plane;
 mod scale;
 mod simplify;
+mod solution;
 mod svg;
 mod table;
 #[cfg(test)]
@@ -51,6 +53,7 @@ pub use page::html;
 pub use pareto::{ParetoPlot, ParetoPoint, pareto_file};
 pub use plan::{Plan, PlanBoundary, PlanKind, plan_file};
 pub use scale::plain;
+pub use solution::solution_file;
 pub use table::{Column, Heading, Mark, Table, TableRow};
 pub use tradeoff::{TradePanel, TradeStudy, TradeTarget, Tradeoff};
 

@@ -1,12 +1,13 @@
 //! One solved scene: its pictures side by side, beside them how wrong its answer can be, for someone who does not know
 //! the theory; all its numbers are folded away below.
 
+use super::ScenePanel;
 use super::contact::contact;
 use super::field::{errors, field};
+use super::legend::{Key, boundary_looks, contact_keys};
 use super::markup::{enclosed, folded, list, mark, typeset};
 use super::scale::plain;
 use super::svg::escape;
-use super::{BoundaryKind, ContactState, ScenePanel};
 
 /// The card of a scene, numbered for links to it; that of a test opens below a line.
 pub fn panel((index, scene): (usize, &ScenePanel)) -> String {
@@ -45,23 +46,18 @@ fn body(scene: &ScenePanel) -> String {
 
 fn solution_figure(scene: &ScenePanel) -> String {
     let Some((picture, notes)) = field(scene) else { return String::new() };
+    let picture = picture.finish();
     let notes: String = notes.iter().map(|note| format!("<li>{}</li>", escape(note))).collect();
-    let legend = legend(scene);
+    let legend = entries(boundary_looks(scene));
     format!("<figure>\n{picture}<ul class=\"legend\">{legend}{notes}</ul>\n</figure>\n")
 }
 
 fn contact_figure(scene: &ScenePanel) -> String {
     let Some(picture) = contact(scene) else { return String::new() };
-    let exact = scene.contact.iter().any(|edge| !edge.exact_multiplier.is_empty());
-    let exact = if exact { entry("exact-key", "exact λ") } else { String::new() };
-    let discrete = entry("multiplier-key", "discrete λ");
-    let [touching, saturated] =
-        [ContactState::Touching, ContactState::Saturated].map(|state| state.look()[1]);
-    let mut zones = entry("zone-key", touching);
-    if scene.contact.iter().any(|edge| edge.state == ContactState::Saturated) {
-        zones += &entry("saturated-zone-key", saturated);
-    }
-    format!("<figure>\n{picture}<ul class=\"legend\">{discrete}{exact}{zones}</ul>\n</figure>\n")
+    let picture = picture.finish();
+    let keys = contact_keys(scene).into_iter();
+    let legend = entries(keys.map(|(Key::Line(class) | Key::Area(class), words)| [class, words]));
+    format!("<figure>\n{picture}<ul class=\"legend\">{legend}</ul>\n</figure>\n")
 }
 
 fn error_figure(scene: &ScenePanel) -> String {
@@ -128,17 +124,7 @@ fn facts(scene: &ScenePanel) -> String {
     enclosed("<dl class=\"facts\">", scene.facts.iter().map(entry), "</dl>")
 }
 
-/// The kinds of boundary that the scene has.
-fn legend(scene: &ScenePanel) -> String {
-    let states = [ContactState::Touching, ContactState::Open, ContactState::Saturated];
-    let states =
-        states.into_iter().filter(|state| scene.contact.iter().any(|of| of.state == *state));
-    let kinds = [BoundaryKind::Dirichlet, BoundaryKind::Neumann, BoundaryKind::Robin];
-    let kinds = kinds.into_iter().filter(|kind| scene.boundary.iter().any(|of| of.kind == *kind));
-    let looks = states.map(ContactState::look).chain(kinds.map(BoundaryKind::look));
-    looks.map(|[class, words]| entry(&format!("{class}-key"), words)).collect()
-}
-
-fn entry(key: &str, text: &str) -> String {
-    format!("<li><i class=\"{key}\"></i>{text}</li>")
+/// Keys with their words.
+fn entries<'a>(looks: impl Iterator<Item = [&'a str; 2]>) -> String {
+    looks.map(|[class, words]| format!("<li><i class=\"{class}-key\"></i>{words}</li>")).collect()
 }

@@ -1,6 +1,7 @@
 //! The plan of a scene as a file of its own: what holds on which part of the boundary, and which material lies where.
 
-use super::lettering::{shortened, width};
+use super::legend::{Key, ROW, row};
+use super::lettering::shortened;
 use super::outline::{Segments, rim};
 use super::plane::{MOST_CELLS_WITH_LINES, View, mesh_lines};
 use super::svg::{Anchor, Path, Svg};
@@ -71,9 +72,8 @@ const LETTERS: f64 = 11.5;
 const TITLE: f64 = 17.0;
 /// As many materials as there are colours stand in the legend.
 const MOST_MATERIALS: usize = 6;
-/// Of the legend: where it begins, and how wide a line or an area is in it.
+/// Where the legend begins.
 const MARGIN: f64 = 18.0;
-const KEY: f64 = 22.0;
 
 /// The picture; `None` when the vertices span no area.
 pub fn plan_file(plan: &Plan) -> Option<String> {
@@ -169,23 +169,13 @@ fn inside(panel: &ScenePanel, edge: [u32; 2]) -> Option<[f64; 2]> {
 
 /// The kinds of boundaries and, a line above, the materials.
 fn legend(svg: &mut Svg, plan: &Plan, y: f64) {
-    let mut x = [MARGIN; 2];
-    let mut entry = |line: usize, words: &str, draw: &mut dyn FnMut([f64; 2], &mut Svg)| {
-        let at = [x[line], y - 22.0 * line as f64];
-        draw(at, svg);
-        svg.text("name", [at[0] + KEY + 6.0, at[1]], Anchor::Start, words);
-        x[line] += KEY + 26.0 + width(words, LETTERS);
-    };
-    for kind in PlanKind::ALL {
-        if plan.boundaries.iter().any(|of| of.kind == kind) {
-            let [class, words] = kind.look();
-            entry(0, words, &mut |[x, y], svg| svg.line(class, [x, y - 4.0], [x + KEY, y - 4.0]));
-        }
-    }
-    for (at, (name, _)) in plan.materials.iter().take(MOST_MATERIALS).enumerate() {
-        let class = ground(at);
-        entry(1, name, &mut |[x, y], svg| svg.rectangle(&class, [x, y - 9.0], [x + KEY, y + 2.0]));
-    }
+    let is_met = |kind: &PlanKind| plan.boundaries.iter().any(|of| of.kind == *kind);
+    let kinds = PlanKind::ALL.into_iter().filter(is_met).map(PlanKind::look);
+    row(svg, [MARGIN, y], kinds.map(|[class, words]| (Key::Line(class), words)));
+    let grounds: Vec<String> = (0..MOST_MATERIALS).map(ground).collect();
+    let materials = grounds.iter().zip(&plan.materials);
+    let areas = materials.map(|(class, (name, _))| (Key::Area(class), name.as_str()));
+    row(svg, [MARGIN, y - ROW], areas);
 }
 
 /// The item whose point is nearest to the mean of all points.

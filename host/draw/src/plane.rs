@@ -80,14 +80,14 @@ impl Plane {
     }
 
     /// Draws the mesh (unless its cells are too many), boundary, axes and arrows, and ends the picture.
-    pub fn finish(mut self, panel: &ScenePanel) -> String {
+    pub fn finish(mut self, panel: &ScenePanel) -> Svg {
         if panel.cells().count() <= MOST_CELLS_WITH_LINES {
             self.svg.path("mesh", &mesh_lines(panel, &self.view));
         }
         self.boundary(panel);
         self.axes();
         self.svg.path("arrows", &self.arrows);
-        self.svg.finish()
+        self.svg
     }
 
     /// Draws the rest of the boundary first, so that the contact zone lies on top.

@@ -23,19 +23,22 @@ pub enum Anchor {
 /// A picture being drawn; later shapes cover earlier ones.
 #[derive(Debug)]
 pub struct Svg {
+    /// Width and height.
+    pub size: [f64; 2],
     text: String,
 }
 
 impl Svg {
     /// An empty picture; `label` says to those who cannot see it what it shows.
     pub fn new(width: f64, height: f64, label: &str) -> Self {
+        let size = [width, height];
         let (width, height) = (number(width), number(height));
         let text = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{}\" \
              width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n",
             escape(label)
         );
-        Self { text }
+        Self { size, text }
     }
 
     /// An empty picture that stands outside of a page: on a sheet, with the style sheet inside.
@@ -100,6 +103,13 @@ impl Svg {
             self.text,
             "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{text}{title}</text>"
         );
+    }
+
+    /// A finished picture with its upper left corner at `at`.
+    pub fn nest(&mut self, at: [f64; 2], inner: Self) {
+        let [x, y] = at.map(number);
+        let inner = inner.finish();
+        let _ = write!(self.text, "<g transform=\"translate({x} {y})\">\n{inner}</g>\n");
     }
 
     /// The finished element.

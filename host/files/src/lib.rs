@@ -6,6 +6,7 @@ pub mod contact;
 pub mod digits;
 pub mod edges;
 pub mod fields;
+pub mod panel;
 pub mod pvd;
 pub mod stated;
 pub mod summary;

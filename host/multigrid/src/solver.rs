@@ -7,11 +7,11 @@ use crate::{Failure, Problem, Settings, Solution};
 
 /// √(r·z) of a correction while the set changes, and once it has settled.
 const ROUGH: f64 = 0.1;
-const FINE: f64 = 1e-4;
+const FINE: f64 = 3e-3;
 /// Rounding of a step of the active set, in multiples of the largest |u|: as in the reference.
 const NOISE: f64 = 64.0 * f64::EPSILON;
 /// Corrections of a settled set that do not halve the residual, until rounding is said to end it.
-const PATIENCE: usize = 2;
+const PATIENCE: usize = 4;
 /// Active sets at most.
 const MOST_SETS: usize = 200;
 

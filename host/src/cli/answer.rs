@@ -4,17 +4,19 @@ use std::iter;
 use std::path::Path;
 
 use super::levels;
+use signorini_draw::{ScenePanel, solution_file};
 use signorini_files::answer::{Answer, FileSeconds};
 use signorini_files::digits::{percent_above, rounded, supported};
+use signorini_files::panel::panel;
 use signorini_files::stated::Stated;
 use signorini_intervals::Coverage;
 use signorini_problem::Problem;
 use signorini_problem::functional::wanted;
 use signorini_problem::progress::{say, waiting, warn};
-use signorini_scene::error::Result;
+use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::{Output, Quantity};
 use signorini_solve::adaptive::Stop;
-use signorini_solve::{Solution, SolverKind, energy_norm};
+use signorini_solve::{Solution, SolverKind};
 
 /// From so many unknowns on it is told what files take.
 const LARGE: usize = 100_000;
@@ -47,6 +49,20 @@ impl Told {
     /// Whether the solver came to its end.
     pub fn converged(&self) -> bool {
         self.answer.solution.converged()
+    }
+
+    /// The solution as a picture, with a line for each output.
+    pub fn picture(&self) -> Result<String> {
+        let Answer { problem, solution, outputs, intervals, .. } = &self.answer;
+        let fact = |output: &Output| {
+            (output.name.value.clone(), Stated::of(output, outputs, intervals).words())
+        };
+        let facts = wanted(&problem.scene).iter().map(fact).collect();
+        let panel = ScenePanel { facts, ..panel(problem, solution) };
+        solution_file(&panel).ok_or_else(|| {
+            let file = &problem.scene.mesh.value;
+            InputError::new("the vertices span no area to draw").file(file).into()
+        })
     }
 
     /// Writes the files of a solve, or the summary alone, and says what is in them.
@@ -104,7 +120,7 @@ fn report(answer: &Answer) {
         rounded(force, digits, solution.largest_flux()),
         rounded(solution.contact_length, 3, 0.0)
     ));
-    report_bound(problem, solution, *energy_norm);
+    report_bound(solution, *energy_norm);
     if let Some(errors) = errors {
         say(format_args!(
             "  true errors: |u − u_h|₁ {:.5e}, ‖u − u_h‖ {:.5e}, ‖σ − σ_h‖ {:.5e}, ‖A^½∇(u − u_h)‖ {:.5e}",
@@ -114,19 +130,20 @@ fn report(answer: &Answer) {
 }
 
 /// How wrong each of the two functions can be, or why nobody knows.
-fn report_bound(problem: &Problem, solution: &Solution, energy_norm: Option<f64>) {
+fn report_bound(solution: &Solution, energy_norm: Option<f64>) {
     let Some(bound) = solution.bound else {
         let reason = solution.no_bound.as_ref().map_or_else(String::new, ToString::to_string);
         return say(format_args!("  no error bound: {reason}"));
     };
-    let name = energy_norm::name(problem);
     let part = |of: f64| match energy_norm {
         _ if solution.is_constant(energy_norm) => {
             "the solution is constant up to rounding".to_owned()
         }
-        Some(norm) if norm > of => format!("{} % of {name}", percent_above(of / norm)),
-        Some(norm) => format!("no less than {name} itself, {norm:.2e}"),
-        None => format!("{name} is not known"),
+        Some(norm) if norm > of => {
+            format!("{} % of the energy norm of s", percent_above(of / norm))
+        }
+        Some(norm) => format!("no less than the energy norm of s itself, {norm:.2e}"),
+        None => "the energy norm of s is not known".to_owned(),
     };
     say(format_args!("  error bounds in the energy norm, guaranteed:"));
     say(format_args!(

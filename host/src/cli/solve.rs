@@ -1,12 +1,14 @@
 //! `signorini solve`: one scene, its files.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::answer::Told;
+use super::check_beside;
 use super::levels;
 use super::scene_arguments::{SceneArguments, problem_of};
+use signorini_files::atomic::{writable_file, write_atomically};
 use signorini_intervals::Coverage;
 use signorini_problem::Problem;
 use signorini_problem::progress::{say, waiting, warn};
@@ -25,6 +27,7 @@ const EXAMPLES: &str = "\
 Examples:
   signorini solve meshes/scenes/levee.toml
   signorini solve levee.toml --mesh finer.msh --solver direct --out /tmp/levee
+  signorini solve levee.toml --draw levee.svg               with a picture: u, flux, what is in contact, outputs
   signorini solve levee.toml --scalar f32 --input rain=2e-8
   signorini solve levee.toml --no-intervals --no-files      the solution and its bound, without what takes longest
   signorini solve levee.toml --max-error 5%      refine where the error bound says, until it is below 5 %
@@ -67,6 +70,9 @@ pub struct Arguments {
     /// No intervals of outputs
     #[arg(long, conflicts_with = "intervals")]
     no_intervals: bool,
+    /// Write a picture of the solution: u and the flux, the contact, the outputs
+    #[arg(long, value_name = "FILE.svg")]
+    draw: Option<PathBuf>,
     /// Of all files summary.json alone
     #[arg(long)]
     no_files: bool,
@@ -86,6 +92,10 @@ impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let scene = self.place.scene()?;
         let out = self.place.out()?;
+        if let Some(file) = &self.draw {
+            writable_file("--draw", file)?;
+            check_beside(&scene, "--draw", file)?;
+        }
         self.check(&scene)?;
         let told = match self.max_error {
             None => self.on_its_mesh(&scene)?,
@@ -93,6 +103,10 @@ impl Arguments {
         };
         told.write(&out, !self.no_files)?;
         say(format_args!("  written to {}", out.display()));
+        if let Some(file) = &self.draw {
+            write_atomically(file, told.picture()?.as_bytes())?;
+            say(format_args!("  {} is written", file.display()));
+        }
         // Sweeps that a setting asks for are what was to be done.
         let prescribed =
             self.asked().follows_setting() && scene.setting.is_some_and(|set| set.sweeps.is_some());
