@@ -41,10 +41,11 @@ impl Svg {
         Self { size, text }
     }
 
-    /// An empty picture that stands outside of a page: on a sheet, with the style sheet inside.
+    /// An empty picture that stands outside of a page: on a sheet, with its looks inside, as every program reads them.
     pub fn alone(width: f64, height: f64, label: &str) -> Self {
         let mut svg = Self::new(width, height, label);
-        let _ = writeln!(svg.text, "<style><![CDATA[\n{STYLE}]]></style>");
+        svg.text = svg.text.replacen("<svg ", "<svg fill=\"none\" font-family=\"sans-serif\" ", 1);
+        let _ = writeln!(svg.text, "<style><![CDATA[\n{}]]></style>", plain_looks());
         svg.rectangle("sheet", [0.0, 0.0], [width, height]);
         svg
     }
@@ -117,6 +118,19 @@ impl Svg {
         self.text.push_str("</svg>\n");
         self.text
     }
+}
+
+/// The looks of pictures, with colours in the place of their names: hardly a program but a browser knows variables.
+fn plain_looks() -> String {
+    let (_, named) = STYLE.split_once(":root {").unwrap_or_default();
+    let (named, _) = named.split_once('}').unwrap_or_default();
+    let (_, looks) = STYLE.split_once("/* Pictures: */\n").unwrap_or_default();
+    let (looks, _) = looks.split_once("/* Pages: */").unwrap_or_default();
+    let lines = looks.lines().filter(|line| !line.starts_with(".legend"));
+    let looks: String = lines.flat_map(|line| [line, "\n"]).collect();
+    let colours =
+        named.split(';').filter_map(|entry| entry.trim().strip_prefix("--")?.split_once(": "));
+    colours.fold(looks, |looks, (name, colour)| looks.replace(&format!("var(--{name})"), colour))
 }
 
 /// The outline of one shape or of many that look alike.

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::contact::State;
 use signorini_certify::ErrorBound;
 use signorini_draw::{
     BoundTerms, BoundaryEdge, BoundaryKind, ContactEdge, ContactState, ScenePanel,
@@ -58,19 +59,14 @@ fn contact_edge(
     ContactEdge {
         ends,
         arc_length: [start, start + problem.lengths[edge]],
-        state: state(opening),
+        state: match State::of(problem, solution, contact) {
+            State::Open => ContactState::Open,
+            State::Touching => ContactState::Touching,
+            State::Saturated => ContactState::Saturated,
+        },
         multiplier: solution.multiplier(problem, contact),
         exact_multiplier: exact_multiplier(problem, edge, ends).unwrap_or_default(),
         opening,
-    }
-}
-
-/// Where u is; below the gap the flux is at its limit.
-fn state(opening: f64) -> ContactState {
-    match opening {
-        0.0 => ContactState::Touching,
-        _ if opening < 0.0 => ContactState::Saturated,
-        _ => ContactState::Open,
     }
 }
 

@@ -107,9 +107,13 @@ fn digits_beside(of: &OutputBound, value: f64) -> usize {
     if digits.is_finite() { (digits as usize).clamp(UNKNOWN, 12) } else { UNKNOWN }
 }
 
-/// "27.5 ± 3.6", "(3.31 ± 0.15)e-5": both numbers with the same places, the second rounded up so that all of the interval is said.
+/// An interval as [`around`] writes it.
 pub fn with_error(of: &OutputBound) -> String {
-    let OutputBound { center, plus_minus, .. } = *of;
+    around(of.center, of.plus_minus)
+}
+
+/// "27.5 ± 3.6", "(3.31 ± 0.15)e-5": both numbers with the same places, the second rounded up so that all of the interval is said.
+pub fn around(center: f64, plus_minus: f64) -> String {
     let size = center.abs().max(plus_minus);
     if size == 0.0 || !size.is_finite() || !plus_minus.is_finite() {
         return format!("{center} ± {plus_minus}");

@@ -12,7 +12,8 @@ use signorini_scene::{Error, InputError, Result, Scene};
 pub fn root() -> Result<&'static Path> {
     find().map_err(|why| {
         let hint =
-            "run this command inside of one: it has the standard scenes and what images for boards are built from";
+            "run this command inside of one: it has the standard scenes and what images for boards are built from. \
+             For a mesh of yours begin with `signorini new MESH`";
         InputError::new(why).hint(hint).into()
     })
 }

@@ -201,7 +201,11 @@ impl Meeting {
             let said = format!(
                 "u_D = {above} of boundary.{upper} at ({x}, {y}) lies below the gap ψ = {below} of boundary.{lower}"
             );
-            (self.above, said, "where Dirichlet and contact boundary meet, value ≥ gap is needed")
+            (
+                self.above,
+                said,
+                "where Dirichlet and contact boundary meet, value ≥ gap is needed; a `limit` on the flux of the contact lets u fall below its gap",
+            )
         } else if is_given(self.below) {
             let said = format!(
                 "u_D = {below} of boundary.{lower} at ({x}, {y}) lies above the gap ψ = {above} of boundary.{upper}"

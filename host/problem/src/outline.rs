@@ -105,7 +105,7 @@ fn boundaries(
     let group = |(of, (boundary, &kind)): (Vec<[u32; 2]>, (&Boundary, _))| BoundaryGroup {
         name: boundary.name.value.clone(),
         kind,
-        law: kind.filter(|_| !is_open(&boundary.name.key)).map(|_| law(&boundary.condition)),
+        law: kind.filter(|_| !is_open(&boundary.name.key)).map(|_| law(boundary)),
         length: mesh.length(&of),
         edges: of.len(),
         turn: turn(mesh, &of),
@@ -115,12 +115,12 @@ fn boundaries(
 }
 
 /// A condition with its data: "u ≥ 20, σ·n ≥ 0".
-fn law(condition: &Condition) -> String {
+fn law(boundary: &Boundary) -> String {
     let said = |of: &Datum| match of.value.to_string() {
         long if long.chars().count() > LONGEST => "…".to_owned(),
         short => short,
     };
-    match condition {
+    match &boundary.condition {
         Condition::Dirichlet { value } => format!("u = {}", said(value)),
         Condition::Neumann { flux } => format!("σ·n = {}", said(flux)),
         Condition::Robin { coefficient, ambient } => {
@@ -138,7 +138,9 @@ fn law(condition: &Condition) -> String {
             let least = (!is_endless(flux)).then(|| format!(", σ·n ≥ {}", said(flux)));
             let most = (!is_endless(limit)).then(|| format!(", σ·n ≤ {}", said(limit)));
             let ends = [least, most].map(Option::unwrap_or_default).concat();
-            format!("u {side} {}{ends}", said(gap))
+            // A default stands where the table begins.
+            let default = if gap.span == boundary.name.span { " by default" } else { "" };
+            format!("u {side} {}{default}{ends}", said(gap))
         }
     }
 }

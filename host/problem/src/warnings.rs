@@ -5,7 +5,7 @@ use super::solvability::floating;
 use super::stored;
 use super::{EdgeKind, Problem};
 use signorini_scene::mesh::coincident::{Segment, coincident};
-use signorini_scene::scene::{Condition, Field};
+use signorini_scene::scene::{Condition, Field, Quantity, Scene};
 
 /// The sentences, the gravest first.
 pub(super) fn warnings(problem: &Problem) -> Vec<String> {
@@ -15,6 +15,7 @@ pub(super) fn warnings(problem: &Problem) -> Vec<String> {
         .chain(idle_default(problem))
         .chain(idle_loads(problem))
         .chain(idle_contents(problem))
+        .chain(means_of_two(problem))
         .chain(stored::warnings(problem))
         .collect()
 }
@@ -45,6 +46,24 @@ fn slit(problem: &Problem) -> Option<String> {
          between ({left}, {bottom}) and ({right}, {top}): a slit that only [boundary.default] covers. Merge the nodes \
          there (in Gmsh `Coherence Mesh`); or, if the slit is meant, give it a physical curve and a table"
     ))
+}
+
+/// Means over a boundary whose name a material has, too.
+fn means_of_two(problem: &Problem) -> Vec<String> {
+    let Scene { outputs, materials, .. } = &*problem.scene;
+    let means = outputs.iter().filter(|output| output.quantity == Quantity::Mean);
+    let both = means.filter_map(|output| {
+        let of = output.of.first()?;
+        let is_both = materials.iter().any(|material| material.name.value == of.value);
+        is_both.then(|| {
+            let (output, name) = (&output.name.value, &of.value);
+            format!(
+                "output.{output}: `{name}` is a boundary and a material; the mean is that over the boundary. Give one of \
+                 them another name"
+            )
+        })
+    });
+    both.collect()
 }
 
 /// A default that somebody wrote a condition into, on a boundary that is all named.

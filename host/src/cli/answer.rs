@@ -6,6 +6,7 @@ use std::path::Path;
 use super::levels;
 use signorini_draw::{ScenePanel, solution_file};
 use signorini_files::answer::{Answer, FileSeconds};
+use signorini_files::contact::State;
 use signorini_files::digits::{percent_above, rounded, supported};
 use signorini_files::panel::panel;
 use signorini_files::stated::Stated;
@@ -103,11 +104,29 @@ fn error_of_force(answer: &Answer) -> Option<f64> {
     Some(found.plus_minus + (found.center - force).abs())
 }
 
+/// How many contact edges have their flux at its limit, and how far u is off their gap at most.
+fn below_gap(problem: &Problem, solution: &Solution) -> (usize, f64) {
+    let counts = problem.topology.counts;
+    let limited =
+        (0..counts.contact).filter(|&at| State::of(problem, solution, at) == State::Saturated);
+    let depth = |at: usize| (solution.u[counts.free + at] - solution.gap(problem, at)).abs();
+    limited.map(depth).fold((0, 0.0), |(edges, most), depth| (edges + 1, f64::max(most, depth)))
+}
+
 fn report(answer: &Answer) {
     let Answer { problem, solution, energy_norm, errors, .. } = answer;
     let counts = problem.topology.counts;
+    let limited = match below_gap(problem, solution) {
+        (0, _) => String::new(),
+        (edges, depth) => {
+            format!(
+                "; {edges} at their limit, where u is up to {} off the gap",
+                rounded(depth, 3, 0.0)
+            )
+        }
+    };
     say(format_args!(
-        "  {} unknowns, {} of {} contact edges active",
+        "  {} unknowns, {} of {} contact edges active{limited}",
         counts.unknowns(),
         solution.contact_active,
         counts.contact

@@ -19,6 +19,7 @@ mod shell;
 mod solve;
 mod step_advice;
 mod tick;
+mod tick_report;
 mod tick_setting;
 mod trade;
 

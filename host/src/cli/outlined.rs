@@ -29,11 +29,7 @@ pub(super) fn text(look: &Look) -> String {
         [input.name.value.clone(), place, format!("default {}{range}", input.default)]
     });
     let outputs = scene.outputs.iter().map(|output| {
-        [
-            output.name.value.clone(),
-            output.quantity.kind().to_owned(),
-            output.place("", str::to_owned),
-        ]
+        [output.name.value.clone(), output.quantity.kind().to_owned(), place_of(output)]
     });
     let end = match look.faults.is_empty() {
         true => "\nIt can be solved: `signorini solve` does.",
@@ -85,6 +81,12 @@ fn rows(what: &str, rows: Vec<[String; 3]>) -> String {
         let _ = write!(text, "\n{}", row.trim_end());
         text
     })
+}
+
+/// What an output is taken over.
+fn place_of(output: &Output) -> String {
+    let what = if output.quantity.is_inside() { "material" } else { "boundary" };
+    output.place("", |name| format!("{what} {name}"))
 }
 
 /// The look as a program reads it.

@@ -1,6 +1,6 @@
 //! `signorini tick`: one scene over time, its files.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
 use clap::Args;
@@ -10,6 +10,7 @@ use super::picture::picture;
 use super::scene_arguments::{SceneArguments, problem_of};
 use super::series::Series;
 use super::step_advice::step_advice;
+use super::tick_report::{report, without_interval};
 use super::tick_setting::check_ticks;
 use signorini_draw::chart_file;
 use signorini_files::atomic::{writable_file, write_atomically};
@@ -18,7 +19,7 @@ use signorini_problem::Problem;
 use signorini_problem::progress::{note, say, steps, warn};
 use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh;
-use signorini_scene::scene::{Output, Quantity, Scene};
+use signorini_scene::scene::Scene;
 use signorini_session::tick::columns::{bounds_csv, ticks_csv};
 use signorini_session::tick::refusals::refusals;
 use signorini_session::tick::window_error::without_window_error;
@@ -197,7 +198,8 @@ impl Arguments {
         warn(&refusals(&ticks));
         if !self.no_intervals && !self.baked && work > MOST_INTERVALS {
             say(format_args!(
-                "  no intervals of outputs: {work} unknowns times ticks are more than {MOST_INTERVALS}"
+                "  no intervals of outputs: {work} unknowns times ticks are more than {MOST_INTERVALS}; there are for {} ticks at most",
+                MOST_INTERVALS / problem.topology.counts.unknowns()
             ));
         }
         warn(without_window_error(&scene).as_slice());
@@ -226,52 +228,4 @@ impl Arguments {
         super::write_beside(scene, "--save", place, &saved.text()?)?;
         Ok(true)
     }
-}
-
-fn report(problem: &Problem, model: &str, ticks: &[TickRecord], out: &Path) {
-    let [first, .., last] = [ticks.first(), ticks.last()].map(|tick| tick.map_or(0.0, |t| t.time));
-    let unknowns = problem.topology.counts.unknowns();
-    say(format_args!("{}", problem.scene.title));
-    say(format_args!("  {unknowns} unknowns, {} ticks from t = {first} to {last}", ticks.len()));
-    say(format_args!("  model: {model}"));
-    let mut sweeps: Vec<u32> = ticks.iter().map(|tick| tick.sweeps).collect();
-    let cold = sweeps.first().copied().unwrap_or(0);
-    sweeps.sort_unstable();
-    let (median, most) = (sweeps[sweeps.len() / 2], sweeps[sweeps.len() - 1]);
-    say(format_args!(
-        "  sweeps a tick: {cold} at the first, {median} in the median, {most} at most"
-    ));
-    say(format_args!("  {}", endings(ticks)));
-    say(format_args!("  written to {}", out.display()));
-}
-
-/// Why outputs have no interval, the first reason of each; lengths never have one.
-fn without_interval(scene: &Scene, ticks: &[TickRecord]) -> Vec<String> {
-    let has_none = |of: &Output| {
-        matches!(of.quantity, Quantity::Length | Quantity::Saturated | Quantity::Window)
-    };
-    let outputs = scene.outputs.iter().enumerate().filter(|(_, of)| !has_none(of));
-    let line = |(at, output): (usize, &Output)| {
-        let reasons = ticks.iter().filter_map(|tick| tick.intervals.get(at)?.as_ref().err());
-        let (first, count) = (reasons.clone().next()?, reasons.count());
-        Some(format!(
-            "no interval of {} in {count} of {} ticks: {first}",
-            output.name.value,
-            ticks.len()
-        ))
-    };
-    outputs.filter_map(line).collect()
-}
-
-/// How many ticks ended in which way, in the order of their first.
-fn endings(ticks: &[TickRecord]) -> String {
-    let mut counts: Vec<(Ending, usize)> = Vec::new();
-    for tick in ticks {
-        match counts.iter_mut().find(|(status, _)| *status == tick.status) {
-            Some((_, count)) => *count += 1,
-            None => counts.push((tick.status, 1)),
-        }
-    }
-    let parts = counts.iter().map(|(status, count)| format!("{count} {}", status.name()));
-    parts.collect::<Vec<_>>().join(", ")
 }

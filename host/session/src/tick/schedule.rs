@@ -52,8 +52,17 @@ pub fn moments_after(
             count => count,
         },
         (None, None) => {
-            let hint = "add [time] with step and end to the scene, or give --ticks N or --log FILE";
-            let error = InputError::new("time: missing; it says when the ticks are");
+            let (what, hint) = match scene.time {
+                Some(_) => (
+                    "time.end: missing; it says when the last tick is",
+                    "give it, or --ticks N or --log FILE",
+                ),
+                None => (
+                    "time: missing; it says when the ticks are",
+                    "add [time] with step and end to the scene, or give --ticks N or --log FILE",
+                ),
+            };
+            let error = InputError::new(what);
             return Err(error.file(&scene.path).hint(hint).into());
         }
     };

@@ -1,0 +1,88 @@
+//! What `signorini tick` tells of its ticks.
+
+use std::path::Path;
+
+use signorini_files::digits::rounded;
+use signorini_files::stated::around;
+use signorini_problem::Problem;
+use signorini_problem::progress::say;
+use signorini_scene::scene::{Output, Quantity, Scene};
+use signorini_session::tick::TickRecord;
+use signorini_solve::Ending;
+
+/// Digits of an output.
+const DIGITS: usize = 4;
+
+pub(super) fn report(problem: &Problem, model: &str, ticks: &[TickRecord], out: &Path) {
+    let [first, .., last] = [ticks.first(), ticks.last()].map(|tick| tick.map_or(0.0, |t| t.time));
+    let unknowns = problem.topology.counts.unknowns();
+    say(format_args!("{}", problem.scene.title));
+    say(format_args!("  {unknowns} unknowns, {} ticks from t = {first} to {last}", ticks.len()));
+    say(format_args!("  model: {model}"));
+    let mut sweeps: Vec<u32> = ticks.iter().map(|tick| tick.sweeps).collect();
+    let cold = sweeps.first().copied().unwrap_or(0);
+    sweeps.sort_unstable();
+    let (median, most) = (sweeps[sweeps.len() / 2], sweeps[sweeps.len() - 1]);
+    say(format_args!(
+        "  sweeps a tick: {cold} at the first, {median} in the median, {most} at most"
+    ));
+    say(format_args!("  {}", endings(ticks)));
+    output_lines(&problem.scene, ticks).iter().for_each(|line| say(format_args!("  {line}")));
+    say(format_args!("  written to {}", out.display()));
+}
+
+/// Each output in the last tick that has it, with its interval, of an evolution where there is one, and from where to where it went.
+fn output_lines(scene: &Scene, ticks: &[TickRecord]) -> Vec<String> {
+    let line = |(at, output): (usize, &Output)| {
+        let values = ticks.iter().filter_map(|tick| Some((tick, (*tick.outputs.get(at)?)?)));
+        let (last, value) = values.clone().last()?;
+        let [least, most] = [f64::min, f64::max]
+            .map(|of| values.clone().map(|(_, value)| value).fold(value, of))
+            .map(|value| rounded(value, DIGITS, 0.0));
+        let unit = output.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
+        let step = last.intervals.get(at).and_then(|of| of.as_ref().ok().copied());
+        let known = if scene.stores() { last.over_time.get(at).copied().flatten() } else { step };
+        let known = known.map_or_else(String::new, |[least, most]| {
+            let half = 0.5 * (most - least);
+            format!("; {} is guaranteed", around(least + half, half.next_up()))
+        });
+        Some(format!(
+            "{} {}{unit} at t = {}{known}; {least} to {most} in all ticks",
+            output.name.value,
+            rounded(value, DIGITS, 0.0),
+            last.time
+        ))
+    };
+    scene.outputs.iter().enumerate().filter_map(line).collect()
+}
+
+/// Why outputs have no interval, the first reason of each; lengths never have one.
+pub(super) fn without_interval(scene: &Scene, ticks: &[TickRecord]) -> Vec<String> {
+    let has_none = |of: &Output| {
+        matches!(of.quantity, Quantity::Length | Quantity::Saturated | Quantity::Window)
+    };
+    let outputs = scene.outputs.iter().enumerate().filter(|(_, of)| !has_none(of));
+    let line = |(at, output): (usize, &Output)| {
+        let reasons = ticks.iter().filter_map(|tick| tick.intervals.get(at)?.as_ref().err());
+        let (first, count) = (reasons.clone().next()?, reasons.count());
+        Some(format!(
+            "no interval of {} in {count} of {} ticks: {first}",
+            output.name.value,
+            ticks.len()
+        ))
+    };
+    outputs.filter_map(line).collect()
+}
+
+/// How many ticks ended in which way, in the order of their first.
+fn endings(ticks: &[TickRecord]) -> String {
+    let mut counts: Vec<(Ending, usize)> = Vec::new();
+    for tick in ticks {
+        match counts.iter_mut().find(|(status, _)| *status == tick.status) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((tick.status, 1)),
+        }
+    }
+    let parts = counts.iter().map(|(status, count)| format!("{count} {}", status.name()));
+    parts.collect::<Vec<_>>().join(", ")
+}
