@@ -11,7 +11,7 @@ use signorini_condense::{EvolutionForms, SteppedModel};
 use signorini_problem::scalar::Scalar;
 
 /// Roundings of a term of the start, and of its shape.
-const ROUNDINGS: f64 = 4.0;
+pub(super) const ROUNDINGS: f64 = 4.0;
 
 /// The arrays of [`Evolution`], and what is carried at the start.
 #[derive(Debug, Clone)]
@@ -26,8 +26,9 @@ pub(super) struct Evolving<R> {
 }
 
 impl<R: Scalar> Evolving<R> {
-    /// Narrows the forms of a model in steps. Its start is rounded once: s is off by what that makes of it.
-    pub fn new(of: &EvolutionForms, stepped: &SteppedModel) -> Self {
+    /// Narrows the forms of a model in steps. Terms of its start are rounded with numbers of these `sizes`: s is off by what that
+    /// makes of it.
+    pub fn new(of: &EvolutionForms, stepped: &SteppedModel, sizes: &[f64]) -> Self {
         let ([residual, motion], model) = (&of.lost, &stepped.model);
         let columns = |factor, lost: &Vec<f64>| Columns::new(factor, lost, lost.len());
         let end = |at: usize| u16::try_from(at).unwrap_or(ON_GAP);
@@ -36,8 +37,8 @@ impl<R: Scalar> Evolving<R> {
         let carried = of.start.carried();
         let length = R::narrow(of.length);
         let motion: Columns<R> = columns(&of.motion, motion);
-        let moved = motion.norms.iter().zip(stepped.start());
-        let moved: f64 = moved.map(|(norm, term)| norm.wide() * term.abs()).sum();
+        let moved = motion.norms.iter().zip(sizes);
+        let moved: f64 = moved.map(|(norm, size)| norm.wide() * size).sum();
         let bound = carried.bound + ROUNDINGS * R::EPSILON.wide() * moved / of.start.rate.sqrt();
         Self {
             residual: columns(&of.residual, residual),

@@ -3,7 +3,7 @@
 use signorini_contact::Condensed;
 use signorini_contact::steps::Stepped;
 
-use super::evolution::Evolving;
+use super::evolution::{Evolving, ROUNDINGS};
 use crate::narrow::narrow;
 use signorini_condense::SteppedModel;
 use signorini_problem::scalar::Scalar;
@@ -20,6 +20,34 @@ pub struct Steps<R> {
     pub(super) evolution: Option<Evolving<R>>,
 }
 
+/// The start, and for each of its terms the size of the numbers that it is rounded with. At a contact vertex s − ψ = l + r + d has
+/// three of them, each rounded by itself. It is 0 where it is so but for rounding, and stays on its side elsewhere: the last digit of
+/// a sum that touches would stand on a side that there is not, where the first step has no bound over time.
+fn rounded_start<R: Scalar>(of: &SteppedModel) -> (Vec<R>, Vec<f64>) {
+    let mut begin: Vec<R> = narrow(of.start());
+    let mut sizes: Vec<f64> = of.start().iter().map(|term| term.abs()).collect();
+    let x = of.inputs - 1..of.inputs - 1 + of.model.contact;
+    let first = x.end + of.fading.len();
+    let vertices = of.model.certificate.iter().flat_map(|form| &form.vertices);
+    for (at, of_vertex) in (first..begin.len()).zip(vertices) {
+        let term =
+            |k: usize| of_vertex.weights[k] * of.start()[x.start + of_vertex.edges[k] as usize];
+        let narrowed = |k: usize| {
+            R::narrow(of_vertex.weights[k]) * begin[x.start + of_vertex.edges[k] as usize]
+        };
+        let ([left, right], d) = ([0, 1].map(term), of.start()[at]);
+        let size = left.abs() + right.abs() + d.abs();
+        let (sum, opening) = (narrowed(0) + narrowed(1), left + right + d);
+        let is_zero = opening.abs() <= ROUNDINGS * R::EPSILON.wide() * size;
+        if is_zero || opening * (sum + begin[at]).wide() < 0.0 {
+            begin[at] = R::ZERO - sum;
+        }
+        // What is moved to 0, beside what is rounded.
+        sizes[at] = 2.0 * size;
+    }
+    (begin, sizes)
+}
+
 impl<R: Scalar> Steps<R> {
     /// Narrows what `of` hands on.
     pub fn new(of: &SteppedModel) -> Self {
@@ -27,13 +55,14 @@ impl<R: Scalar> Steps<R> {
             let sums = rows.iter().map(|row| row.iter().map(|entry| entry.abs()).sum());
             R::narrow(sums.fold(0.0, f64::max))
         };
-        let evolution = of.evolution.as_ref().map(|forms| Evolving::new(forms, of));
+        let (begin, sizes) = rounded_start(of);
+        let evolution = of.evolution.as_ref().map(|forms| Evolving::new(forms, of, &sizes));
         let carried = evolution.iter().flat_map(|of| of.begin);
         Self {
             modes: of.modes,
             fading: narrow(&of.fading),
             of_inputs: of.of_inputs.iter().flat_map(|row| narrow(row)).collect(),
-            begin: narrow(of.start()).into_iter().chain(carried).collect(),
+            begin: begin.into_iter().chain(carried).collect(),
             reach: [largest(of.of_contact()), largest(&of.of_inputs)],
             evolution,
         }

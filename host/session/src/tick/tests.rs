@@ -291,6 +291,42 @@ fn contents_and_means_lie_between_what_the_bound_of_the_evolution_says() -> Resu
     Ok(())
 }
 
+/// s − ψ of a start that touches is a sum of rounded numbers: it is 0 for the controller, too, whatever the gap.
+#[test]
+fn condensed_steps_in_f32_have_their_bound_over_time_from_any_gap() -> Result<()> {
+    for (cells, gap) in [Cells::Triangles, Cells::Quads].into_iter().flat_map(|cells| {
+        (-4..8).map(move |k| (cells, format!("{} + 0.15*x", 0.05 * f64::from(k))))
+    }) {
+        let text = format!(
+            r#"
+mesh = "grid"
+material.default = {{ conductivity = "1", capacity = "1" }}
+boundary.dirichlet = {{ kind = "robin", coefficient = "2", ambient = "4*x - 1" }}
+boundary.contact = {{ kind = "contact", gap = "{gap}" }}
+input.air = {{ of = "dirichlet", field = "ambient", pattern = "1" }}
+setting.model = "condensed"
+time.step = 0.1
+"#
+        );
+        let (_, problem) = on_grid(&text, grid(4, cells))?;
+        let moments: Vec<_> = (1..4).map(|tick| at(0.1 * f64::from(tick))).collect();
+        for scalar in [ScalarKind::F32, ScalarKind::F64] {
+            let (model, ticks) = replay(&problem, &moments, (Some(scalar), true), |_, _| Ok(()))?;
+            assert!(
+                model.starts_with("condensed") && ticks[0].contact_length > Some(0.0),
+                "{model}"
+            );
+            let windows = ticks.iter().map(|tick| tick.window);
+            assert!(
+                windows.clone().all(|of| of.is_some()),
+                "{gap}: {:?}",
+                windows.collect::<Vec<_>>()
+            );
+        }
+    }
+    Ok(())
+}
+
 /// What comes in and is not let out is stored: ∫ c u follows the balance of each step.
 #[test]
 fn the_content_follows_the_balance_of_its_steps() -> Result<()> {
