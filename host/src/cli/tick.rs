@@ -10,7 +10,7 @@ use super::picture::picture;
 use super::scene_arguments::{SceneArguments, problem_of};
 use super::series::Series;
 use super::step_advice::step_advice;
-use super::tick_report::{report, without_interval};
+use super::tick_report::{contradiction, report, without_interval, without_window};
 use super::tick_setting::check_ticks;
 use signorini_draw::chart_file;
 use signorini_files::atomic::{writable_file, write_atomically};
@@ -202,7 +202,9 @@ impl Arguments {
                 MOST_INTERVALS / problem.topology.counts.unknowns()
             ));
         }
-        warn(without_window_error(&scene).as_slice());
+        let lost = if self.baked { without_window(&scene, &ticks) } else { None };
+        let told = [lost, contradiction(&ticks), without_window_error(&scene)];
+        warn(&told.into_iter().flatten().collect::<Vec<_>>());
         without_interval(&scene, &ticks).iter().for_each(|line| say(format_args!("  {line}")));
         if interrupted.load(Ordering::Relaxed) {
             let played = ticks.iter().filter(|tick| tick.status != Ending::Start).count();

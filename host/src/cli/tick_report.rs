@@ -74,6 +74,39 @@ pub(super) fn without_interval(scene: &Scene, ticks: &[TickRecord]) -> Vec<Strin
     outputs.filter_map(line).collect()
 }
 
+/// That errors against [exact] are above their bounds by more than quadrature and rounding explain.
+pub(super) fn contradiction(ticks: &[TickRecord]) -> Option<String> {
+    /// Parts of a bound, and roundings, that may be due to the rule that measures errors.
+    const ALLOWED: [f64; 2] = [1.05, 100.0];
+    let above = |tick: &&TickRecord| {
+        let Some(bound) = &tick.bound else { return false };
+        let is_above =
+            |error: f64, most: f64| error > ALLOWED[0] * most + ALLOWED[1] * bound.rounding;
+        let steady = tick.combined.is_some_and(|error| is_above(error, bound.total));
+        let window = tick.window_error.zip(tick.window);
+        steady || window.is_some_and(|(error, [energy, _])| is_above(error, energy))
+    };
+    let (first, count) = (ticks.iter().find(above)?, ticks.iter().filter(above).count());
+    Some(format!(
+        "in {count} of {} ticks, the first at t = {}, the error against [exact] is above its bound. Either [exact] is not the \
+         solution of these data, inputs and start, or the bound is wrong",
+        ticks.len(),
+        first.time
+    ))
+}
+
+/// That steps of a controller have lost their bound over time; steps in the desk's own ticks say why they have none.
+pub(super) fn without_window(scene: &Scene, ticks: &[TickRecord]) -> Option<String> {
+    let without = |tick: &&TickRecord| tick.contact_force.is_some() && tick.window.is_none();
+    let first = ticks.iter().find(without).filter(|_| scene.stores())?;
+    let count = ticks.iter().filter(without).count();
+    Some(format!(
+        "no bound over time in {count} of {} ticks, the first at t = {}: the controller has none then, or no bound at all",
+        ticks.len(),
+        first.time
+    ))
+}
+
 /// How many ticks ended in which way, in the order of their first.
 fn endings(ticks: &[TickRecord]) -> String {
     let mut counts: Vec<(Ending, usize)> = Vec::new();

@@ -45,6 +45,7 @@ use signorini_solve::{MOST_SWEEPS, Options, ScalarKind, Solution, Start};
 use crate::with_module;
 use intervals::Intervals;
 use moments::{Done, Play};
+use window_error::WindowError;
 
 /// When a tick happens, and what the inputs are then.
 #[derive(Debug, Clone, PartialEq)]
@@ -198,15 +199,18 @@ fn replay_to(
 ) -> Result<(String, Vec<TickRecord>)> {
     let first = moments.first().map_or(0.0, |moment| moment.time);
     with_module(problem, asked, |session, module| {
-        let (mut problem, mut ticks) = (problem.clone(), Vec::new());
+        let (mut problem, mut ticks, mut error) = (problem.clone(), Vec::new(), None);
         if let Some(start) = Start::of(&problem, first)? {
             problem = start.stepping(&problem)?;
+            if let Some(of) = &start.evolution {
+                error = WindowError::begin(&start, of.seconds())?;
+            }
             if shows_start {
                 ticks.push(TickRecord::of_start(&start)?);
                 done(&ticks[0], Some(&start.solution))?;
             }
         }
-        let mut play = Play::new(session, Intervals::Weighed(module));
+        let mut play = Play { error, ..Play::new(session, Intervals::Weighed(module)) };
         ticks.extend(play.through(&mut problem, moments, done)?);
         Ok((module.name.clone(), ticks))
     })
