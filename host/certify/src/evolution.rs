@@ -72,6 +72,15 @@ impl Evolution {
         self.bound
     }
 
+    /// ‖c^½(u − s)‖ at most where a controller's window has this energy and reaches back so far, `since` a stated start or, where
+    /// there is none, a steady one: B from what [`Rates::energy`] makes of it.
+    pub fn distance_of([energy, seconds]: [f64; 2], since: Option<f64>) -> f64 {
+        /// What rounding in f32 may hide.
+        const UP: f64 = 1.0 + 1e-5;
+        let weights = since.map_or(1.0, |time| -(-time / seconds).exp_m1());
+        energy * (2.0 * PHI * seconds * weights).sqrt() * UP
+    }
+
     /// The energy and how far back it reaches.
     pub fn window(&self) -> [f64; 2] {
         [self.energy(), self.seconds()]

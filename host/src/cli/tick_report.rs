@@ -35,7 +35,7 @@ pub(super) fn report(problem: &Problem, model: &str, ticks: &[TickRecord], out: 
 fn output_lines(scene: &Scene, ticks: &[TickRecord]) -> Vec<String> {
     let line = |(at, output): (usize, &Output)| {
         let values = ticks.iter().filter_map(|tick| Some((tick, (*tick.outputs.get(at)?)?)));
-        let (last, value) = values.clone().last()?;
+        let (last, value) = values.clone().next_back()?;
         let [least, most] = [f64::min, f64::max]
             .map(|of| values.clone().map(|(_, value)| value).fold(value, of))
             .map(|value| rounded(value, DIGITS, 0.0));
@@ -63,6 +63,10 @@ pub(super) fn without_interval(scene: &Scene, ticks: &[TickRecord]) -> Vec<Strin
     };
     let outputs = scene.outputs.iter().enumerate().filter(|(_, of)| !has_none(of));
     let line = |(at, output): (usize, &Output)| {
+        // Where the evolution has one, nothing is missed that a step alone would have.
+        if ticks.iter().any(|tick| tick.over_time.get(at).is_some_and(Option::is_some)) {
+            return None;
+        }
         let reasons = ticks.iter().filter_map(|tick| tick.intervals.get(at)?.as_ref().err());
         let (first, count) = (reasons.clone().next()?, reasons.count());
         Some(format!(

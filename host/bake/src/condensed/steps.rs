@@ -30,11 +30,9 @@ fn rounded_start<R: Scalar>(of: &SteppedModel) -> (Vec<R>, Vec<f64>) {
     let first = x.end + of.fading.len();
     let vertices = of.model.certificate.iter().flat_map(|form| &form.vertices);
     for (at, of_vertex) in (first..begin.len()).zip(vertices) {
-        let term =
-            |k: usize| of_vertex.weights[k] * of.start()[x.start + of_vertex.edges[k] as usize];
-        let narrowed = |k: usize| {
-            R::narrow(of_vertex.weights[k]) * begin[x.start + of_vertex.edges[k] as usize]
-        };
+        let term = |k: usize| of_vertex.weights[k] * of.start()[x.start + of_vertex.edges[k]];
+        let narrowed =
+            |k: usize| R::narrow(of_vertex.weights[k]) * begin[x.start + of_vertex.edges[k]];
         let ([left, right], d) = ([0, 1].map(term), of.start()[at]);
         let size = left.abs() + right.abs() + d.abs();
         let (sum, opening) = (narrowed(0) + narrowed(1), left + right + d);

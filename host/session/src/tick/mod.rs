@@ -199,9 +199,12 @@ fn replay_to(
 ) -> Result<(String, Vec<TickRecord>)> {
     let first = moments.first().map_or(0.0, |moment| moment.time);
     with_module(problem, asked, |session, module| {
-        let (mut problem, mut ticks, mut error) = (problem.clone(), Vec::new(), None);
+        let (mut problem, mut ticks) = (problem.clone(), Vec::new());
+        let (mut error, mut stated) = (None, None);
         if let Some(start) = Start::of(&problem, first)? {
             problem = start.stepping(&problem)?;
+            let time = problem.scene.time.as_ref();
+            stated = time.and_then(|of| of.initial.as_ref()).map(|_| start.problem.time);
             if let Some(of) = &start.evolution {
                 error = WindowError::begin(&start, of.seconds())?;
             }
@@ -210,7 +213,7 @@ fn replay_to(
                 done(&ticks[0], Some(&start.solution))?;
             }
         }
-        let mut play = Play { error, ..Play::new(session, Intervals::Weighed(module)) };
+        let mut play = Play { error, stated, ..Play::new(session, Intervals::Weighed(module)) };
         ticks.extend(play.through(&mut problem, moments, done)?);
         Ok((module.name.clone(), ticks))
     })

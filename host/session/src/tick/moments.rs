@@ -51,12 +51,21 @@ pub(super) struct Play<'s> {
     pub evolution: Option<Evolution>,
     /// Its error, where that is known.
     pub error: Option<WindowError>,
+    /// When a controller's steps began from a stated u.
+    pub stated: Option<f64>,
 }
 
 impl<'s> Play<'s> {
     /// Of a session in the scene's units, without a bound of an evolution.
     pub fn new(session: &'s mut dyn Session, intervals: Intervals<'s>) -> Self {
-        Self { session, intervals, units: Units::default(), evolution: None, error: None }
+        Self {
+            session,
+            intervals,
+            units: Units::default(),
+            evolution: None,
+            error: None,
+            stated: None,
+        }
     }
 
     /// Goes through the moments; `problem` stays at the last.
@@ -97,13 +106,20 @@ impl<'s> Play<'s> {
         let solution = answer.map_err(|error| error.at_time(problem.time))?;
         let mut tick = TickRecord::of(problem, &solution)?;
         tick.intervals = self.intervals.of(problem, (&*self.session, &solution))?;
-        if let Some(evolution) = &mut self.evolution {
-            evolution.advance(&solution.certified.evolution);
-            tick.over_time =
-                self.intervals.over_time(problem, (&solution, evolution.distance()))?;
+        let evolved = match &mut self.evolution {
+            Some(evolution) => {
+                evolution.advance(&solution.certified.evolution);
+                Some((evolution.window(), evolution.distance()))
+            }
+            None => self.session.window().map(|window| {
+                let since = self.stated.map(|start| problem.time - start);
+                (window, Evolution::distance_of(window, since))
+            }),
+        };
+        if let Some((_, distance)) = evolved {
+            tick.over_time = self.intervals.over_time(problem, (&solution, distance))?;
         }
-        let window = self.evolution.as_ref().map(Evolution::window);
-        let window = window.or_else(|| self.session.window());
+        let window = evolved.map(|(window, _)| window);
         let mut tick = tick.with_window(&problem.scene, window);
         let is_plain = self.units == Units::default();
         let posed = (!is_plain).then(|| Arc::new(problem.clone()));

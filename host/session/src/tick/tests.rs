@@ -291,6 +291,59 @@ fn contents_and_means_lie_between_what_the_bound_of_the_evolution_says() -> Resu
     Ok(())
 }
 
+/// Controllers say how far their evolution is off, as the desk's own ticks do: contents and means lie in what that leaves.
+#[test]
+fn controllers_have_intervals_of_what_is_stored() -> Result<()> {
+    let text = storing(1.0, 0.0, 0.1).text.replace("output.sure = { kind = \"window\" }\n", "");
+    let heat = "8*sign(cos(9*t))";
+    assert!(text.contains(heat));
+    let text =
+        text.replace(heat, "0") + "input.q = { of = \"source\", field = \"f\", pattern = \"8\" }\n";
+    let moments = |parts: usize| -> Vec<_> {
+        let tick = |k: u32| {
+            let time = 0.1 * f64::from(k);
+            ScheduledTick { time, inputs: vec![(0, (9.0 * time).cos().signum())] }
+        };
+        (1..=10).flat_map(|k| vec![tick(k); parts]).collect()
+    };
+    let played = |(n, parts): (u32, usize)| -> Result<Vec<TickRecord>> {
+        let mut scene = Scene::parse(&text, Path::new("a.toml"))?;
+        scene.set_step(0.1 / parts as f64);
+        let problem = Problem::new(&scene, grid(n, Cells::Triangles))?;
+        let budget = Budget { shows_start: false, ..Budget::of(&scene) };
+        let ticks = play(&problem, None, &moments(parts), &budget, |_, _| Ok(()))?;
+        Ok(ticks.into_iter().skip(parts - 1).step_by(parts).collect())
+    };
+    let (truth, plain) = (played((16, 4))?, played((4, 1))?);
+    for (model, scalar) in ["full", "condensed"]
+        .into_iter()
+        .flat_map(|model| [ScalarKind::F32, ScalarKind::F64].map(|scalar| (model, scalar)))
+    {
+        let text = format!("{text}setting.model = \"{model}\"\n");
+        let scene = Scene::parse(&text, Path::new("a.toml"))?;
+        let problem = Problem::new(&scene, grid(4, Cells::Triangles))?;
+        let asked = (Some(scalar), false);
+        let (name, ticks) = replay(&problem, &moments(1), asked, |_, _| Ok(()))?;
+        assert!(name.starts_with(model), "{name}");
+        for ((tick, truth), plain) in ticks.iter().zip(&truth).zip(&plain) {
+            for at in 0..3 {
+                let ([least, most], value) =
+                    (tick.over_time[at].unwrap(), truth.outputs[at].unwrap());
+                assert!(
+                    least <= value && value <= most,
+                    "{name}: {at}: {value} in [{least}, {most}]"
+                );
+                let [below, above] = plain.over_time[at].unwrap();
+                assert!(
+                    most - least <= 1.5 * (above - below),
+                    "{name}: {at}: {least} {most}, {below} {above}"
+                );
+            }
+        }
+    }
+    Ok(())
+}
+
 /// s − ψ of a start that touches is a sum of rounded numbers: it is 0 for the controller, too, whatever the gap.
 #[test]
 fn condensed_steps_in_f32_have_their_bound_over_time_from_any_gap() -> Result<()> {
