@@ -54,8 +54,7 @@ pub fn judged(case: &Trajectory) -> Result<JudgedTrajectory> {
     let last = &own.answers[ticks];
     let no_bound = last.no_bound.as_ref().map(ToString::to_string);
     // A finer mesh does not hold s_old where that follows curved data.
-    let step =
-        (last.bound.is_some() && case.is_affine).then(|| own.step(case, ticks)).transpose()?;
+    let step = if case.is_affine { own.step(case, ticks)? } else { None };
     let dt = case.step;
     let rate = own.records[1].window.map(|[_, seconds]| dt * 0.5 / (0.1 * seconds));
     let (mut windows, mut of_condensed) = (Vec::new(), Vec::new());
@@ -140,7 +139,7 @@ impl Played {
         Ok(problem)
     }
 
-    fn step(&self, case: &Trajectory, tick: usize) -> Result<Judged> {
+    fn step(&self, case: &Trajectory, tick: usize) -> Result<Option<Judged>> {
         let begin: State<f64> = self.answers[tick - 1].state();
         let problem = self.at(case, tick)?.stepping(case.step, begin)?;
         judge(&problem, &self.answers[tick], 1)

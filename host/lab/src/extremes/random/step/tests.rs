@@ -39,7 +39,7 @@ fn materials() -> [String; 2] {
 
 fn judged(scene: &Scene, mesh: Mesh, scalar: ScalarKind, sweeps: Option<u32>) -> Judged {
     let (step, last) = second_step(scene, mesh, scalar, sweeps);
-    judge(&step, &last, 2).unwrap()
+    judge(&step, &last, 2).unwrap().unwrap()
 }
 
 /// The second step, in which f has another sign, and its answer after so many sweeps.
