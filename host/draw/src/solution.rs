@@ -83,7 +83,8 @@ mod tests {
             assert!(svg.contains(words), "{words}");
         }
         assert_eq!(svg.matches("<svg").count(), svg.matches("</svg>").count());
-        assert!(!svg.contains("NaN"));
+        assert!(!svg.contains("NaN") && !svg.contains("var("));
+        assert!(svg.contains(".contact-zone { fill: #d9124e; fill-opacity: 0.08; }"));
         let alone = ScenePanel { contact: Vec::new(), ..panel };
         assert!(!solution_file(&alone).expect("a picture").contains("u − ψ"));
         assert!(solution_file(&ScenePanel::default()).is_none());

@@ -20,6 +20,10 @@ pub enum Anchor {
     End,
 }
 
+/// How a picture of its own begins: paths are lines unless they say so, and a narrow window shrinks it.
+const ALONE: &str =
+    "<svg fill=\"none\" font-family=\"sans-serif\" style=\"max-width:100%;height:auto\" ";
+
 /// A picture being drawn; later shapes cover earlier ones.
 #[derive(Debug)]
 pub struct Svg {
@@ -44,7 +48,7 @@ impl Svg {
     /// An empty picture that stands outside of a page: on a sheet, with its looks inside, as every program reads them.
     pub fn alone(width: f64, height: f64, label: &str) -> Self {
         let mut svg = Self::new(width, height, label);
-        svg.text = svg.text.replacen("<svg ", "<svg fill=\"none\" font-family=\"sans-serif\" ", 1);
+        svg.text = svg.text.replacen("<svg ", ALONE, 1);
         let _ = writeln!(svg.text, "<style><![CDATA[\n{}]]></style>", plain_looks());
         svg.rectangle("sheet", [0.0, 0.0], [width, height]);
         svg
@@ -109,7 +113,7 @@ impl Svg {
     /// A finished picture with its upper left corner at `at`.
     pub fn nest(&mut self, at: [f64; 2], inner: Self) {
         let [x, y] = at.map(number);
-        let inner = inner.finish();
+        let inner = inner.finish().replacen("<svg ", "<svg overflow=\"visible\" ", 1);
         let _ = write!(self.text, "<g transform=\"translate({x} {y})\">\n{inner}</g>\n");
     }
 
@@ -130,7 +134,18 @@ fn plain_looks() -> String {
     let looks: String = lines.flat_map(|line| [line, "\n"]).collect();
     let colours =
         named.split(';').filter_map(|entry| entry.trim().strip_prefix("--")?.split_once(": "));
-    colours.fold(looks, |looks, (name, colour)| looks.replace(&format!("var(--{name})"), colour))
+    colours.fold(looks, |looks, (name, colour)| {
+        looks.replace(&format!("var(--{name})"), &plain(colour))
+    })
+}
+
+/// A colour as older programs read it, of a fill: its last two digits of eight are an opacity.
+fn plain(colour: &str) -> String {
+    let opacity = colour.get(7..9).and_then(|digits| u8::from_str_radix(digits, 16).ok());
+    match opacity {
+        Some(of) => format!("{}; fill-opacity: {:.2}", &colour[..7], f64::from(of) / 255.0),
+        None => colour.to_owned(),
+    }
 }
 
 /// The outline of one shape or of many that look alike.

@@ -82,8 +82,7 @@ impl<'a, const WIDTH: usize> Solver<'a, WIDTH> {
                 continue;
             }
             let Measure { scale, scaled } = self.measure();
-            waited = if scaled <= 0.5 * best { 0 } else { waited + 1 };
-            best = best.min(scaled);
+            (best, waited) = if scaled <= 0.5 * best { (scaled, 0) } else { (best, waited + 1) };
             let is_done = scaled <= settings.tolerance && error <= settings.accuracy * scale;
             if is_done || waited > PATIENCE {
                 return Ok(self.conclude(scaled));

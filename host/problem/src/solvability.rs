@@ -123,8 +123,9 @@ fn refused(problem: &Problem, error: signorini_kernel::Error) -> InputError {
         E::NoSolution { cell } => (
             format!("no solution: nothing holds {} against its loads", near(cell)),
             format!(
-                "without a Dirichlet or Robin boundary ∫f + ∫g + ∫q, what sources, Neumann and contact boundaries bring in at least, must be < 0 where there is contact, and where its flux \
-                 has a limit ∫f + ∫g + ∫limit must be > 0; 0 where there is none (0: at most {size})"
+                "without a Dirichlet or Robin boundary ∫f + ∫g + ∫q must be < 0 where there is contact, and where its flux \
+                 has a limit ∫f + ∫g + ∫limit must be > 0; 0 where there is none (0: at most {size}). These are what sources, \
+                 Neumann boundaries and contact bring in"
             ),
         ),
         E::NotUnique { cell } => (

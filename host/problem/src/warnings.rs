@@ -53,15 +53,13 @@ fn means_of_two(problem: &Problem) -> Vec<String> {
     let Scene { outputs, materials, .. } = &*problem.scene;
     let means = outputs.iter().filter(|output| output.quantity == Quantity::Mean);
     let both = means.filter_map(|output| {
-        let of = output.of.first()?;
-        let is_both = materials.iter().any(|material| material.name.value == of.value);
-        is_both.then(|| {
-            let (output, name) = (&output.name.value, &of.value);
-            format!(
-                "output.{output}: `{name}` is a boundary and a material; the mean is that over the boundary. Give one of \
-                 them another name"
-            )
-        })
+        let is_both = |name: &str| materials.iter().any(|material| material.name.value == name);
+        let of = output.of.iter().find(|of| is_both(&of.value))?;
+        let (output, name) = (&output.name.value, &of.value);
+        Some(format!(
+            "output.{output}: `{name}` is a boundary and a material; the mean is that over the boundary. Give one of them \
+             another name"
+        ))
     });
     both.collect()
 }

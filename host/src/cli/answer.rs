@@ -107,8 +107,12 @@ fn error_of_force(answer: &Answer) -> Option<f64> {
 /// How many contact edges have their flux at its limit, and how far u is off their gap at most.
 fn below_gap(problem: &Problem, solution: &Solution) -> (usize, f64) {
     let counts = problem.topology.counts;
-    let limited =
-        (0..counts.contact).filter(|&at| State::of(problem, solution, at) == State::Saturated);
+    // Where u may only be below the gap, edges there are free, and at no limit.
+    let is_limited = |&at: &usize| {
+        State::of(problem, solution, at) == State::Saturated
+            && problem.loads.flux_range(at).ends()[0].is_finite()
+    };
+    let limited = (0..counts.contact).filter(is_limited);
     let depth = |at: usize| (solution.u[counts.free + at] - solution.gap(problem, at)).abs();
     limited.map(depth).fold((0, 0.0), |(edges, most), depth| (edges + 1, f64::max(most, depth)))
 }

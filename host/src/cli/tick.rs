@@ -198,7 +198,7 @@ impl Arguments {
         warn(&refusals(&ticks));
         if !self.no_intervals && !self.baked && work > MOST_INTERVALS {
             say(format_args!(
-                "  no intervals of outputs: {work} unknowns times ticks are more than {MOST_INTERVALS}; there are for {} ticks at most",
+                "  no intervals of outputs: {work} unknowns times ticks are more than {MOST_INTERVALS}; up to {} ticks have them",
                 MOST_INTERVALS / problem.topology.counts.unknowns()
             ));
         }

@@ -43,11 +43,13 @@ fn output_lines(scene: &Scene, ticks: &[TickRecord]) -> Vec<String> {
         let step = last.intervals.get(at).and_then(|of| of.as_ref().ok().copied());
         let known = if scene.stores() { last.over_time.get(at).copied().flatten() } else { step };
         let known = known.map_or_else(String::new, |[least, most]| {
-            let half = 0.5 * (most - least);
-            format!("; {} is guaranteed", around(least + half, half.next_up()))
+            let middle = least + 0.5 * (most - least);
+            let half = (most - middle).max(middle - least);
+            let half = if half > 0.0 { half.next_up() } else { 0.0 };
+            format!("; {} is guaranteed", around(middle, half))
         });
         Some(format!(
-            "{} {}{unit} at t = {}{known}; {least} to {most} in all ticks",
+            "{} {}{unit} at t = {}{known}; {least} to {most} in all ticks that have it",
             output.name.value,
             rounded(value, DIGITS, 0.0),
             last.time
@@ -101,11 +103,16 @@ pub(super) fn contradiction(ticks: &[TickRecord]) -> Option<String> {
 
 /// That steps of a controller have lost their bound over time; steps in the desk's own ticks say why they have none.
 pub(super) fn without_window(scene: &Scene, ticks: &[TickRecord]) -> Option<String> {
-    let without = |tick: &&TickRecord| tick.contact_force.is_some() && tick.window.is_none();
+    let is_asked = scene.setting.is_none_or(|setting| setting.certificate);
+    // A stated start has none: weights fade into a past that is not there.
+    let without = |tick: &&TickRecord| {
+        let is_answer = tick.status != Ending::Start && tick.contact_force.is_some();
+        is_asked && is_answer && tick.window.is_none()
+    };
     let first = ticks.iter().find(without).filter(|_| scene.stores())?;
     let count = ticks.iter().filter(without).count();
     Some(format!(
-        "no bound over time in {count} of {} ticks, the first at t = {}: the controller has none then, or no bound at all",
+        "no bound over time in {count} of {} ticks, the first at t = {}: a step has no bound there, or nothing tells how the past fades. It does not come back",
         ticks.len(),
         first.time
     ))

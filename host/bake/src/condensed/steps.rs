@@ -22,12 +22,20 @@ pub struct Steps<R> {
 
 /// The start, and for each of its terms the size of the numbers that it is rounded with. At a contact vertex s − ψ = l + r + d has
 /// three of them, each rounded by itself. It is 0 where it is so but for rounding, and stays on its side elsewhere: the last digit of
-/// a sum that touches would stand on a side that there is not, where the first step has no bound over time.
+/// a sum that touches would stand on a side that does not exist, where the first step has no bound over time.
 fn rounded_start<R: Scalar>(of: &SteppedModel) -> (Vec<R>, Vec<f64>) {
     let mut begin: Vec<R> = narrow(of.start());
     let mut sizes: Vec<f64> = of.start().iter().map(|term| term.abs()).collect();
     let x = of.inputs - 1..of.inputs - 1 + of.model.contact;
     let first = x.end + of.fading.len();
+    // What moves s is what a step makes of a change, and all of it that the states take before they fade.
+    for (k, fading) in of.fading.iter().enumerate() {
+        let taken = |row: &[f64], from: usize| -> f64 {
+            row.iter().zip(&of.start()[from..]).map(|(c, term)| (c * term).abs()).sum()
+        };
+        let taken = taken(&of.of_inputs[k], 0) + taken(&of.of_contact()[k], x.start);
+        sizes[x.end + k] = (sizes[x.end + k] + taken) / (1.0 - fading).max(f64::EPSILON);
+    }
     let vertices = of.model.certificate.iter().flat_map(|form| &form.vertices);
     for (at, of_vertex) in (first..begin.len()).zip(vertices) {
         let term = |k: usize| of_vertex.weights[k] * of.start()[x.start + of_vertex.edges[k]];

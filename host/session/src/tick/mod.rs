@@ -204,7 +204,7 @@ fn replay_to(
         if let Some(start) = Start::of(&problem, first)? {
             problem = start.stepping(&problem)?;
             let time = problem.scene.time.as_ref();
-            stated = time.and_then(|of| of.initial.as_ref()).map(|_| start.problem.time);
+            stated = time.filter(|of| of.initial.is_some()).map(|of| [0.0, of.step]);
             if let Some(of) = &start.evolution {
                 error = WindowError::begin(&start, of.seconds())?;
             }

@@ -51,8 +51,8 @@ pub(super) struct Play<'s> {
     pub evolution: Option<Evolution>,
     /// Its error, where that is known.
     pub error: Option<WindowError>,
-    /// When a controller's steps began from a stated u.
-    pub stated: Option<f64>,
+    /// How long a controller's answered steps have gone on from a stated u, and a step.
+    pub stated: Option<[f64; 2]>,
 }
 
 impl<'s> Play<'s> {
@@ -83,12 +83,29 @@ impl<'s> Play<'s> {
             }
             _ => {
                 let (mut tick, solution) = self.tick(problem)?;
-                if let (Some(error), Some(solution)) = (&mut self.error, &solution) {
-                    tick.window_error = Some(error.advance(moment, solution)?);
-                }
+                tick.window_error = self.advance_error(moment, solution.as_ref())?;
                 Ok((tick, solution))
             }
         })
+    }
+
+    /// The error over time after an answer, where it is known: from the first tick on that has no s, as one that is refused or not
+    /// certified, nobody knows it.
+    fn advance_error(
+        &mut self,
+        moment: &ScheduledTick,
+        answer: Option<&Solution>,
+    ) -> Result<Option<f64>> {
+        let answer = answer.filter(|of| !of.certified.vertices.is_empty());
+        let (Some(mut error), Some(answer)) = (self.error.take(), answer) else { return Ok(None) };
+        let now = match error.advance(moment, answer) {
+            Ok(now) => now,
+            // What this machine refuses a controller may have answered.
+            Err(why) if is_unsolvable(&why) => return Ok(None),
+            Err(why) => return Err(why),
+        };
+        self.error = Some(error);
+        Ok(Some(now))
     }
 
     /// Answers for `problem`; the next step of a problem in time begins from the answer.
@@ -106,14 +123,16 @@ impl<'s> Play<'s> {
         let solution = answer.map_err(|error| error.at_time(problem.time))?;
         let mut tick = TickRecord::of(problem, &solution)?;
         tick.intervals = self.intervals.of(problem, (&*self.session, &solution))?;
+        if let Some([since, step]) = &mut self.stated {
+            *since += *step;
+        }
         let evolved = match &mut self.evolution {
             Some(evolution) => {
                 evolution.advance(&solution.certified.evolution);
                 Some((evolution.window(), evolution.distance()))
             }
             None => self.session.window().map(|window| {
-                let since = self.stated.map(|start| problem.time - start);
-                (window, Evolution::distance_of(window, since))
+                (window, Evolution::distance_of(window, self.stated.map(|[since, _]| since)))
             }),
         };
         if let Some((_, distance)) = evolved {

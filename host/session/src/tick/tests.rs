@@ -344,6 +344,36 @@ fn controllers_have_intervals_of_what_is_stored() -> Result<()> {
     Ok(())
 }
 
+/// u = x at all times: a controller has the error that its bound over time is for, and without a certificate neither.
+#[test]
+fn controllers_know_the_error_over_time_where_they_have_a_certificate() -> Result<()> {
+    for (model, certificate) in
+        [("full", true), ("condensed", true), ("full", false), ("condensed", false)]
+    {
+        let text = format!(
+            r#"
+mesh = "grid"
+material.default = {{ conductivity = "1", capacity = "1" }}
+boundary.dirichlet = {{ kind = "dirichlet", value = "x" }}
+boundary.contact = {{ kind = "contact", gap = "-5" }}
+exact = {{ u = "x", gradient = ["1", "0"] }}
+setting = {{ model = "{model}", certificate = {certificate} }}
+time = {{ step = 0.1, initial = "x" }}
+"#
+        );
+        let (_, problem) = on_grid(&text, grid(4, Cells::Triangles))?;
+        let moments: Vec<_> = (1..4).map(|tick| at(0.1 * f64::from(tick))).collect();
+        let (_, ticks) = replay(&problem, &moments, (None, true), |_, _| Ok(()))?;
+        assert_eq!(ticks.len(), 4);
+        for tick in &ticks[1..] {
+            let found = tick.window_error.zip(tick.window);
+            assert_eq!(found.is_some(), certificate, "{model}, {certificate}: {tick:?}");
+            assert!(found.is_none_or(|(error, [energy, _])| error <= energy), "{model}: {found:?}");
+        }
+    }
+    Ok(())
+}
+
 /// s − ψ of a start that touches is a sum of rounded numbers: it is 0 for the controller, too, whatever the gap.
 #[test]
 fn condensed_steps_in_f32_have_their_bound_over_time_from_any_gap() -> Result<()> {

@@ -36,10 +36,11 @@ impl Judged {
 
 /// Judges the answer of the step `problem` by that on a mesh refined `levels` times; nothing where one of them has no bound.
 pub fn judge(problem: &Problem, answer: &Solution, levels: u32) -> Result<Option<Judged>> {
+    let Some(bound) = answer.bound else { return Ok(None) };
     let finer = finer(problem, levels)?;
     let options = Options { solver: SolverKind::Factor, averages: true, ..Options::default() };
     let truth = solve(&finer, &options)?;
-    let (Some(bound), Some(of_truth)) = (answer.bound, truth.bound) else { return Ok(None) };
+    let Some(of_truth) = truth.bound else { return Ok(None) };
     let nesting = Nesting { levels, cut: None };
     let (own, its) = (MeshSolution::of(problem, answer)?, MeshSolution::of(&finer, &truth)?);
     let apart = apart(&own, &its, &nesting, &gauss(4))?;
