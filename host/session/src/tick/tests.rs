@@ -322,6 +322,8 @@ fn controllers_have_intervals_of_what_is_stored() -> Result<()> {
         let text = format!("{text}setting.model = \"{model}\"\n");
         let scene = Scene::parse(&text, Path::new("a.toml"))?;
         let problem = Problem::new(&scene, grid(4, Cells::Triangles))?;
+        // The condensed one has a single state.
+        let wider = if model == "full" { 1.3 } else { 2.0 };
         let asked = (Some(scalar), false);
         let (name, ticks) = replay(&problem, &moments(1), asked, |_, _| Ok(()))?;
         assert!(name.starts_with(model), "{name}");
@@ -335,7 +337,7 @@ fn controllers_have_intervals_of_what_is_stored() -> Result<()> {
                 );
                 let [below, above] = plain.over_time[at].unwrap();
                 assert!(
-                    most - least <= 1.5 * (above - below),
+                    most - least <= wider * (above - below),
                     "{name}: {at}: {least} {most}, {below} {above}"
                 );
             }
