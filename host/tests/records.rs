@@ -1,4 +1,4 @@
-//! The page on robustness quotes the committed records of extremes, fuzzing and mutants.
+//! Pages quote the committed records of extremes, trajectories, fuzzing and mutants.
 
 use serde_json::Value;
 
@@ -10,11 +10,15 @@ fn read(path: &str) -> String {
 }
 
 /// Every phrase stands on the page, wherever its lines break.
+fn page_says(page: &str, phrases: &[String]) {
+    let text = read(page);
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let missing: Vec<_> = phrases.iter().filter(|phrase| !text.contains(*phrase)).collect();
+    assert!(missing.is_empty(), "{page} lacks {missing:?}");
+}
+
 fn the_page_says(phrases: &[String]) {
-    let page = read("docs/robustness.md");
-    let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
-    let missing: Vec<_> = phrases.iter().filter(|phrase| !page.contains(*phrase)).collect();
-    assert!(missing.is_empty(), "docs/robustness.md lacks {missing:?}");
+    page_says("docs/robustness.md", phrases);
 }
 
 /// What a record has by name.
@@ -53,6 +57,57 @@ fn the_page_quotes_the_record_of_random_scenes() {
         "Of {} scenes of seed {seed} {correct} are correct, {poor} certified but poor, {refused} refused, {wrong} wrong.",
         all.unwrap_or_default()
     )]);
+}
+
+/// What the judge could not say is no broken bound.
+#[test]
+fn the_page_on_time_quotes_the_record_of_trajectories() {
+    let record = json(repository("host/benches/extremes/trajectories.json"));
+    let of = |what: &str| record[what].as_u64().expect("a count");
+    let violations = record["violations"].as_object().expect("violations by case");
+    let is_unjudged = |what: &Value| what.as_str().is_some_and(|what| what.contains("no bound"));
+    assert!(violations.values().all(is_unjudged), "{violations:?}");
+    let spread = |name: &str| &record["spreads"][name];
+    for kind in ["over time", "over time, condensed", "of a step"] {
+        let most = spread(&format!("error over bound, {kind}"))[2].as_f64();
+        assert!(most.is_some_and(|most| most < 1.0), "{kind}: {most:?}");
+    }
+    let median = |name: &str| spread(&format!("bound over error, {name}"))[1].as_f64();
+    let medians = [
+        "over time, steady start, to the end",
+        "over time, stated start, to the end",
+        "over time, steady start, cut off",
+        "over time, stated start, cut off",
+    ];
+    let [a, b, c, d] = medians.map(|name| median(name).unwrap_or_else(|| panic!("{name}")));
+    let most = |end: &str| -> f64 {
+        let of = |start: &str| {
+            spread(&format!("bound over error, over time, {start} start, {end}"))[2].as_f64()
+        };
+        ["steady", "stated"]
+            .map(|start| of(start).expect("a largest"))
+            .into_iter()
+            .fold(0.0, f64::max)
+    };
+    let [x, y] = ["to the end", "cut off"].map(most);
+    page_says(
+        "docs/time.md",
+        &[
+            format!(
+                "Of {} trajectories of seed {} {} have a bound over time, judged in {} ticks, and {} a condensed controller as well",
+                of("cases"),
+                record["seed"],
+                of("with_window"),
+                of("ticks"),
+                of("condensed")
+            ),
+            format!(
+                "{a:.1} and {b:.1} times that distance in the median, from a steady and a stated start, and {c:.1} and {d:.1} times where sweeps are cut off"
+            ),
+            format!("{x:.0} times, and {y:.0} times where sweeps are cut off"),
+            format!("in {} of them", violations.len()),
+        ],
+    );
 }
 
 #[test]
