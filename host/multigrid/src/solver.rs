@@ -7,7 +7,7 @@ use crate::{Failure, Problem, Settings, Solution};
 
 /// √(r·z) of a correction while the set changes, and once it has settled.
 const ROUGH: f64 = 0.1;
-const FINE: f64 = 3e-3;
+const FINE: f64 = 1e-3;
 /// Rounding of a step of the active set, in multiples of the largest |u|: as in the reference.
 const NOISE: f64 = 64.0 * f64::EPSILON;
 /// Corrections of a settled set that do not halve the residual, until rounding is said to end it.
