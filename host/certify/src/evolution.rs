@@ -75,7 +75,7 @@ impl Evolution {
     /// ‖c^½(u − s)‖ at most where a controller's window has this energy and reaches back so far, `since` a stated start or, where
     /// there is none, a steady one: B from what [`Rates::energy`] makes of it.
     pub fn distance_of([energy, seconds]: [f64; 2], since: Option<f64>) -> f64 {
-        /// What rounding in f32 may hide.
+        /// Room for rounding in f32.
         const UP: f64 = 1.0 + 1e-5;
         let weights = since.map_or(1.0, |time| -(-time / seconds).exp_m1());
         energy * (2.0 * PHI * seconds * weights).sqrt() * UP

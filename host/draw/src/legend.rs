@@ -10,7 +10,7 @@ pub const ROW: f64 = 22.0;
 const KEY: f64 = 22.0;
 const LETTERS: f64 = 11.5;
 
-/// What a row shows beside its words, in the look of a class.
+/// A key beside its words, in the look of a class.
 #[derive(Debug, Clone, Copy)]
 pub enum Key<'a> {
     /// A line.
@@ -45,7 +45,7 @@ pub fn boundary_looks(scene: &ScenePanel) -> impl Iterator<Item = [&'static str;
     states.map(ContactState::look).chain(kinds.map(BoundaryKind::look))
 }
 
-/// What the diagrams along the contact of a solved scene show.
+/// Keys of the diagrams along the contact of a solved scene.
 pub fn contact_keys(scene: &ScenePanel) -> Vec<(Key<'static>, &'static str)> {
     let has_exact = scene.contact.iter().any(|edge| !edge.exact_multiplier.is_empty());
     let zone = |state, class| {

@@ -1,4 +1,4 @@
-//! What `signorini tick` tells of its ticks.
+//! Lines that `signorini tick` prints of its ticks.
 
 use std::path::Path;
 
