@@ -8,7 +8,8 @@ use super::{BoundaryKind, ContactState, ScenePanel};
 pub const ROW: f64 = 22.0;
 /// Width of a key.
 const KEY: f64 = 22.0;
-const LETTERS: f64 = 11.5;
+/// Size of letters beside keys, and of names.
+pub const LETTERS: f64 = 11.5;
 
 /// A key beside its words, in the look of a class.
 #[derive(Debug, Clone, Copy)]

@@ -1,10 +1,10 @@
 //! The plan of a scene as a file of its own: what holds on which part of the boundary, and which material lies where.
 
-use super::legend::{Key, ROW, row};
+use super::legend::{Key, LETTERS, ROW, row};
 use super::lettering::shortened;
 use super::outline::{Segments, rim};
 use super::plane::{MOST_CELLS_WITH_LINES, View, mesh_lines};
-use super::svg::{Anchor, Path, Svg};
+use super::svg::{Anchor, MARGIN, Path, Svg};
 use super::{BoundaryKind, ScenePanel};
 
 /// A scene that has not been solved.
@@ -67,13 +67,8 @@ const FOOT: f64 = 84.0;
 const APART: f64 = 12.0;
 /// The part of a normal that points aside, below which an edge counts as flat.
 const FLAT: f64 = 0.35;
-const LETTERS: f64 = 11.5;
-/// Size of the letters of a title: bold ones of 15 pixels are as wide.
-const TITLE: f64 = 17.0;
 /// As many materials as there are colours stand in the legend.
 const MOST_MATERIALS: usize = 6;
-/// Where the legend begins.
-const MARGIN: f64 = 18.0;
 
 /// The picture; `None` when the vertices span no area.
 pub fn plan_file(plan: &Plan) -> Option<String> {
@@ -82,8 +77,7 @@ pub fn plan_file(plan: &Plan) -> Option<String> {
     let size = [2.0 * SIDES + across, TOP + down + FOOT];
     let title = &plan.panel.title;
     let mut svg = Svg::alone(size[0], size[1], &format!("{title}: what stands where"));
-    let short = shortened(title, TITLE, size[0] - 36.0);
-    svg.abridged("title", [18.0, 28.0], Anchor::Start, &short, title);
+    svg.heading(title);
     materials(&mut svg, plan, &view);
     if plan.panel.cells().count() <= MOST_CELLS_WITH_LINES {
         svg.path("grid", &mesh_lines(&plan.panel, &view));

@@ -3,20 +3,16 @@
 use super::ScenePanel;
 use super::contact::contact;
 use super::field::field;
-use super::legend::{Key, ROW, boundary_looks, contact_keys, row};
+use super::legend::{Key, LETTERS, ROW, boundary_looks, contact_keys, row};
 use super::lettering::shortened;
-use super::svg::{Anchor, Svg};
+use super::svg::{Anchor, MARGIN, Svg};
 
-const MARGIN: f64 = 18.0;
 /// Above the first picture: room for the title.
 const TOP: f64 = 46.0;
 /// Between two parts.
 const APART: f64 = 16.0;
 /// No picture is narrower: titles and facts have to be read.
 const NARROWEST: f64 = 660.0;
-/// Size of the letters of a title: bold ones of 15 pixels are as wide.
-const TITLE: f64 = 17.0;
-const LETTERS: f64 = 11.5;
 
 /// The picture; `None` when the vertices span no area.
 pub fn solution_file(panel: &ScenePanel) -> Option<String> {
@@ -29,8 +25,7 @@ pub fn solution_file(panel: &ScenePanel) -> Option<String> {
     let width = line.as_ref().map_or(0.0, |line| line.size[0]).max(plane.size[0]).max(NARROWEST);
     let height = TOP + plane.size[1] + APART + ROW * rows as f64 + below + APART;
     let mut svg = Svg::alone(width, height, &format!("{}: the solution", panel.title));
-    let title = shortened(&panel.title, TITLE, width - 2.0 * MARGIN);
-    svg.abridged("title", [MARGIN, 28.0], Anchor::Start, &title, &panel.title);
+    svg.heading(&panel.title);
     let mut y = TOP + plane.size[1] + APART;
     svg.nest([0.0, TOP], plane);
     row(

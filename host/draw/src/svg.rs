@@ -6,6 +6,13 @@
 
 use std::fmt::Write;
 
+use super::lettering::shortened;
+
+/// From the side of a picture of its own to its title and to legends below.
+pub const MARGIN: f64 = 18.0;
+/// Size of the letters of a title: bold ones of 15 pixels are as wide.
+const TITLE: f64 = 17.0;
+
 /// The colours and measures of every page and picture.
 pub const STYLE: &str = include_str!("style.css");
 
@@ -108,6 +115,12 @@ impl Svg {
             self.text,
             "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{text}{title}</text>"
         );
+    }
+
+    /// The title of a picture of its own, as much of it as there is room for.
+    pub fn heading(&mut self, title: &str) {
+        let short = shortened(title, TITLE, self.size[0] - 2.0 * MARGIN);
+        self.abridged("title", [MARGIN, 28.0], Anchor::Start, &short, title);
     }
 
     /// A finished picture with its upper left corner at `at`.
