@@ -56,7 +56,7 @@ pub struct Effort {
 #[derive(Debug, Clone)]
 pub struct RandomCase {
     pub number: u32,
-    /// The feature of its data, in every other case.
+    /// The feature of its data, in seven of ten cases.
     pub feature: Option<Feature>,
     /// Lines along which a finer mesh is cut for that.
     pub lines: Vec<Line>,
@@ -70,11 +70,16 @@ pub struct RandomCase {
 }
 
 impl RandomCase {
-    /// Case `number` of the run with this seed: an odd one has a feature, each in turn.
+    /// Case `number` of the run with this seed: of ten all have a feature but the first, fourth and seventh, each in turn.
     pub fn draw(seed: u64, number: u32) -> Self {
-        let (pair, is_odd) = (number / 2, !number.is_multiple_of(2));
-        let feature = is_odd.then(|| Feature::ALL[pair as usize % Feature::ALL.len()]);
-        let mut random = Random::of_case(if is_odd { !seed } else { seed }, pair);
+        let (tens, unit) = (number / 10, number % 10);
+        let is_plain = unit != 9 && unit.is_multiple_of(3);
+        let featured = 7 * tens + unit - unit.div_ceil(3);
+        let feature = (!is_plain).then(|| Feature::ALL[featured as usize % Feature::ALL.len()]);
+        let mut random = match feature {
+            None => Random::of_case(seed, 3 * tens + unit / 3),
+            Some(_) => Random::of_case(!seed, featured),
+        };
         let truth = match (feature, random.below(10)) {
             (Some(Feature::Cancellation), _) | (None, 0..2) => Yardstick::Catalogue,
             (None, 2..5) => Yardstick::Made,

@@ -3,7 +3,7 @@
 //! ```text
 //!   mesh, function ─► catalogue, made, data, feature ─► Case ─► attempt ─► measure (exact, or nested) ─► verdict ─► record
 //! ```
-//! Case k of a seed depends on nothing but k and the seed, so that each can be had alone. Every odd one has a `feature`.
+//! Case k of a seed depends on nothing but k and the seed, so that each can be had alone. Seven of ten have a `feature`.
 
 mod attempt;
 mod case;
