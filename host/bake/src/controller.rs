@@ -15,6 +15,8 @@ pub(super) struct Parts<'a> {
     pub has_ranges: bool,
     /// The rows that inputs have to meet.
     pub exclusions: Vec<String>,
+    /// The outputs that are the bound over time.
+    pub windows: Vec<&'a str>,
     /// Whether every tick starts anew.
     pub is_cold: bool,
     /// The type of the memory.
@@ -34,6 +36,7 @@ pub(super) fn controller(parts: &Parts) -> String {
         limits,
         has_ranges,
         exclusions,
+        windows,
         is_cold,
         storage,
         zeros,
@@ -50,6 +53,7 @@ pub(super) fn controller(parts: &Parts) -> String {
             rows.join(", ")
         ),
     };
+    let windows = told(windows);
     let ranges = if *has_ranges { "&Inputs::RANGES" } else { "&[]" };
     format!(
         "
@@ -80,7 +84,7 @@ impl controller::Scene for Scene {{
     fn ranges(&self) -> &[[Scalar; 2]] {{
         {ranges}
     }}
-{exclusions}
+{exclusions}{windows}
     fn limits(&self) -> Limits<Scalar> {{
         LIMITS
     }}
@@ -104,6 +108,23 @@ impl controller::Baked for Scene {{
     const CONTROLLER: Controller = Controller::of(Scene, {zeros});
 }}
 "
+    )
+}
+
+/// What puts the bound over time into these outputs.
+fn told(windows: &[&str]) -> String {
+    if windows.is_empty() {
+        return String::new();
+    }
+    let puts = windows.iter().map(|name| format!("        outputs.{name} = window;\n"));
+    format!(
+        "
+    const TELLS_WINDOW: bool = true;
+
+    fn tell(&self, outputs: &mut Outputs, window: Scalar) {{
+{}    }}
+",
+        puts.collect::<String>()
     )
 }
 

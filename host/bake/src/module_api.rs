@@ -8,7 +8,7 @@ use super::meanings::{effect, meaning, said};
 use super::text::{code, prose};
 use signorini_image::checkout;
 use signorini_problem::Problem;
-use signorini_problem::functional::wanted;
+use signorini_problem::functional::{wanted, windows};
 use signorini_problem::inputs;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::scene::Input;
@@ -26,6 +26,8 @@ pub struct ModuleApi {
     /// As the scene gives them.
     pub(crate) given_ranges: Vec<[f64; 2]>,
     pub(crate) outputs: Vec<Item>,
+    /// Those that are the bound over time.
+    pub(crate) windows: Vec<usize>,
     /// The length of a step in time, where ticks are such.
     pub(crate) step: Option<f64>,
 }
@@ -54,6 +56,7 @@ impl ModuleApi {
             defaults: scene.inputs.iter().map(|input| input.default).collect(),
             given_ranges: scene.inputs.iter().map(Input::interval).collect(),
             outputs: items(wanted.iter().map(|output| output.name.value.as_str()), meanings),
+            windows: windows(scene),
             step: scene.step(),
         }
     }
@@ -61,6 +64,11 @@ impl ModuleApi {
     /// The ranges of the inputs in the scalar of the target; none where the scene declares none.
     pub fn ranges<R: Scalar>(&self) -> Vec<[R; 2]> {
         inputs::ranges(&self.given_ranges)
+    }
+
+    /// The outputs that are the bound over time.
+    pub(super) fn told(&self) -> impl Iterator<Item = &str> {
+        self.windows.iter().map(|&at| self.outputs[at].identifier.as_str())
     }
 
     /// Whether an input has a range.

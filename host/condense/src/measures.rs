@@ -32,7 +32,7 @@ impl Columns<'_> {
             Functional::Saturated(lengths) => {
                 Measure::Saturated { always: 0.0, of_contact: self.by_unknown(lengths) }
             }
-            // A controller with a window is refused.
+            // The controller puts the window in its place.
             Functional::Bound | Functional::Window => Measure::Bound,
         };
         Ok(functionals(problem)?.iter().map(measure).collect())

@@ -44,6 +44,12 @@ pub fn wanted(scene: &Scene) -> Cow<'_, [Output]> {
     Cow::Owned(defaults.into())
 }
 
+/// Which of the outputs [`wanted`] are the bound over time.
+pub fn windows(scene: &Scene) -> Vec<usize> {
+    let outputs = scene.outputs.iter().enumerate();
+    outputs.filter(|(_, of)| of.quantity == Quantity::Window).map(|(at, _)| at).collect()
+}
+
 /// Functionals of the outputs [`wanted`], in that order.
 ///
 /// # Errors

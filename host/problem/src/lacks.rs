@@ -11,7 +11,7 @@ use std::fmt;
 
 use signorini_kernel::mesh::components::PartCounts;
 
-use super::property::{MOST_NUMBERS, Property, window};
+use super::property::{MOST_NUMBERS, Property};
 use super::{Parts, Problem};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::scene::term::first_in_time;
@@ -146,10 +146,6 @@ impl Approach {
                 Condensation | Modes | Tick | Export | Baselines => Some(no_steps),
                 Stepped | FullModel | Factor | FactoredTicks => None,
             },
-            Property::Window => match self {
-                Condensation | Modes | Stepped | FullModel => Some(no_window),
-                Tick | Factor | FactoredTicks | Export | Baselines => None,
-            },
         }
     }
 }
@@ -223,17 +219,6 @@ fn no_steps(problem: &Problem) -> InputError {
     let place = stores.map(|material| &material.capacity);
     refused_at(problem, place, "steps in time are not for this model".to_owned())
         .hint("take the full model (--full, model = \"full\"); without `capacity` the controller is the steady one")
-}
-
-/// A controller has the bound over time beside its outputs.
-fn no_window(problem: &Problem) -> InputError {
-    let name = window(problem).map(|output| &output.name);
-    refused_at(
-        problem,
-        name,
-        "a controller has the bound over time in `window`, not as an output".to_owned(),
-    )
-    .hint("remove this output, or take `bound`, that of each step; `signorini tick` has both")
 }
 
 fn one_factor(problem: &Problem) -> InputError {

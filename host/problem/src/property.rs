@@ -6,7 +6,6 @@ use signorini_kernel::mesh::components::PartCounts;
 
 use super::Problem;
 use signorini_scene::scene::term::first_in_time;
-use signorini_scene::scene::{Output, Quantity};
 
 /// Numbers that the fields behind a condensed model may hold together: 1.6 GB.
 pub(super) const MOST_NUMBERS: usize = 200_000_000;
@@ -45,8 +44,6 @@ properties! {
     Limit,
     /// The problem is a step in time.
     Step,
-    /// An output is the bound over time.
-    Window,
 }
 
 impl Property {
@@ -66,7 +63,6 @@ impl Property {
             Self::TransferInput => problem.scene.transfer_input().is_some(),
             Self::Limit => problem.scene.limited().is_some(),
             Self::Step => problem.loads.step.is_some(),
-            Self::Window => window(problem).is_some(),
         }
     }
 }
@@ -82,14 +78,8 @@ impl fmt::Display for Property {
             Self::TransferInput => "a transfer coefficient that an input changes",
             Self::Limit => "a contact boundary whose flux has a limit",
             Self::Step => "a step in time",
-            Self::Window => "an output that is the bound over time",
         })
     }
-}
-
-/// The first output that is the bound over time.
-pub(super) fn window(problem: &Problem) -> Option<&Output> {
-    problem.scene.outputs.iter().find(|output| output.quantity == Quantity::Window)
 }
 
 /// u and σ·n of a field for every contact edge and input, and the matrix on the contact edges.

@@ -37,6 +37,12 @@ pub trait Scene {
     /// Whether every tick starts anew.
     fn is_cold(&self) -> bool;
 
+    /// Whether an output is the bound of the evolution.
+    const TELLS_WINDOW: bool = false;
+
+    /// Puts the bound of the evolution, infinite where there is none, into the outputs that are it.
+    fn tell(&self, _outputs: &mut Self::Outputs, _window: Self::Scalar) {}
+
     /// Lends the model, and how it is solved, to `take`.
     fn lend<T>(
         &self,
@@ -229,7 +235,14 @@ impl<S: Scene> Controller<S> {
             self.storage.reset();
         }
         let Self { scene, storage } = self;
-        scene.lend(|model, setup| storage.tick(model, setup, terms, limits, deadline))
+        let answer = scene.lend(|model, setup| storage.tick(model, setup, terms, limits, deadline));
+        if !S::TELLS_WINDOW {
+            return answer;
+        }
+        let (mut answer, window) = (answer?, self.window());
+        let energy = window.map_or(S::Scalar::INFINITY, |window| window.energy);
+        self.scene.tell(&mut answer.outputs, energy);
+        Ok(answer)
     }
 
     /// The least and the largest value that each output may have for the exact solution of the scene, in its own unit, where

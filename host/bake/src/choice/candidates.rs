@@ -11,6 +11,7 @@ use crate::narrow::exclusions;
 use crate::setting::checked;
 use crate::trial::{self, Trial};
 use signorini_condense::CondensedModel;
+use signorini_problem::functional::windows;
 use signorini_problem::inputs::InputSpace;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::{InputError, Result};
@@ -110,6 +111,7 @@ fn condensed_as<R: Scalar>(
     let baked = baked.map_err(unfit)?;
     let mut baked = baked.with_setting(setting);
     baked.exclusions = exclusions(&origin.exclusions);
+    baked.windows = windows(scene);
     let costs = Costs::measured();
     let of_states =
         baked.steps.as_ref().map_or(0, |of| of.count() * (condensate.contact + baked.inputs));

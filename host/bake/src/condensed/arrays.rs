@@ -81,6 +81,8 @@ pub struct Baked<R: Scalar> {
     pub(super) ranges: Vec<[R; 2]>,
     /// Rows that inputs without a range have to meet.
     pub(crate) exclusions: Vec<R>,
+    /// Outputs that are the bound over time.
+    pub(crate) windows: Vec<usize>,
     pub(super) outputs: Vec<Output<Vec<R>, R>>,
     pub(super) bound: Result<Bound<R>, String>,
 }
@@ -133,6 +135,7 @@ impl<R: Scalar> Baked<R> {
             parts: condensate.balances.iter().map(Balance::new).collect(),
             ranges: ranges(condensate.ranges.get(1..).unwrap_or_default()),
             exclusions: Vec::new(),
+            windows: Vec::new(),
             outputs: condensate.outputs.iter().map(|of| of.map(|c| narrow(c), R::narrow)).collect(),
             bound,
         };

@@ -141,6 +141,12 @@ impl<R: Scalar> Scene for Desk<'_, R> {
         self.0.cold
     }
 
+    const TELLS_WINDOW: bool = true;
+
+    fn tell(&self, Values(outputs): &mut Values<R>, window: R) {
+        self.0.windows.iter().for_each(|&at| outputs[at] = window);
+    }
+
     fn lend<T>(&self, take: impl FnOnce(&Baked<R>, &()) -> T) -> T {
         take(self.0, &())
     }

@@ -124,6 +124,7 @@ fn controller<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         limits: &format!("Limits {{ error: 0.0, share: 0.0, sweeps: {sweeps} }}"),
         has_ranges: face.has_ranges(),
         exclusions: baked.exclusions.iter().map(|number| format!("{number:?}")).collect(),
+        windows: face.told().collect(),
         is_cold: baked.cold,
         storage: &storage,
         zeros: &zeros,

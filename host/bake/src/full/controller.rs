@@ -202,6 +202,12 @@ impl<R: Scalar, const WIDTH: usize> Scene for Desk<'_, R, WIDTH> {
         self.baked.how.cold
     }
 
+    const TELLS_WINDOW: bool = true;
+
+    fn tell(&self, Values(outputs): &mut Values<R>, window: R) {
+        self.baked.face.windows.iter().for_each(|&at| outputs[at] = window);
+    }
+
     fn lend<T>(&self, take: impl FnOnce(&Full<R, u32>, &Setup<R, u32>) -> T) -> T {
         let Self { baked, lengths, .. } = self;
         let factored = baked.factored.as_ref().map(|factored| factored.view());

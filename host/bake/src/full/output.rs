@@ -37,7 +37,7 @@ pub(super) fn output<R: Scalar>(problem: &Problem, functional: &Functional) -> O
         // Where no flux has a limit the kernel has no code for it, and the length is 0.
         Functional::Saturated(_) if problem.loads.spans.is_empty() => Output::Probe(Vec::new()),
         Functional::Saturated(lengths) => Output::Saturated(shares(lengths, free)),
-        // A controller with a window is refused.
+        // The controller puts the window in its place.
         Functional::Bound | Functional::Window => Output::Bound,
     }
 }

@@ -76,6 +76,7 @@ fn controller<R: Scalar>(baked: &Baked<R>) -> String {
         limits: &format!("Limits {{ error: {error:?}, share: {share:?}, sweeps: {sweeps} }}"),
         has_ranges: baked.face.has_ranges(),
         exclusions: baked.exclusions.iter().map(|number| format!("{number:?}")).collect(),
+        windows: baked.face.told().collect(),
         is_cold: how.cold,
         storage: &storage,
         zeros: &zeros,

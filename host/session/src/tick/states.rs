@@ -129,7 +129,7 @@ fn play(controller: &mut Controller, ticks: core::ops::Range<usize>) -> String {
     LOG[ticks].iter().map(|inputs| {{
         let answer = controller.tick(Inputs::from_array(inputs.map(|x| x as Scalar))).unwrap();
         let window = controller.window().map(|window| window.energy);
-        format!(\"{{:?}} {{window:?}}\\n\", &answer.outputs.to_array()[..4])
+        format!(\"{{:?}} {{window:?}}\\n\", answer.outputs.to_array())
     }}).collect()
 }}
 
@@ -188,7 +188,7 @@ fn told(controller: &mut Controller<f32>, ticks: std::ops::Range<u32>) -> String
     let tick = |at| {
         let (outputs, _) = controller.tick(&inputs(at).map(f32::narrow)).expect("a tick");
         let window = controller.window().map(|window| window.energy);
-        format!("{:?} {window:?}\n", &outputs[..4])
+        format!("{outputs:?} {window:?}\n")
     };
     ticks.map(tick).collect()
 }
@@ -289,6 +289,7 @@ fn what_has_no_condensed_steps_is_refused() -> Result<()> {
         HEATED,
         &[
             (", capacity = \"2\"", ""),
+            ("output.sure = { kind = \"window\" }\n", ""),
             ("time.step = 0.05\n", ""),
             ("setting.share = 1e-9", "setting.memory = 6"),
         ],
