@@ -12,10 +12,10 @@ use signorini_certify::Column;
 use signorini_certify::term::corners;
 use signorini_intervals::known::Answers;
 use signorini_intervals::midpoints::{Midpoint, of_controller};
-use signorini_intervals::weights::{Weighed, Weights};
-use signorini_problem::Problem;
+use signorini_intervals::weights::{Weighed, Weights, weights};
 use signorini_problem::functional::wanted;
 use signorini_problem::scalar::Scalar;
+use signorini_problem::{Problem, State};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Field, Scene};
 use signorini_solve::{Options, solve};
@@ -41,13 +41,10 @@ pub fn of_choice<R: Bakes>(problem: &Problem, choice: &Choice<R>) -> OutputInter
 }
 
 pub(crate) fn guaranteed<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> OutputIntervals {
-    if problem.scene.stores() {
-        let why = "a controller has no intervals of a step in time yet";
-        let outputs =
-            wanted(&problem.scene).iter().map(|_| Err(why.to_owned())).collect::<Vec<_>>();
-        return OutputIntervals { midpoints: vec![None; outputs.len()], weighed: outputs };
-    }
     let origin = choice.condensed().map(|(_, origin)| origin);
+    if let Some(step) = problem.scene.step() {
+        return of_steps(problem, step, origin.is_some());
+    }
     let open = origin.map(|origin| open(problem, origin)).unwrap_or_default();
     let pressed = origin.map(pressed).unwrap_or_default();
     // Where there are none, weights say what is known.
@@ -70,6 +67,16 @@ pub(crate) fn guaranteed<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Ou
     let in_model = |of: Option<Midpoint>| of.zip(origin).map(|(of, origin)| baked(origin, of));
     let midpoints = midpoints.into_iter().map(in_model).collect();
     OutputIntervals { weighed, midpoints }
+}
+
+/// Those of steps of this length: what a tick tells of its own s and τ is not known of them.
+fn of_steps(problem: &Problem, step: f64, are_balanced: bool) -> OutputIntervals {
+    let answers = Answers { are_balanced, ..Answers::default() };
+    let weighed = match problem.stepping(step, State::zero(problem)) {
+        Ok(stepping) => weights(&stepping, &answers),
+        Err(error) => vec![Err(error.reason()); wanted(&problem.scene).len()],
+    };
+    OutputIntervals { midpoints: vec![None; weighed.len()], weighed }
 }
 
 /// The columns of a model that has a bound, with its transfer coefficients at both ends of their range where an input changes them.

@@ -49,7 +49,10 @@ pub(super) fn meaning(output: &Output) -> String {
             format!("∫c u over {place}, c the capacity; unit of c times an area times u.")
         }
         Quantity::Probe { at: [x, y] } => format!("u at ({x}, {y})."),
-        Quantity::Window => "Bound on the energy norm of the error over time; infinite where there is none.".to_owned(),
+        Quantity::Window => {
+            "Bound on the energy norm of the error over time; infinite where there is none."
+                .to_owned()
+        }
         Quantity::Bound => {
             "Bound on the error in the energy norm; infinite where there is none.".to_owned()
         }

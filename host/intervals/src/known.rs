@@ -3,7 +3,7 @@
 use signorini_certify::Column;
 
 /// Facts on all answers of a controller.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Answers<'a> {
     /// How far s is above ψ at least at the ends of the contact edges that are open in all answers, in the order of the edges and in
     /// the unit of u; nothing where nothing is known.

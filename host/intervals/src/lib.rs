@@ -47,6 +47,7 @@ mod squares;
 mod stored;
 #[cfg(test)]
 mod tests;
+mod unseen;
 mod values;
 pub mod weights;
 

@@ -11,6 +11,12 @@
 //! A controller gives u_h and σ_h. σ_h is τ but for the algebraic part of the bound. Means of s and u_h over an edge are equal
 //! between quads, where s is that of a mesh: that of a condensed model is the best one, whatever its means. On triangles with A constant in each, u_h is of the same mean error as σ_h:
 //! ∫ζ·∇_h u_h = ∫ζ·A⁻¹σ_h, since σ_h − A∇_h u_h has no mean. In all other cases of_u bounds it.
+//!
+//! In a step of time T bounds ∫(k e − R)²/k beside ‖A^{−½}(σ − τ)‖², with ∇·(σ − τ) = k e − R ([`super`]), so that
+//! ```text
+//!   |J(σ) − J(τ)| ≤ (‖A^½∇z‖² + ∫k z²)^½ · T
+//! ```
+//! What of R counts as oscillation is the divergence of a flux that vanishes on all sides, and moves no J(τ). A full model's τ is that of the way in which cells keep what they lack, whichever way T is of. On C both are the same.
 
 use super::answer::Answered;
 use super::contact::ContactEdge;
@@ -21,14 +27,15 @@ use super::kept::{keep, left};
 use super::known::Answers;
 use super::part::Part;
 use super::products::Residual;
+use super::unseen::unseen;
+use signorini_certify::CertifiedFields;
 use signorini_certify::conductivity::Conductivity;
 use signorini_certify::deviation::Deviations;
 use signorini_certify::term;
-use signorini_certify::{CertifiedFields, Evaluated};
 use signorini_problem::functional::wanted;
 use signorini_problem::{EdgeKind, Parts, Problem, Sum};
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Field, Input, Output, Quantity};
+use signorini_scene::scene::{Output, Quantity};
 use signorini_solve::energy_norm::nonconformity;
 use signorini_solve::{MOST_FACTORED, ScalarKind, SharedSolver};
 
@@ -75,23 +82,6 @@ fn weighed(problem: &Problem, answers: &Answers, outputs: &[Output]) -> Result<V
 /// The problem at all corners of the ranges of its transfer coefficients: norms of weights are convex in them.
 fn corners(problem: &Problem) -> Result<Vec<Problem>> {
     term::corners(&problem.scene).map(|scene| problem.with_loads_of(scene)).collect()
-}
-
-/// How much may be missed of the integrals of loads in a tick, over its total, at most: in the base and for every input what is missed has an
-/// oscillation, and the total is at least twice the sum of all.
-fn unseen(problem: &Problem) -> Result<f64> {
-    let mut most = 0.0_f64;
-    let is_load =
-        |input: &Input| matches!(input.field.value, Field::Source | Field::Flux | Field::Limit);
-    let inputs = problem.scene.inputs.iter().enumerate().filter(|(_, input)| is_load(input));
-    for term in std::iter::once(0).chain(inputs.map(|(at, _)| at + 1)) {
-        let alone = problem.left_with(&[term])?;
-        if alone.loads.missed > 0.0 {
-            let oscillation = Evaluated::of_term(&alone)?.oscillation;
-            most = most.max(0.5 * alone.loads.missed / oscillation);
-        }
-    }
-    Ok(most)
 }
 
 /// The ingredients of all weights of a problem.
@@ -147,9 +137,18 @@ impl<'p> Weighing<'p> {
             Err(why) => return Ok(Err(why)),
         };
         let part = Part::new(self.problem, output);
+        let steps = self.problem.loads.step.is_some();
         match output.quantity {
+            Quantity::Mean if steps => {
+                none("a mean of u has none in a step of time; a force or a flux has one")
+            }
+            Quantity::Flux if part.is_all(EdgeKind::Neumann) => none(GIVEN),
+            _ if steps && !self.answers.are_balanced && !part.is_all(EdgeKind::Contact) => {
+                none("in a step of a full model the flux of contact boundaries alone has one")
+            }
+            _ if steps => self.flux(&goal, &part),
             Quantity::Mean if part.is_all(EdgeKind::Dirichlet) => none(GIVEN),
-            Quantity::Flux if part.is_all(EdgeKind::Neumann) || part.takes_all() => none(GIVEN),
+            Quantity::Flux if part.takes_all() => none(GIVEN),
             Quantity::Mean => self.mean(&goal, part.is_all(EdgeKind::Contact)),
             _ => self.flux(&goal, &part),
         }
@@ -284,9 +283,16 @@ impl<'p> Weighing<'p> {
     /// there, so that it is the energy of the nonconforming function which has the mean 1 on these and 0 on all other edges.
     fn of_edges(&self, goal: &Goal, part: &Part) -> Result<f64> {
         let (nothing, dual) = (self.nothing(), Dual::new(self.problem, goal)?);
+        let problem = dual.problem();
         let mut means = vec![0.0; self.problem.ends.len()];
         let is_contact = |edge: &usize| self.problem.kinds[*edge] == EdgeKind::Contact;
         part.edges().filter(|edge| !is_contact(edge)).for_each(|edge| means[edge] = 1.0);
-        nonconformity(dual.problem(), &nothing.admissible(), &means)
+        // The masses of the sides make ∫kφ² on triangles, and no less than half of it on quads.
+        let stored = (0..problem.cells()).flat_map(|cell| {
+            let sides = problem.topology.edges_of(cell).iter().zip(problem.stored(cell, &means));
+            sides.map(|(&edge, stored)| 2.0 * means[edge as usize] * stored).collect::<Vec<_>>()
+        });
+        let energy = nonconformity(problem, &nothing.admissible(), &means)?;
+        Ok((energy * energy + stored.sum::<f64>()).sqrt())
     }
 }

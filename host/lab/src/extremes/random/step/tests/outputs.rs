@@ -1,5 +1,6 @@
 //! Intervals of outputs of a step hold those of the same step on finer meshes, from the same s_old.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use signorini_certify::cell::Cell;
@@ -10,7 +11,9 @@ use signorini_problem::functional::Functional;
 use signorini_problem::quadrature::gauss;
 use signorini_scene::mesh::Curve;
 use signorini_scene::mesh::structured::{Cells, Trapezoids, grid, trapezoids};
+use signorini_scene::setting::ModelKind;
 use signorini_scene::{Mesh, Scene};
+use signorini_session::tick::{ScheduledTick, TickInterval, replay};
 use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
 
 use super::super::finer;
@@ -158,6 +161,71 @@ fn intervals_of_steps_hold_with_limits_layers_and_few_sweeps() {
     ratios.sort_by(f64::total_cmp);
     println!("{} intervals, median {}", ratios.len(), ratios[ratios.len() / 2]);
     assert!(ratios.len() > 250 && ratios[ratios.len() / 2] < 60.0, "{ratios:?}");
+}
+
+/// Ends of each output's interval in the second tick of the controller that `bake` writes, and the step that it is about.
+fn of_controller(scene: &Scene, mesh: Mesh) -> (Problem, Vec<TickInterval>) {
+    let problem = Problem::new(scene, sided(mesh)).unwrap();
+    let dt = scene.step().unwrap();
+    let moments = [1.0, -1.0]
+        .map(|heat| ScheduledTick { time: dt * (1.5 - 0.5 * heat), inputs: vec![(0, heat)] });
+    let (mut before, mut last) = (None, None);
+    let (model, _) =
+        replay(&problem, &moments, (Some(ScalarKind::F64), false), |tick, solution| {
+            before = last.replace((tick.intervals.clone(), solution.unwrap().state()));
+            Ok(())
+        })
+        .unwrap();
+    let wanted = scene.setting.unwrap().model.unwrap();
+    assert!(model.starts_with(if wanted == ModelKind::Full { "full" } else { "condensed" }));
+    let mut step = problem;
+    step.set(&moments[1].inputs, moments[1].time).unwrap();
+    (step.stepping(dt, before.unwrap().1).unwrap(), last.unwrap().0)
+}
+
+/// Forces and fluxes of controllers, with sweeps that end early, a limit, and a part that stores nothing.
+#[test]
+fn intervals_of_controllers_hold_in_steps() {
+    let [layers, none_below] = materials();
+    let mut known = BTreeMap::<&str, usize>::new();
+    for (material, contact, left) in [
+        (PLAIN, "limit = 0.8", HELD),
+        (PLAIN, "flux = -0.4\nlimit = 0.4", ROBIN),
+        (&layers, "", ROBIN),
+        (&none_below, "limit = 0.8", HELD),
+    ] {
+        for (model, setting) in [("full", ""), ("full", "sweeps = 3"), ("condensed", "memory = 4")]
+        {
+            for (cells, dt) in [(Cells::Triangles, 1e-3), (Cells::Mixed, 0.03), (Cells::Quads, 1.0)]
+            {
+                let text = scene(dt, material, contact, left).text;
+                let source = text.lines().find(|line| line.starts_with("f = ")).unwrap();
+                let text = text.replace(source, "f = 0")
+                    + "[input.heat]\nof = \"source\"\nfield = \"f\"\npattern = \"10*(1 + x*y)\"\ndefault = 0\nrange = [-1, 1]\n"
+                    + &format!("[setting]\nmodel = \"{model}\"\n{setting}\n");
+                let scene = Scene::parse(&text, Path::new("step.toml")).unwrap();
+                let (step, intervals) = of_controller(&scene, grid(4, cells));
+                let fine = finer(&step, 2).unwrap();
+                let options =
+                    Options { solver: SolverKind::Factor, averages: true, ..Options::default() };
+                let its =
+                    of_answer(&fine, &(&solve(&fine, &options).unwrap()).into(), Coverage::Usual);
+                for (output, found) in scene.outputs.iter().zip(intervals) {
+                    let name = output.name.value.as_str();
+                    let (Ok([least, most]), Ok(truth)) = (found, &its[name]) else { continue };
+                    let of = format!("{model} {setting} {cells:?} {dt} {contact} {name}");
+                    let [low, high] = truth.ends();
+                    println!("{of}: {low} to {high} in {least} to {most}");
+                    assert!(
+                        low <= most && high >= least,
+                        "{of}: {low} to {high}, {least} to {most}"
+                    );
+                    *known.entry(model).or_default() += 1;
+                }
+            }
+        }
+    }
+    assert_eq!((known["full"], known["condensed"]), (12, 18));
 }
 
 /// A long step is the steady problem.
