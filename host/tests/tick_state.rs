@@ -30,14 +30,15 @@ fn tick(scene: &str, folder: &Folder, out: &str, more: &[&str]) -> Run {
 /// The rows of two runs, of which the second goes on from the first, are those of one.
 #[track_caller]
 fn one_of_two(scene: &str, folder: &Folder, [whole, first, second]: [&[&str]; 3], status: i32) {
-    let state = folder.word("state.json");
+    let [state, next, last] =
+        ["state.json", "next.json", "last.json"].map(|name| folder.word(name));
     let ran = |out: &str, more: &[&[&str]]| {
         let run = tick(scene, folder, out, &more.concat());
         assert_eq!(run.status, status, "{more:?}: {}{}", run.stdout, run.stderr);
     };
-    ran("whole", &[whole]);
+    ran("whole", &[whole, &["--save", &last]]);
     ran("first", &[first, &["--save", &state]]);
-    ran("second", &[second, &["--from", &state, "--save", &folder.word("next.json")]]);
+    ran("second", &[second, &["--from", &state, "--save", &next]]);
     for name in ["ticks.csv", "output_bounds.csv"] {
         let rows = |out: &str| text(folder.path(out).join(name));
         let second = rows("second");
@@ -45,9 +46,7 @@ fn one_of_two(scene: &str, folder: &Folder, [whole, first, second]: [&[&str]; 3]
         assert!(!header.is_empty() && !more.contains("start"), "{more}");
         assert_eq!(rows("first") + more, rows("whole"), "{name} of {scene}: {whole:?}");
     }
-    // The state of the second is that of the whole.
-    ran("whole", &[whole, &["--save", &state]]);
-    assert_eq!(text(&state), text(folder.path("next.json")));
+    assert_eq!(text(&last), text(&next), "the states after the last tick");
 }
 
 #[test]
@@ -79,7 +78,7 @@ fn steps_in_time_go_on_bit_for_bit() {
     let heat = &["--input", "heat=3"];
     one_of_two(&scene, &folder, [heat, &[heat, &["--ticks", "2"][..]].concat(), &[]], 0);
     assert_eq!(text(folder.path("second/ticks.csv")).lines().count(), 5);
-    let from = ["--from", &folder.word("state.json")];
+    let from = ["--from", &folder.word("last.json")];
     let said = tick(&scene, &folder, "done", &from).refuses();
     says(&said, &["time.end: 0.06 comes before the next tick"]);
     let log = folder.write("log.csv", "t,heat\n0.08,1\n");

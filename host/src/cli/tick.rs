@@ -24,7 +24,7 @@ use signorini_session::tick::columns::{bounds_csv, ticks_csv};
 use signorini_session::tick::refusals::refusals;
 use signorini_session::tick::window_error::without_window_error;
 use signorini_session::tick::{
-    Begin, Budget, Onward, Played, Saved, TickRecord, log, play_on, replay, schedule,
+    Begin, Budget, Onward, Played, Saved, ScheduledTick, TickRecord, log, play_on, replay, schedule,
 };
 use signorini_solve::warnings;
 use signorini_solve::{Ending, ScalarKind, Solution};
@@ -112,15 +112,51 @@ pub struct Arguments {
 /// Unknowns times ticks up to which intervals of outputs are worked out: some seconds.
 const MOST_INTERVALS: usize = 300_000;
 
+/// A play that is about to begin: all that the command line and its files say.
+struct Task {
+    problem: Problem,
+    coarse: Option<Problem>,
+    /// Where it goes on from.
+    saved: Option<Saved>,
+    moments: Vec<ScheduledTick>,
+    budget: Budget,
+    out: PathBuf,
+}
+
+/// What a play has left.
+struct Ran {
+    /// The model in a few words.
+    model: String,
+    played: Played,
+    was_interrupted: bool,
+}
+
 impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
+        let task = self.task()?;
+        self.warn_before(&task)?;
+        let ran = self.play(&task)?;
+        let Ran { model, played: Played { ticks, saved }, was_interrupted } = &ran;
+        self.write(&task, ticks)?;
+        let is_saved = self.save_state(&task.problem.scene, saved.as_ref())?;
+        report(&task.problem, model, ticks, &task.out);
+        self.tell(&task, &ran)?;
+        if *was_interrupted {
+            let played = ticks.iter().filter(|tick| tick.status != Ending::Start).count();
+            let all = task.moments.len();
+            note(&format_args!("interrupted after {played} of {all} ticks; the files have these"));
+            return Ok(130);
+        }
+        Ok(if ticks.iter().any(TickRecord::failed) || !is_saved { 3 } else { 0 })
+    }
+
+    fn task(&self) -> Result<Task> {
         let mut scene = self.place.scene()?;
         self.step.iter().for_each(|&step| scene.set_step(step));
         if !self.baked {
             check_ticks(&scene, self.scalar.is_some())?;
         }
-        let out = self.place.out()?;
-        let own = Budget::of(&scene);
+        let (out, own) = (self.place.out()?, Budget::of(&scene));
         let scalar = self.scalar.unwrap_or(own.scalar);
         if let Some(place) = &self.save {
             super::check_beside(&scene, "--save", place)?;
@@ -139,82 +175,87 @@ impl Arguments {
         };
         let problem = problem_of(&scene)?;
         let coarse = self.coarse.as_ref().map(|mesh| Problem::new(&scene, mesh::read(mesh)?));
-        let coarse = coarse.transpose()?;
-        warn(&problem.warnings);
-        if let Some(coarse) = &coarse {
-            warn(&coarse.warnings);
-        }
-        let work = problem.topology.counts.unknowns() * moments.len();
         let budget = Budget {
             scalar,
             tolerance: self.tolerance,
             sweeps: self.budget_sweeps.unwrap_or(own.sweeps),
             error: self.error.unwrap_or(own.error),
-            intervals: !self.no_intervals && work <= MOST_INTERVALS,
+            intervals: !self.no_intervals && work(&problem, &moments) <= MOST_INTERVALS,
             shows_start: self.log.is_none(),
         };
+        Ok(Task { problem, coarse: coarse.transpose()?, saved, moments, budget, out })
+    }
+
+    fn warn_before(&self, Task { problem, coarse, moments, budget, .. }: &Task) -> Result<()> {
+        warn(&problem.warnings);
+        coarse.iter().for_each(|coarse| warn(&coarse.warnings));
         if !self.baked {
             let first = moments.first().map_or(0.0, |moment| moment.time);
-            warn(&warnings(&problem, first, budget.scalar)?);
+            warn(&warnings(problem, first, budget.scalar)?);
         }
+        Ok(())
+    }
+
+    fn play(&self, task: &Task) -> Result<Ran> {
+        let Task { problem, coarse, saved, moments, budget, out } = task;
         let interrupted = interruption()?;
         let bar = steps(moments.len());
-        let mut series = self.vtu.then(|| Series::new(&out, "ticks", 4));
+        let mut series = self.vtu.then(|| Series::new(out, "ticks", 4));
         let done = |tick: &TickRecord, solution: Option<&Solution>| {
             bar.set_message(format!("t = {}", tick.time));
             bar.inc(1);
             // A tick that was refused has no fields.
             if let (Some(series), Some(solution)) = (&mut series, solution) {
-                series.add(tick.time, &vtu(&problem, &Drawn::plain(solution)))?;
+                series.add(tick.time, &vtu(problem, &Drawn::plain(solution)))?;
             }
             Ok(if interrupted.load(Ordering::Relaxed) { Onward::Stop } else { Onward::GoOn })
         };
         let begin = saved.as_ref().map_or(Begin::Anew(coarse.as_ref()), Begin::From);
-        let played = match self.baked {
-            true => replay(&problem, &moments, (self.scalar, budget.shows_start), done)
+        let ran = match self.baked {
+            true => replay(problem, moments, (self.scalar, budget.shows_start), done)
                 .map(|(model, ticks)| (model, Played { ticks, saved: None })),
-            false => play_on(&problem, begin, &moments, &budget, done)
+            false => play_on(problem, begin, moments, budget, done)
                 .map(|played| ("full, swept".to_owned(), played)),
         };
         bar.finish_and_clear();
-        let blamed = |error| match &self.log {
+        let (model, played) = ran.map_err(|error| match &self.log {
             Some(path) => log::blamed(path, error),
             None => error,
-        };
-        let (model, Played { ticks, saved }) = played.map_err(blamed)?;
-        let failed = |error: csv::Error| Error::Check(error.to_string());
-        let table = ticks_csv(&scene, &ticks).map_err(failed)?;
-        let bounds = bounds_csv(&scene, &ticks).map_err(failed)?;
-        let drawing = chart_file(&picture(&scene, &ticks, self.budget_sweeps));
+        })?;
+        series.map_or(Ok(()), Series::close)?;
+        Ok(Ran { model, played, was_interrupted: interrupted.load(Ordering::Relaxed) })
+    }
+
+    fn write(&self, Task { problem, out, .. }: &Task, ticks: &[TickRecord]) -> Result<()> {
+        let (scene, failed) = (&problem.scene, |error: csv::Error| Error::Check(error.to_string()));
+        let table = ticks_csv(scene, ticks).map_err(failed)?;
+        let bounds = bounds_csv(scene, ticks).map_err(failed)?;
+        let drawing = chart_file(&picture(scene, ticks, self.budget_sweeps));
         write_atomically(&out.join("ticks.csv"), &table)?;
         write_atomically(&out.join("output_bounds.csv"), &bounds)?;
-        write_atomically(&out.join("ticks.svg"), drawing.as_bytes())?;
-        series.map_or(Ok(()), Series::close)?;
-        let is_saved = self.save_state(&scene, saved.as_ref())?;
-        report(&problem, &model, &ticks, &out);
-        if last.is_none() && !interrupted.load(Ordering::Relaxed) {
-            step_advice(&problem, &moments)?.iter().for_each(|line| say(format_args!("  {line}")));
+        write_atomically(&out.join("ticks.svg"), drawing.as_bytes())
+    }
+
+    /// Says what the ticks leave to be known: steps, refusals, and what has no bound or interval.
+    fn tell(&self, task: &Task, ran: &Ran) -> Result<()> {
+        let Task { problem, saved, moments, .. } = task;
+        let (scene, ticks) = (&problem.scene, &ran.played.ticks);
+        if saved.is_none() && !ran.was_interrupted {
+            step_advice(problem, moments)?.iter().for_each(|line| say(format_args!("  {line}")));
         }
-        warn(&refusals(&ticks));
+        warn(&refusals(ticks));
+        let work = work(problem, moments);
         if !self.no_intervals && !self.baked && work > MOST_INTERVALS {
+            let most = MOST_INTERVALS / problem.topology.counts.unknowns();
             say(format_args!(
-                "  no intervals of outputs: {work} unknowns times ticks are more than {MOST_INTERVALS}; up to {} ticks have them",
-                MOST_INTERVALS / problem.topology.counts.unknowns()
+                "  no intervals of outputs: {work} unknowns times ticks are more than {MOST_INTERVALS}; up to {most} ticks have them"
             ));
         }
-        let lost = if self.baked { without_window(&scene, &ticks) } else { None };
-        let told = [lost, contradiction(&ticks), without_window_error(&scene)];
+        let lost = if self.baked { without_window(scene, ticks) } else { None };
+        let told = [lost, contradiction(ticks), without_window_error(scene)];
         warn(&told.into_iter().flatten().collect::<Vec<_>>());
-        without_interval(&scene, &ticks).iter().for_each(|line| say(format_args!("  {line}")));
-        if interrupted.load(Ordering::Relaxed) {
-            let played = ticks.iter().filter(|tick| tick.status != Ending::Start).count();
-            note(&format_args!(
-                "interrupted after {played} of {} ticks; the files have these",
-                moments.len()
-            ));
-            return Ok(130);
-        }
-        Ok(if ticks.iter().any(TickRecord::failed) || !is_saved { 3 } else { 0 })
+        without_interval(scene, ticks).iter().for_each(|line| say(format_args!("  {line}")));
+        Ok(())
     }
 
     /// Writes the state; whether that was possible where it is asked for.
@@ -230,4 +271,9 @@ impl Arguments {
         super::write_beside(scene, "--save", place, &saved.text()?)?;
         Ok(true)
     }
+}
+
+/// Unknowns times ticks.
+fn work(problem: &Problem, moments: &[ScheduledTick]) -> usize {
+    problem.topology.counts.unknowns() * moments.len()
 }

@@ -58,26 +58,30 @@ fn output_lines(scene: &Scene, ticks: &[TickRecord]) -> Vec<String> {
     scene.outputs.iter().enumerate().filter_map(line).collect()
 }
 
-/// Why outputs have no interval, the first reason of each; lengths never have one.
+/// Why outputs have no interval, those of one reason together, the first of each; lengths never have one.
 pub(super) fn without_interval(scene: &Scene, ticks: &[TickRecord]) -> Vec<String> {
     let has_none = |of: &Output| {
         matches!(of.quantity, Quantity::Length | Quantity::Saturated | Quantity::Window)
     };
     let outputs = scene.outputs.iter().enumerate().filter(|(_, of)| !has_none(of));
-    let line = |(at, output): (usize, &Output)| {
+    let mut all = Vec::<(String, usize, Vec<&str>)>::new();
+    for (at, output) in outputs {
         // Where the evolution has one, nothing is missed that a step alone would have.
         if ticks.iter().any(|tick| tick.over_time.get(at).is_some_and(Option::is_some)) {
-            return None;
+            continue;
         }
         let reasons = ticks.iter().filter_map(|tick| tick.intervals.get(at)?.as_ref().err());
-        let (first, count) = (reasons.clone().next()?, reasons.count());
-        Some(format!(
-            "no interval of {} in {count} of {} ticks: {first}",
-            output.name.value,
-            ticks.len()
-        ))
+        let (Some(first), count) = (reasons.clone().next(), reasons.count()) else { continue };
+        match all.iter_mut().find(|(reason, of, _)| reason == first && *of == count) {
+            Some((.., names)) => names.push(&output.name.value),
+            None => all.push((first.clone(), count, vec![&output.name.value])),
+        }
+    }
+    let line = |(reason, count, names): (String, usize, Vec<&str>)| {
+        let (names, all) = (names.join(", "), ticks.len());
+        format!("no interval of {names} in {count} of {all} ticks: {reason}")
     };
-    outputs.filter_map(line).collect()
+    all.into_iter().map(line).collect()
 }
 
 /// That errors against [exact] are above their bounds by more than quadrature and rounding explain.
