@@ -119,7 +119,10 @@ fn without_a_bound_the_reason_is_said() {
     let scene = folder.scene("levee.toml", LEVEE, &jump);
     for more in [&["--ticks", "2"][..], &["--ticks", "2", "--baked"]] {
         let said = tick(&scene, &folder, more).succeeds().stdout;
-        says(&said, &["no interval of seepage, head in 2 of 2 ticks: the value of boundary.river near"]);
+        says(
+            &said,
+            &["no interval of seepage, head in 2 of 2 ticks: the value of boundary.river near"],
+        );
     }
 }
 

@@ -15,7 +15,7 @@ use signorini_intervals::midpoints::{Midpoint, of_controller};
 use signorini_intervals::weights::{Weighed, Weights, weights};
 use signorini_problem::functional::wanted;
 use signorini_problem::scalar::Scalar;
-use signorini_problem::{Problem, State};
+use signorini_problem::{Parts, Problem, State};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Field, Scene};
 use signorini_solve::{Options, solve};
@@ -72,9 +72,14 @@ pub(crate) fn guaranteed<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Ou
 /// Those of steps of this length: what a tick tells of its own s and τ is not known of them.
 fn of_steps(problem: &Problem, step: f64, are_balanced: bool) -> OutputIntervals {
     let answers = Answers { are_balanced, ..Answers::default() };
-    let weighed = match problem.stepping(step, State::zero(problem)) {
-        Ok(stepping) => weights(&stepping, &answers),
-        Err(error) => vec![Err(error.reason()); wanted(&problem.scene).len()],
+    let none = |why: String| vec![Err(why); wanted(&problem.scene).len()];
+    let is_held = |parts: Parts| parts.counts.contact == 0 && parts.counts.floating == 0;
+    let weighed = if !Parts::whatever_inputs(problem).is_ok_and(is_held) {
+        // What cells that store nothing lack of balance may leave through contact edges, in τ alone.
+        none("neither a given u nor a transfer law holds some part of the domain".to_owned())
+    } else {
+        let stepping = problem.stepping(step, State::zero(problem));
+        stepping.map_or_else(|error| none(error.reason()), |of| weights(&of, &answers))
     };
     OutputIntervals { midpoints: vec![None; weighed.len()], weighed }
 }

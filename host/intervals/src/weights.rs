@@ -16,7 +16,8 @@
 //! ```text
 //!   |J(σ) − J(τ)| ≤ (‖A^½∇z‖² + ∫k z²)^½ · T
 //! ```
-//! What of R counts as oscillation is the divergence of a flux that vanishes on all sides, and moves no J(τ). A full model's τ is that of the way in which cells keep what they lack, whichever way T is of. On C both are the same.
+//! What of R counts as oscillation is the divergence of a flux that vanishes on all sides, and moves no J(τ). A full model's τ is that
+//! of the way in which cells keep what they lack, whichever way T is of. On C both are the same where D or R holds every part.
 
 use super::answer::Answered;
 use super::contact::ContactEdge;

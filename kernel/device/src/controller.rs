@@ -177,7 +177,7 @@ pub struct Answer<O, R> {
 
 impl<O: Weighed<R>, R> Answer<O, R> {
     /// How far each output may be from its value for the exact solution of the scene, in its own unit; infinite where nothing is
-    /// guaranteed. What the sum of an output rounds is not in it.
+    /// guaranteed. Of a step in time that is the exact step from where the controller's last one ended. What the sum of an output rounds is not in it.
     #[inline(always)]
     pub fn plus_minus(&self) -> O {
         O::plus_minus(&self.report)
@@ -246,7 +246,8 @@ impl<S: Scene> Controller<S> {
     }
 
     /// The least and the largest value that each output may have for the exact solution of the scene, in its own unit, where
-    /// `answer` is that of the last tick; infinite where nothing is guaranteed. Narrower than [`Answer::plus_minus`], which knows
+    /// `answer` is that of the last tick; infinite where nothing is guaranteed. Of a step in time that is the exact step from where the
+    /// controller's last one ended. Narrower than [`Answer::plus_minus`], which knows
     /// the bound alone.
     #[inline(always)]
     pub fn between(&self, answer: &Answer<S::Outputs, S::Scalar>) -> [S::Outputs; 2]

@@ -33,6 +33,7 @@ impl<R: Scalar> Certifier<R> {
             certificate::Step { length, storage, cells: &cells, vertices, bubbles, openings };
         let (iterate, mut second) = (Iterate { u, law }, self.fields.clone());
         if !self.hands_on {
+            // It would be the first way once more.
             second.tau.clear();
         }
         let buffers = (self.fields.buffers(), second.handed());
@@ -59,7 +60,11 @@ impl<R: Scalar> Certifier<R> {
     /// What each cell stores in `step`, triangles first, as its bound takes it.
     pub fn stored_cells(&self, assembled: &Assembled<R>, step: &Step<R>) -> Vec<StoredCell<R>> {
         let contents: Vec<f64> = step.contents().map(|content| content.wide()).collect();
-        let keep = self.ways.kept(assembled.edges(), &self.metric, &contents);
+        // A way may end on a side whose flux is given where no other side could take what a cell hands on.
+        let keep = match self.hands_on {
+            true => self.ways.kept(assembled.edges(), &self.metric, &contents),
+            false => vec![1.0; contents.len()],
+        };
         stored_cells(assembled.problem(), step, &keep)
     }
 }
