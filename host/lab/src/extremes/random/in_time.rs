@@ -44,8 +44,14 @@ struct Row {
     window_over_error: Option<f64>,
     /// See `window_over_error`.
     at_last: Option<f64>,
+    /// As `error_over_window`, of the full controller.
+    full_error_over_window: Option<f64>,
+    /// As `error_over_step`, of the full controller.
+    full_error_over_step: Option<f64>,
     /// As `error_over_window`, of the condensed controller.
     condensed_error_over_window: Option<f64>,
+    /// As `error_over_step`, of the condensed controller.
+    condensed_error_over_step: Option<f64>,
     /// As `at_last`, of the condensed controller.
     condensed_at_last: Option<f64>,
     /// The part of the last step's bound that the finer answer proves to be error.
@@ -66,6 +72,8 @@ struct Record {
     with_window: usize,
     /// See `with_window`.
     ticks: usize,
+    /// How many of them were played by a full controller as well, with a bound that was judged.
+    full: usize,
     /// How many of them were played by a condensed controller as well, with such a bound.
     condensed: usize,
     /// How many steps have a bound and were judged.
@@ -129,15 +137,20 @@ impl Row {
             all.iter().map(of).filter(|ratio| !ratio.is_nan()).reduce(f64::max).and_then(finite)
         };
         let last = |all: &[Judged]| all.last().and_then(|of| finite(of.bound_over_error()));
+        let of_step = |step: Option<Judged>| finite(step?.error_over_bound());
+        let [full, condensed] = &found.controllers;
         let row = Self {
             rate: found.rate,
             ticks: found.windows.len(),
             error_over_window: largest(&found.windows, Judged::error_over_bound),
             window_over_error: largest(&found.windows, Judged::bound_over_error),
             at_last: last(&found.windows),
-            condensed_error_over_window: largest(&found.condensed, Judged::error_over_bound),
-            condensed_at_last: last(&found.condensed),
-            error_over_step: found.step.and_then(|of| finite(of.error_over_bound())),
+            full_error_over_window: largest(&full.windows, Judged::error_over_bound),
+            full_error_over_step: of_step(full.step),
+            condensed_error_over_window: largest(&condensed.windows, Judged::error_over_bound),
+            condensed_error_over_step: of_step(condensed.step),
+            condensed_at_last: last(&condensed.windows),
+            error_over_step: of_step(found.step),
             step_over_error: found.step.and_then(|of| finite(of.bound_over_error())),
             note: found.no_bound.clone().unwrap_or_default(),
             ..self
@@ -146,7 +159,10 @@ impl Row {
         let above = |ratio: Option<f64>| ratio.is_some_and(|ratio| ratio > most);
         let broken = [
             (above(row.error_over_window), "the bound over time"),
+            (above(row.full_error_over_window), "the bound over time of the full controller"),
+            (above(row.full_error_over_step), "the bound of a step of the full controller"),
             (above(row.condensed_error_over_window), "the bound over time of the condensed model"),
+            (above(row.condensed_error_over_step), "the bound of a step of the condensed model"),
             (above(row.error_over_step), "the bound of a step"),
         ];
         let broken = broken.into_iter().filter(|(is, _)| *is).map(|(_, what)| what);
@@ -161,6 +177,8 @@ impl Record {
         for row in rows {
             record.with_window += usize::from(row.ticks > 0);
             record.ticks += row.ticks;
+            let full = row.full_error_over_window.or(row.full_error_over_step);
+            record.full += usize::from(full.is_some());
             record.condensed += usize::from(row.condensed_error_over_window.is_some());
             record.steps += usize::from(row.step_over_error.is_some());
             for (name, ratio) in row.ratios() {
@@ -182,9 +200,10 @@ impl Record {
     }
 
     fn text(&self) -> String {
-        let Self { cases, with_window, ticks, condensed, steps, .. } = self;
+        let Self { cases, with_window, ticks, full, condensed, steps, .. } = self;
         let mut lines = vec![format!(
-            "{cases} random trajectories: {with_window} have a bound over time, judged in {ticks} ticks; {condensed} have a condensed controller; {steps} steps judged"
+            "{cases} random trajectories: {with_window} have a bound over time, judged in {ticks} ticks; {full} have a full controller, \
+             {condensed} a condensed one; {steps} steps judged"
         )];
         for (name, [least, median, most]) in &self.spreads {
             lines.push(format!("  {name}: {least:.3} to {most:.3}, median {median:.3}"));
@@ -206,7 +225,13 @@ impl Row {
         let end = if self.limit.is_some() { "cut off" } else { "to the end" };
         let all = [
             ("error over bound, over time".to_owned(), self.error_over_window),
+            (
+                "error over bound, over time, full controller".to_owned(),
+                self.full_error_over_window,
+            ),
+            ("error over bound, of a step, full controller".to_owned(), self.full_error_over_step),
             ("error over bound, over time, condensed".to_owned(), self.condensed_error_over_window),
+            ("error over bound, of a step, condensed".to_owned(), self.condensed_error_over_step),
             ("error over bound, of a step".to_owned(), self.error_over_step),
             (format!("bound over error, over time, {start} start, {end}"), self.at_last),
             (
@@ -243,6 +268,6 @@ mod tests {
         assert!(record.violations.is_empty(), "{:?}", record.violations);
         let least = found.len() / 4;
         assert!(record.with_window > 2 * least && record.steps >= least / 2, "{record:?}");
-        assert!(record.condensed >= least, "{record:?}");
+        assert!(record.condensed >= least && record.full >= 2 * least, "{record:?}");
     }
 }

@@ -3,8 +3,8 @@
 //! ```text
 //!   window² ≥ mean of G²,   G² = ‖A^½∇(u − s)‖² + ∫_R h(u − s)²,   weights e^{−2θλ(t_n − t)}
 //! ```
-//! with u replaced by the finer s, whose own window counts. A steady start stands for all time before it. Where the scene can be
-//! condensed, its condensed controller is judged by the same finer play.
+//! with u replaced by the finer s, whose own window counts. A steady start stands for all time before it. The controllers that the scene
+//! can have, full and condensed, are judged by the same finer play, and their last step alone.
 
 use std::path::Path;
 
@@ -34,11 +34,20 @@ pub struct JudgedTrajectory {
     pub rate: Option<f64>,
     /// The bound over time at each tick; empty where there is none.
     pub windows: Vec<Judged>,
-    /// At each tick of the condensed controller; empty where there is none.
-    pub condensed: Vec<Judged>,
     pub step: Option<Judged>,
+    /// By the full controller and by the condensed one; empty where there is none.
+    pub controllers: [Controlled; 2],
     /// Why the last tick has no bound.
     pub no_bound: Option<String>,
+}
+
+/// What a controller came to.
+#[derive(Debug, Clone, Default)]
+pub struct Controlled {
+    /// As of the trajectory.
+    pub windows: Vec<Judged>,
+    /// Its last step.
+    pub step: Option<Judged>,
 }
 
 /// One play: the start and all steps.
@@ -57,15 +66,19 @@ pub fn judged(case: &Trajectory) -> Result<JudgedTrajectory> {
     let step = if case.is_affine { own.step(case, ticks)? } else { None };
     let dt = case.step;
     let rate = own.records[1].window.map(|[_, seconds]| dt * 0.5 / (0.1 * seconds));
-    let (mut windows, mut of_condensed) = (Vec::new(), Vec::new());
-    if let Some([_, seconds]) = own.records[1].window {
-        let finer = played(case, PARTS)?;
-        windows = own.windows(case, &finer, seconds)?;
-        if let Some(own) = condensed(case)? {
-            of_condensed = own.windows(case, &finer, seconds)?;
-        }
-    }
-    Ok(JudgedTrajectory { rate, windows, condensed: of_condensed, step, no_bound })
+    let seconds = own.records[1].window.map(|[_, seconds]| seconds);
+    let finer = seconds.map(|_| played(case, PARTS)).transpose()?.zip(seconds);
+    let windows = |of: &Played| match &finer {
+        Some((finer, seconds)) => of.windows(case, finer, *seconds),
+        None => Ok(Vec::new()),
+    };
+    let controlled = |of: Option<Played>| -> Result<Controlled> {
+        let Some(of) = of else { return Ok(Controlled::default()) };
+        let step = if case.is_affine { of.step(case, ticks)? } else { None };
+        Ok(Controlled { windows: windows(&of)?, step })
+    };
+    let controllers = [controlled(full(case, &own)?)?, controlled(condensed(case)?)?];
+    Ok(JudgedTrajectory { rate, windows: windows(&own)?, step, controllers, no_bound })
 }
 
 /// The problem of a trajectory, if its condensed model with a few states has a bound over time, and s at its start.
@@ -79,9 +92,26 @@ pub(super) fn posed(case: &Trajectory) -> Result<Option<(Problem, CertifiedField
     Ok(start.map(|start| (problem, start)))
 }
 
+/// The same trajectory by its full controller, which begins where its `own` ticks do; nothing where there is none.
+fn full(case: &Trajectory, own: &Played) -> Result<Option<Played>> {
+    let sweeps = case.sweeps.map_or_else(String::new, |sweeps| format!("sweeps = {sweeps}\n"));
+    let text = format!("{}[setting]\nmodel = \"full\"\n{sweeps}", case.scene_text(1));
+    let problem = Problem::new(&Scene::parse(&text, Path::new("scene.toml"))?, case.mesh.clone())?;
+    match replayed(case, problem, own.answers[0].certified.clone()) {
+        // Nor is what a full one refuses.
+        Err(Error::Input(_)) => Ok(None),
+        played => played.map(Some),
+    }
+}
+
 /// The same trajectory by its condensed controller; nothing where there is none.
 fn condensed(case: &Trajectory) -> Result<Option<Played>> {
     let Some((problem, start)) = posed(case)? else { return Ok(None) };
+    replayed(case, problem, start).map(Some)
+}
+
+/// The trajectory by the controller that `bake` writes for `problem`, whose s is this at the start.
+fn replayed(case: &Trajectory, problem: Problem, start: CertifiedFields) -> Result<Played> {
     let moments = schedule(case, 1, &problem);
     let mut answers = Vec::new();
     let (_, records) = replay(&problem, &moments, (Some(case.scalar), true), |_, solution| {
@@ -89,7 +119,7 @@ fn condensed(case: &Trajectory) -> Result<Option<Played>> {
         Ok(())
     })?;
     answers[0].certified = start;
-    Ok(Some(Played { problem, answers, records }))
+    Ok(Played { problem, answers, records })
 }
 
 fn played(case: &Trajectory, parts: u32) -> Result<Played> {
