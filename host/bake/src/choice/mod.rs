@@ -12,31 +12,25 @@
 
 mod advice;
 mod candidates;
+mod considered;
 mod meshes;
 mod origin;
 
 use super::Bakes;
 use super::budget::{Budget, Needs, Shortfall};
-use super::range::{refuse_answers, refuse_inputs, refuse_lengths, refuse_loads, refuse_squares};
+use super::range::{refuse_answers, refuse_lengths};
 use super::trial::Trial;
 use super::{condensed, full};
 use advice::too_large;
-use candidates::{of_condensed, time};
-use meshes::of_full;
+use considered::{Considered, Task, best, negligible};
 pub use origin::Origin;
 use signorini_condense::CondensedModel;
 use signorini_problem::scalar::Scalar;
-use signorini_problem::{Approach, Lack, Problem, Property};
+use signorini_problem::{Approach, Problem};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
-use signorini_scene::scene::units::Units;
 use signorini_scene::setting::{ModelKind, Setting};
 use signorini_solve::choose_for_inputs;
-
-/// Contact edges beyond which nothing is condensed: the work on this machine grows like n³.
-const MOST_CONTACTS: usize = 1000;
-/// Bytes of flash beyond which a condensed model is compared with the full one.
-const LARGE: u64 = 1 << 20;
 
 /// A model, ready to be written.
 #[derive(Debug)]
@@ -166,95 +160,22 @@ impl<R: Scalar> Choice<R> {
 }
 
 pub(crate) fn choose<R: Scalar>(problem: &Problem, wanted: Wanted) -> Result<Choice<R>> {
-    let budget = Budget::of(&problem.scene);
-    let setting = problem.scene.setting.unwrap_or_default();
-    let (asked, compared) = (wanted.model.or(setting.model_kind()), wanted.is_compared);
-    let forced = asked;
-    let stores = problem.scene.stores();
-    refuse_memory(&problem.scene, &setting)?;
-    if let Some((model, key)) = forced.and_then(|model| Some((model, setting.foreign_to(model)?))) {
-        return Err(foreign(&problem.scene, model, key).into());
+    let scene = &problem.scene;
+    let setting = scene.setting.unwrap_or_default();
+    let asked = wanted.model.or(setting.model_kind());
+    refuse_memory(scene, &setting)?;
+    if let Some((model, key)) = asked.and_then(|model| Some((model, setting.foreign_to(model)?))) {
+        return Err(foreign(scene, model, key).into());
     }
-    let (mut candidates, mut excluded, mut origin) = (Vec::new(), Vec::new(), None);
-    let units = choose_for_inputs(problem)?;
-    refuse_answers::<R>(&problem.scene, &units)?;
+    let (budget, units) = (Budget::of(scene), choose_for_inputs(problem)?);
+    refuse_answers::<R>(scene, &units)?;
     refuse_lengths::<R>(problem)?;
-    // Condensation is in the scene's units, in f64.
-    let unsuited = match forced {
-        None => unsuited(problem, &units)?,
-        Some(_) => None,
-    };
-    if let Some(why) = unsuited {
-        excluded.push(format!("condensed: {why}"));
-    } else if forced != Some(ModelKind::Full) {
-        refuse_squares::<f64>(&problem.scene, &units)?;
-        // What modes refuse, a pattern of two signs say, the full model can treat, and so it can many cells that store something.
-        let may_be_full = Approach::condensing(problem) != Approach::Condensation;
-        let origin_of = || match stores {
-            true => Origin::stepped(problem, &setting),
-            false => Origin::new(problem, wanted, negligible::<R>()),
-        };
-        match origin_of() {
-            Ok(own) => {
-                refuse_inputs::<R>(&problem.scene)?;
-                refuse_loads::<R>(&problem.scene, own.model())?;
-                match of_condensed(&problem.scene, &own, &budget) {
-                    Ok(found) => (candidates, origin) = (found, Some(own)),
-                    Err(error) if forced.is_some() => return Err(error),
-                    Err(error) => excluded.push(format!("condensed: {error}")),
-                }
-            }
-            Err(error) if forced.is_some() || !may_be_full => return Err(error),
-            Err(error) => excluded.push(format!("condensed: {error}")),
-        }
-    }
-    let fits = candidates.iter().any(Candidate::has_all);
-    let large = candidates.iter().any(|candidate| candidate.needs.flash > LARGE);
-    if forced == Some(ModelKind::Full)
-        || (forced.is_none() && (compared || !fits || large || stores))
-    {
-        match of_full(problem, units, &budget, &mut excluded) {
-            Ok(mut found) => {
-                // A deadline cuts its sweeps off, and its bound tells what is left: who asks for it is warned of
-                // the time, not refused.
-                for candidate in found.iter_mut().filter(|_| forced.is_some()) {
-                    candidate.shortfalls.retain(|short| short.key != "target.tick");
-                }
-                candidates.append(&mut found);
-            }
-            Err(error) if candidates.is_empty() => return Err(error),
-            Err(error) => excluded.push(format!("full: {error}")),
-        }
-    }
-    // Condensed models come first; a mesh that takes less than their dense blocks is preferred to them.
-    let flash = |at: &usize| candidates[*at].needs.flash;
-    let first = candidates.iter().position(Candidate::has_all);
-    let is_full = |candidate: &Candidate<R>| matches!(candidate.model, Model::Full(_));
-    let full = candidates.iter().position(|of| is_full(of) && of.has_all());
-    let quicker = |(first, full): (usize, usize)| {
-        time(&candidates[full].needs) < time(&candidates[first].needs)
-    };
-    let complete = match first.zip(full) {
-        // At short steps the full model takes a few sweeps.
-        Some(both) if stores && quicker(both) => full,
-        Some((first, full)) if flash(&first) > LARGE && flash(&full) < flash(&first) => Some(full),
-        _ => first,
-    };
-    // Without a bound only where no model has one: what is asked for and does not fit is not left out.
-    let is_bounded = |of: &Candidate<R>| of.unbounded.is_none() && !of.lacks_bound;
-    let last = || match candidates.iter().any(is_bounded) {
-        true => None,
-        false => candidates.iter().position(Candidate::may_be_chosen),
-    };
-    match complete.or_else(last) {
+    let task = Task { problem, wanted, setting, asked, budget: &budget, units };
+    let Considered { candidates, excluded, origin } = Considered::of(&task)?;
+    match best(&candidates, scene.stores()) {
         Some(chosen) => Ok(Choice { candidates, chosen, budget, excluded, origin }),
-        None => Err(too_large(&problem.scene, &candidates).into()),
+        None => Err(too_large(scene, &candidates).into()),
     }
-}
-
-/// The share of a mode in the squares of answers that is nothing beside what a program in `R` rounds.
-fn negligible<R: Scalar>() -> f64 {
-    (8.0 * R::EPSILON.wide()).powi(2)
 }
 
 /// Refuses states of a scene that steps in no time.
@@ -264,23 +185,6 @@ fn refuse_memory(scene: &Scene, setting: &Setting) -> Result<()> {
     }
     let message = "setting.memory: no material has a capacity, so that ticks are no steps in time";
     Err(InputError::new(message).file(&scene.path).hint("remove it").into())
-}
-
-/// Why no condensed model is worked out where nobody asks for one, if so.
-fn unsuited(problem: &Problem, units: &Units) -> Result<Option<String>> {
-    if let Err(error) = refuse_squares::<f64>(&problem.scene, units) {
-        return Ok(Some(error.to_string()));
-    }
-    let (counts, lack) = (problem.topology.counts, Approach::condensing(problem).lack(problem)?);
-    let is_large = |lack: &Lack| lack.property == Property::ManyContactEdges;
-    if counts.contact > MOST_CONTACTS || lack.as_ref().is_some_and(is_large) {
-        let (contact, edges) = (counts.contact, counts.edges());
-        let most = format!("at most {MOST_CONTACTS}, and fewer on a large mesh");
-        return Ok(Some(format!("{contact} contact edges among {edges}, {most}")));
-    }
-    // What the full model cannot treat either, condensation refuses: its words are of more help.
-    let own = lack.filter(|lack| Approach::FullModel.treats(lack.property));
-    Ok(own.map(|lack| lack.to_string()))
 }
 
 /// The error that a key of the setting does not go with the model that the command asks for.
