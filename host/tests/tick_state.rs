@@ -86,6 +86,36 @@ fn steps_in_time_go_on_bit_for_bit() {
     says(&said, &["log.csv:2: t: 0.08 comes", "after 0.06"]);
 }
 
+/// Both models, in both scalars, with inputs by the command line; what another controller left is refused.
+#[test]
+fn controllers_go_on_bit_for_bit() {
+    let folder = Folder::new();
+    let stored = "capacity = \"1 + x^2\"";
+    let scene = body(&folder, "tri", 1.0, stored);
+    let held = [("0.3*sin(7*t)", "0.3"), ("4*sin(20*t) - 1", "-1")];
+    let plain = held.iter().fold(text(&scene), |text, (moves, held)| text.replace(moves, held));
+    for (model, scalar) in [("condensed", "f64"), ("full", "f32")] {
+        folder.write("body.toml", format!("{plain}\n[setting]\nmodel = \"{model}\"\n"));
+        let with = |own: &[&'static str]| [&["--baked", "--scalar", scalar][..], own].concat();
+        let [whole, first, second] = [
+            &["--ticks", "4", "--input", "heat=2"][..],
+            &["--ticks", "2", "--input", "heat=2"],
+            &["--ticks", "2"],
+        ]
+        .map(with);
+        one_of_two(&scene, &folder, [&whole, &first, &second], 0);
+    }
+    let state = folder.word("state.json");
+    let other = |more: &[&str]| {
+        tick(&scene, &folder, "other", &[&["--from", &state], more].concat()).refuses()
+    };
+    says(&other(&["--scalar", "f32"]), &["state.json", "the controller that `bake` writes"]);
+    says(&other(&["--baked", "--scalar", "f64"]), &["state.json", "in f32, and not in f64"]);
+    let steady = ["--baked", "--ticks", "2", "--save", &state];
+    let said = tick(&meshes(LEVEE), &folder, "other", &steady).refuses();
+    says(&said, &["--save: no material has a capacity"]);
+}
+
 /// The error over time of a run that goes on is that of one run, in other units too.
 #[test]
 fn an_error_over_time_goes_on_bit_for_bit() {
@@ -187,9 +217,7 @@ fn states_of_anything_else_are_refused() {
     for more in [&["--step", "0.02"][..], &["--scalar", "f32"], &["--tolerance", "1e-9"]] {
         assert!(refused(&state, more).contains("state.json"), "{more:?}");
     }
-    for more in [&["--baked"][..], &["--coarse", "a.msh"]] {
-        assert!(refused(&state, more).contains("cannot be used with"), "{more:?}");
-    }
+    assert!(refused(&state, &["--coarse", "a.msh"]).contains("cannot be used with"));
     // Not over the scene, and not into a folder.
     for place in [&*levee, &folder.word("out")] {
         let message = tick(&levee, &folder, "never", &["--ticks", "1", "--save", place]).refuses();

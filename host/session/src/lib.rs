@@ -57,7 +57,7 @@ pub trait Session {
 
     /// The state that it carries to the next tick; nothing before the first answer, or of a session that is not saved.
     fn saved(&self) -> Option<SavedSession> {
-        None
+        self.state().map(|bytes| SavedSession::of_controller(&bytes))
     }
 
     /// Goes on where a session of the same problem was saved; an error changes nothing.
@@ -65,7 +65,7 @@ pub trait Session {
     /// # Errors
     /// The state of another kind of session or mesh, numbers that it cannot have left.
     fn restore(&mut self, saved: &SavedSession) -> Result<()> {
-        saved.foreign()
+        self.set_state(&saved.bytes()?)
     }
 
     /// The answer of the last tick, whose inputs and data were those of `at`; empty before the first.

@@ -33,23 +33,48 @@ pub enum SavedSession {
         /// The ω that the last solve has found.
         omega: Option<f64>,
     },
+    /// Of a controller that steps in time.
+    Controller {
+        /// The bytes of its state, as firmware has them, in hexadecimal digits.
+        state: String,
+    },
 }
 
 impl SavedSession {
+    /// That of a controller with these bytes.
+    pub(crate) fn of_controller(bytes: &[u8]) -> Self {
+        Self::Controller { state: bytes.iter().map(|byte| format!("{byte:02x}")).collect() }
+    }
+
+    /// The bytes of a controller's state.
+    ///
+    /// # Errors
+    /// The state of another kind of session, digits that are none.
+    pub(crate) fn bytes(&self) -> Result<Vec<u8>> {
+        let Self::Controller { state } = self else { return self.foreign() };
+        let broken = || InputError::new("session.state: expected pairs of hexadecimal digits");
+        let digits: Option<Vec<u32>> = state.chars().map(|digit| digit.to_digit(16)).collect();
+        let pairs = digits.filter(|digits| digits.len().is_multiple_of(2)).ok_or_else(broken)?;
+        Ok(pairs.chunks_exact(2).map(|pair| (16 * pair[0] + pair[1]) as u8).collect())
+    }
+
     /// Whether JSON has all its numbers.
     pub(crate) fn is_finite(&self) -> bool {
-        let (Self::Tick { u, .. } | Self::Solve { u, .. }) = self;
-        u.iter().all(|u| u.is_finite())
+        match self {
+            Self::Tick { u, .. } | Self::Solve { u, .. } => u.iter().all(|u| u.is_finite()),
+            Self::Controller { .. } => true,
+        }
     }
 
     /// The refusal of this state by a session of another kind.
     pub(crate) fn foreign<T>(&self) -> Result<T> {
-        let [own, other] = match self {
-            Self::Tick { .. } => ["certified sweeps", "solves to a tolerance"],
-            Self::Solve { .. } => ["solves to a tolerance", "certified sweeps"],
+        let own = match self {
+            Self::Tick { .. } => "certified sweeps",
+            Self::Solve { .. } => "solves to a tolerance",
+            Self::Controller { .. } => "the controller that `bake` writes",
         };
-        let message = format!("session: the state is one of {own}, and these ticks are {other}");
-        let hint = "give --tolerance, or leave it out, as in the run before";
+        let message = format!("session: the state is one of {own}, and these ticks are not");
+        let hint = "give --tolerance and --baked, or leave them out, as in the run before";
         Err(InputError::new(message).hint(hint).into())
     }
 }

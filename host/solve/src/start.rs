@@ -189,7 +189,7 @@ fn stated(problem: &Problem) -> Option<&Datum> {
 
 /// `problem` at `time`, with the inputs at the scene's own defaults: what the command line and a log say of them acts from the first
 /// step on.
-fn at_start(problem: &Problem, time: f64) -> Result<Problem> {
+pub fn at_start(problem: &Problem, time: f64) -> Result<Problem> {
     let inputs: Vec<_> = own_defaults(&problem.scene)?.into_iter().enumerate().collect();
     let mut at_start = problem.clone();
     at_start.set(&inputs, time)?;

@@ -17,14 +17,15 @@ use signorini_files::atomic::{writable_file, write_atomically};
 use signorini_files::fields::{Drawn, picture as vtu};
 use signorini_problem::Problem;
 use signorini_problem::progress::{note, say, steps, warn};
-use signorini_scene::error::{Error, Result};
+use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::mesh;
 use signorini_scene::scene::Scene;
 use signorini_session::tick::columns::{bounds_csv, ticks_csv};
 use signorini_session::tick::refusals::refusals;
 use signorini_session::tick::window_error::without_window_error;
 use signorini_session::tick::{
-    Begin, Budget, Onward, Played, Saved, ScheduledTick, TickRecord, log, play_on, replay, schedule,
+    Begin, Budget, Onward, Played, Saved, ScheduledTick, TickRecord, log, play_on, replay_on,
+    scalar_of_controller, schedule,
 };
 use signorini_solve::warnings;
 use signorini_solve::{Ending, ScalarKind, Solution};
@@ -53,7 +54,7 @@ Where a material has a capacity, each tick is a step of length time.step that be
 row is the start: error_bound is about the one step then, not about the evolution.
 
 --from goes on bit for bit: t and the inputs are those of the state until --input or a log says otherwise, and the files \
-have the new ticks alone. The state is one of the scene, its mesh, --step, --scalar, and of --tolerance being given or not.
+have the new ticks alone. The state is one of the scene, its mesh, --step, --scalar, and of --tolerance and --baked being given or not.
 
 Ctrl-C ends the run after the tick at hand, with its files and --save; the exit status is 130. A second one ends it at once.
 
@@ -92,7 +93,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     log: Option<PathBuf>,
     /// By the controller that `bake` writes for the scene, with its bits
-    #[arg(long, conflicts_with_all = ["budget_sweeps", "error", "tolerance", "coarse", "save", "from"])]
+    #[arg(long, conflicts_with_all = ["budget_sweeps", "error", "tolerance", "coarse"])]
     baked: bool,
     /// Write the state after the last tick
     #[arg(long, value_name = "FILE")]
@@ -157,7 +158,11 @@ impl Arguments {
             check_ticks(&scene, self.scalar.is_some())?;
         }
         let (out, own) = (self.place.out()?, Budget::of(&scene));
-        let scalar = self.scalar.unwrap_or(own.scalar);
+        let scalar = match self.baked {
+            true => scalar_of_controller(&scene, self.scalar)?,
+            false => self.scalar.unwrap_or(own.scalar),
+        };
+        self.check_state(&scene)?;
         if let Some(place) = &self.save {
             super::check_beside(&scene, "--save", place)?;
             writable_file("--save", place)?;
@@ -186,6 +191,17 @@ impl Arguments {
         Ok(Task { problem, coarse: coarse.transpose()?, saved, moments, budget, out })
     }
 
+    /// Refuses a state of a controller whose ticks are no steps in time.
+    fn check_state(&self, scene: &Scene) -> Result<()> {
+        let key = if self.save.is_some() { "--save" } else { "--from" };
+        if !self.baked || scene.stores() || (self.save.is_none() && self.from.is_none()) {
+            return Ok(());
+        }
+        let why = "no material has a capacity: what a controller then keeps is where its next sweeps begin, and has no file";
+        let hint = "leave out --baked, or play the log as a whole";
+        Err(InputError::new(format!("{key}: {why}")).file(scene.file()).hint(hint).into())
+    }
+
     fn warn_before(&self, Task { problem, coarse, moments, budget, .. }: &Task) -> Result<()> {
         warn(&problem.warnings);
         coarse.iter().for_each(|coarse| warn(&coarse.warnings));
@@ -212,8 +228,10 @@ impl Arguments {
         };
         let begin = saved.as_ref().map_or(Begin::Anew(coarse.as_ref()), Begin::From);
         let ran = match self.baked {
-            true => replay(problem, moments, (self.scalar, budget.shows_start), done)
-                .map(|(model, ticks)| (model, Played { ticks, saved: None })),
+            true => {
+                let asked = (self.scalar, budget.shows_start);
+                replay_on(problem, saved.as_ref(), moments, asked, done)
+            }
             false => play_on(problem, begin, moments, budget, done)
                 .map(|played| ("full, swept".to_owned(), played)),
         };

@@ -20,6 +20,7 @@ mod moments;
 mod play;
 mod record;
 pub mod refusals;
+mod replay;
 mod saved;
 pub mod schedule;
 #[cfg(test)]
@@ -31,6 +32,7 @@ mod tests;
 pub mod window_error;
 
 pub use record::{TickInterval, TickRecord};
+pub use replay::{replay, replay_on, scalar_of_controller};
 pub use saved::{Moment, Saved};
 
 use signorini_device::tick::Limits;
@@ -40,12 +42,9 @@ use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::Precision;
-use signorini_solve::{MOST_SWEEPS, Options, ScalarKind, Solution, Start};
+use signorini_solve::{MOST_SWEEPS, Options, ScalarKind, Solution};
 
-use crate::with_module;
-use intervals::Intervals;
-use moments::{Done, Play};
-use window_error::WindowError;
+use moments::Done;
 
 /// When a tick happens, and what the inputs are then.
 #[derive(Debug, Clone, PartialEq)]
@@ -172,49 +171,4 @@ pub fn play_on<D: Into<Onward>>(
 ) -> Result<Played> {
     let done: Done = &mut |tick, solution| done(tick, solution).map(Into::into);
     play::of(budget.scalar)(problem, begin, moments, budget, done)
-}
-
-/// Plays `moments` through the controller of `problem`, calling `done` after each, without a solution where the controller
-/// refuses the inputs; also the controller's name in a few words. `asked` is a scalar instead of that of the scene's
-/// setting, and whether the start of steps in time has a record of its own.
-///
-/// # Errors
-/// Those of `bake`; inputs for which the scene's data are not admissible, with their time.
-pub fn replay<D: Into<Onward>>(
-    problem: &Problem,
-    moments: &[ScheduledTick],
-    (asked, shows_start): (Option<ScalarKind>, bool),
-    mut done: impl FnMut(&TickRecord, Option<&Solution>) -> Result<D>,
-) -> Result<(String, Vec<TickRecord>)> {
-    replay_to(problem, moments, (asked, shows_start), &mut |tick, solution| {
-        done(tick, solution).map(Into::into)
-    })
-}
-
-fn replay_to(
-    problem: &Problem,
-    moments: &[ScheduledTick],
-    (asked, shows_start): (Option<ScalarKind>, bool),
-    done: Done,
-) -> Result<(String, Vec<TickRecord>)> {
-    let first = moments.first().map_or(0.0, |moment| moment.time);
-    with_module(problem, asked, |session, module| {
-        let (mut problem, mut ticks) = (problem.clone(), Vec::new());
-        let (mut error, mut stated) = (None, None);
-        if let Some(start) = Start::of(&problem, first)? {
-            problem = start.stepping(&problem)?;
-            let time = problem.scene.time.as_ref();
-            stated = time.filter(|of| of.initial.is_some()).map(|of| [0.0, of.step]);
-            if let Some(of) = &start.evolution {
-                error = WindowError::begin(&start, of.seconds())?;
-            }
-            if shows_start {
-                ticks.push(TickRecord::of_start(&start)?);
-                done(&ticks[0], Some(&start.solution))?;
-            }
-        }
-        let mut play = Play { error, stated, ..Play::new(session, Intervals::Weighed(module)) };
-        ticks.extend(play.through(&mut problem, moments, done)?);
-        Ok((module.name.clone(), ticks))
-    })
 }

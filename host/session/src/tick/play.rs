@@ -101,8 +101,7 @@ fn play<R: Scalar>(
     saved.units = units;
     saved.state = problem.loads.step.take().map(|step| step.begin);
     saved.evolution = play.evolution.filter(Evolution::is_finite);
-    let sums = play.error.as_ref().map(WindowError::sums);
-    saved.error = sums.filter(|sums| sums.iter().all(|sum| sum.is_finite()));
+    saved.error = WindowError::finite_sums(play.error.as_ref());
     saved.session = session.saved();
     Ok(Played { ticks, saved: Some(saved).filter(Saved::is_finite) })
 }
@@ -137,18 +136,22 @@ fn again(given: &Problem, saved: &Saved) -> Result<Begun> {
     let Moment { time, .. } = saved.begun;
     problem.set(&saved.begun.values().collect::<Vec<_>>(), time)?;
     let parts = Some(Parts::whatever_inputs(&problem)?.counts);
-    let error = error_until(given, saved);
+    let seconds = saved.evolution.as_ref().map(Evolution::seconds);
+    let error = error_until(given, saved, seconds);
     Ok(Begun { problem, parts, evolution: None, error, ticks: Vec::new() })
 }
 
-/// The error of the evolution until a state, where that is known.
-fn error_until(given: &Problem, saved: &Saved) -> Option<WindowError> {
+/// The error of the evolution until a state, where that is known; its weights fade within so many seconds.
+pub(super) fn error_until(
+    given: &Problem,
+    saved: &Saved,
+    seconds: Option<f64>,
+) -> Option<WindowError> {
     let (state, units) = (saved.state.as_ref()?, &saved.units);
     let vertices = state.vertices.iter().map(|&u| units.value(u)).collect();
     let bubbles = state.bubbles.iter().map(|&bubble| bubble * units.u).collect();
     let at_last = Problem { time: saved.last.time, ..given.clone() };
-    let seconds = saved.evolution.as_ref()?.seconds();
-    WindowError::resume(&at_last, seconds, saved.error?, [vertices, bubbles])
+    WindowError::resume(&at_last, seconds?, saved.error?, [vertices, bubbles])
 }
 
 /// Lays the numbers of a state into `problem` and its session, both in `units`.

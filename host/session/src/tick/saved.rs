@@ -81,6 +81,9 @@ pub struct Saved {
     /// The sums of `window_error`, where it is known.
     #[serde(default)]
     pub(super) error: Option<[f64; 2]>,
+    /// See [`Play::stated`](super::moments::Play::stated).
+    #[serde(default)]
+    pub(super) stated: Option<[f64; 2]>,
     /// What the session carries; nothing before its first answer.
     pub(super) session: Option<SavedSession>,
     /// The file that it was read from.
@@ -105,6 +108,7 @@ impl Saved {
             state: None,
             evolution: None,
             error: None,
+            stated: None,
             session: None,
             path: PathBuf::new(),
         }
@@ -198,7 +202,11 @@ impl Saved {
         check_length("state.u", u.len(), counts.edges())?;
         check_length("state.vertices", vertices.len(), problem.mesh.vertices.len())?;
         check_length("state.bubbles", bubbles.len(), counts.edges())?;
-        check_length("state.openings", openings.len(), counts.contact)?;
+        // A controller has them in its own state.
+        let is_of_controller = matches!(self.session, Some(SavedSession::Controller { .. }));
+        if !(is_of_controller && openings.is_empty()) {
+            check_length("state.openings", openings.len(), counts.contact)?;
+        }
         match traces.iter().find(|trace| trace.edge as usize >= counts.edges()) {
             Some(trace) => {
                 let message = format!("state.traces: there is no edge {}", trace.edge);

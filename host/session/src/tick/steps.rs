@@ -64,10 +64,8 @@ fn moments(count: u32) -> Vec<ScheduledTick> {
 }
 
 pub(super) fn near(what: &str, found: f64, expected: f64, part: f64) {
-    assert!(
-        (found - expected).abs() <= part * expected.abs().max(1.0),
-        "{what}: {found} {expected}"
-    );
+    let off = (found - expected).abs();
+    assert!(off <= part * expected.abs().max(1.0), "{what}: {found} {expected}");
 }
 
 /// 30 steps with all inputs moving: the numbers of this machine's own play but for what either leaves to its sweeps.
@@ -78,14 +76,14 @@ fn a_controller_steps_as_this_machine_does() -> Result<()> {
         let moments = moments(30);
         let budget = Budget { intervals: false, ..Budget::of(&problem.scene) };
         let own = play(&problem, None, &moments, &budget, |_, _| Ok(()))?;
-        let asked = (Some(ScalarKind::F64), true);
-        let (model, baked) = replay(&problem, &moments, asked, |_, _| Ok(()))?;
+        let (model, baked) =
+            replay(&problem, &moments, (Some(ScalarKind::F64), true), |_, _| Ok(()))?;
         assert!(model.starts_with("full"), "{model}");
         assert_eq!((own.len(), baked.len()), (31, 31));
         // What cells hand on is no part that sweeps remove: they would go on for it to their last.
         assert!(baked.iter().all(|tick| tick.sweeps < 2000), "{cells:?}");
         let sometimes = |output: usize| own.iter().any(|tick| tick.outputs[output] > Some(0.1));
-        assert!(sometimes(0) && sometimes(1), "edges hold, and are saturated");
+        assert!([0, 1].into_iter().all(sometimes), "edges hold, and are saturated");
         for (own, baked) in own.iter().zip(&baked) {
             let what = format!("{cells:?} at {}", own.time);
             for (at, (own, baked)) in own.outputs.iter().zip(&baked.outputs).enumerate() {

@@ -105,8 +105,9 @@ impl WindowError {
     }
 
     /// What another run goes on from: the weighed integral of the error's square, and the weights.
-    pub(super) fn sums(&self) -> [f64; 2] {
-        [self.integral, self.weights]
+    pub(super) fn finite_sums(of: Option<&Self>) -> Option<[f64; 2]> {
+        let sums = of.map(|of| [of.integral, of.weights]);
+        sums.filter(|sums| sums.iter().all(|sum| sum.is_finite()))
     }
 
     /// Goes on to the answer at `moment`, in the scene's units, and gives the error until then.
