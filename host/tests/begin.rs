@@ -178,3 +178,29 @@ fn a_shell_a_manual_and_an_editor_know_the_commands() {
     says(&run(&["man", "solve"]).succeeds().stdout, &["max\\-error"]);
     says(&run(&["man", "solv"]).refuses(), &["there is no such command"]);
 }
+
+/// A start that is stated is looked at; where one is, a body that nothing holds at rest is only warned of.
+#[test]
+fn a_check_looks_at_the_start_of_steps() {
+    let folder = Folder::new();
+    let mesh = meshes("catalogue/square-tri-16.msh");
+    let scene = |initial: &str| {
+        let text = format!(
+            "mesh = {mesh:?}\nmaterial.default = {{ conductivity = \"1\", capacity = 1 }}\nsource.f = \"1\"\n\
+             boundary.contact = {{ kind = \"contact\" }}\nboundary.dirichlet = {{ kind = \"neumann\", flux = \"0\" }}\n\
+             boundary.default = {{ kind = \"neumann\", flux = \"0\" }}\ntime.step = 1\n{initial}"
+        );
+        folder.write("body.toml", text)
+    };
+    let [without, stated, wrong] = ["", "time.initial = \"y\"", "time.initial = \"ln(y - 9)\""]
+        .map(|initial| {
+            let run = run(&["check", &scene(initial)]);
+            (run.status, run.stderr)
+        });
+    assert_eq!([without.0, stated.0, wrong.0], [2, 0, 2], "{without:?} {stated:?} {wrong:?}");
+    says(&without.1, &["no solution"]);
+    says(&stated.1, &["warning: at rest there is no answer", "no solution"]);
+    says(&wrong.1, &["body.toml:8: time.initial: ln(y - 9) is not finite"]);
+    run(&["tick", &scene("time.initial = \"y\""), "--ticks", "1", "--out", &folder.word("out")])
+        .succeeds();
+}

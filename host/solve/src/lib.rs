@@ -44,7 +44,7 @@ pub use multigrid::Multigrid;
 pub use options::{MOST_SWEEPS, Options, ScalarKind, SolverKind};
 pub use shared::{MOST_FACTORED, SharedSolver};
 pub use solution::{Seconds, Solution};
-pub use start::{Start, at_start, own_defaults, step_of, warnings};
+pub use start::{Start, at_start, check_stated, own_defaults, step_of, warnings};
 pub use tuned::{Trials, tuned_omega};
 pub use units::{Scaled, choose as choose_units, choose_for_inputs, in_scene, times};
 

@@ -120,6 +120,17 @@ fn stated_means(problem: &Problem, initial: &Datum) -> Result<[Vec<f64>; 2]> {
     Ok([means, moved])
 }
 
+/// Looks at the stated u, where steps in time begin from one.
+///
+/// # Errors
+/// An expression without a value somewhere.
+pub fn check_stated(problem: &Problem) -> Result<()> {
+    match stated(problem).filter(|_| problem.scene.stores()) {
+        Some(initial) => stated_means(problem, initial).map(drop),
+        None => Ok(()),
+    }
+}
+
 /// How many edges a stated start is moved on, and by how much at most, where it is.
 fn moved_warning(problem: &Problem, initial: &Datum) -> Result<Option<String>> {
     let [means, moved] = stated_means(problem, initial)?;

@@ -21,7 +21,7 @@ Examples:
   signorini check bar.toml --json             for programs: sizes, parts, inputs, outputs, faults
 
 All that is wrong in the file and with its groups on the mesh is told; data are looked at once these are right.
-Exit status: 0 the scene can be solved; 2 something is wrong.";
+Exit status: 0 the scene can be solved, or stepped from the start that it states; 2 something is wrong.";
 
 /// Arguments of `check`.
 #[derive(Debug, Args)]

@@ -9,11 +9,11 @@ use signorini_problem::{Parts, Problem, check_groups};
 use signorini_scene::Faults;
 use signorini_scene::error::InputError;
 use signorini_scene::mesh::{Mesh, adapted};
-use signorini_scene::scene::Draft;
 use signorini_scene::scene::term::at_rest_warning;
+use signorini_scene::scene::{Draft, Scene};
 use signorini_scene::setting::{Precision, Setting};
 use signorini_session::with_session;
-use signorini_solve::units;
+use signorini_solve::{check_stated, units};
 
 /// What a look at a scene finds.
 pub(super) struct Look {
@@ -38,8 +38,16 @@ impl Look {
                 faults.keep(check_groups(&draft.scene, &mesh));
             } else if let Some(problem) = faults.keep(Problem::new(&draft.scene, mesh.clone())) {
                 warnings.extend(problem.warnings.iter().cloned());
-                if let Some(parts) = faults.keep(Parts::examine(&problem)) {
-                    outline = outline.with_parts(&problem, &parts);
+                match Parts::examine(&problem) {
+                    Ok(parts) => outline = outline.with_parts(&problem, &parts),
+                    // Steps in time need no steady state where a start is stated.
+                    Err(error) if begins_from_stated(&problem.scene) => warnings.push(format!(
+                        "at rest there is no answer, `signorini tick` steps from time.initial: {}",
+                        error.reason()
+                    )),
+                    Err(error) => faults.add(error),
+                }
+                if faults.count() == 0 {
                     posed(&problem, &faults);
                 }
             }
@@ -49,6 +57,10 @@ impl Look {
         faults.sort_by_key(|fault| fault.place().1.unwrap_or(usize::MAX));
         Self { draft, on_mesh, warnings, faults }
     }
+}
+
+fn begins_from_stated(scene: &Scene) -> bool {
+    scene.stores() && scene.time.as_ref().is_some_and(|time| time.initial.is_some())
 }
 
 /// What a solution would ask of a sound problem: places of outputs, the exact solution, what the setting says.
@@ -62,6 +74,7 @@ fn posed(problem: &Problem, faults: &Faults) {
         let points = cells.flat_map(|cell| cell.points(&rule));
         faults.keep(exact_at_all(&problem.scene, exact, &points.collect::<Vec<_>>(), problem.time));
     }
+    faults.keep(check_stated(problem));
     faults.keep(units::choose(problem));
     let is_followed = |setting: &Setting| {
         setting.scalar == Some(Precision::Mixed) || !setting.of_method().is_empty()
