@@ -1,7 +1,7 @@
 //! A tick that is a step in time.
 //!
-//! Cells hand on most of what they lack of balance, or keep it: the lesser total counts. τ is always that of cells which keep it: where
-//! the tick has converged these are the fluxes of the step itself, which outputs are about.
+//! Cells hand on most of what they lack of balance, or those that store something keep it: the lesser total counts. τ is always that of the
+//! way in which they keep it: where the tick has converged these are the fluxes of the step itself, which outputs are about.
 
 use core::cell::Cell;
 use core::fmt;
