@@ -111,7 +111,7 @@ impl controller::Baked for Scene {{
     )
 }
 
-/// What puts the bound over time into these outputs.
+/// The function that puts the bound over time into these outputs.
 fn told(windows: &[&str]) -> String {
     if windows.is_empty() {
         return String::new();
@@ -128,7 +128,7 @@ fn told(windows: &[&str]) -> String {
     )
 }
 
-/// What outlives the program, of a model that steps in time: so many numbers.
+/// The state that outlives the program, of a model that steps in time: so many numbers.
 pub(super) fn state(numbers: impl std::fmt::Display) -> String {
     format!(
         "

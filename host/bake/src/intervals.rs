@@ -29,13 +29,13 @@ const ROUNDINGS: f64 = 512.0;
 /// What a module knows of its outputs' intervals, in their order.
 #[derive(Debug, Clone)]
 pub struct OutputIntervals {
-    /// What its bound weighs in each.
+    /// Weights of its bound in each.
     pub weighed: Vec<Weighed>,
     /// What s and τ of a tick tell beside, in the columns of the model that is baked.
     pub midpoints: Vec<Option<Midpoint>>,
 }
 
-/// Those of a chosen model.
+/// Intervals of a chosen model.
 pub fn of_choice<R: Bakes>(problem: &Problem, choice: &Choice<R>) -> OutputIntervals {
     R::intervals(problem, choice)
 }
@@ -69,7 +69,7 @@ pub(crate) fn guaranteed<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Ou
     OutputIntervals { weighed, midpoints }
 }
 
-/// Those of steps of this length: what a tick tells of its own s and τ is not known of them.
+/// Intervals of steps of this length: what a tick tells of its own s and τ is not known of them.
 fn of_steps(problem: &Problem, step: f64, are_balanced: bool) -> OutputIntervals {
     let answers = Answers { are_balanced, ..Answers::default() };
     let none = |why: String| vec![Err(why); wanted(&problem.scene).len()];
@@ -150,7 +150,7 @@ pub struct NarrowMidpoint<R: Scalar> {
 }
 
 impl<R: Scalar> NarrowMidpoint<R> {
-    /// That of an output of `scene`; nothing where a number is beyond the scalar.
+    /// The midpoint of an output of `scene`; nothing where a number is beyond the scalar.
     pub fn new(scene: &Scene, of: &Midpoint) -> Option<Self> {
         let changed = scene.inputs.iter().position(|of| of.field.value == Field::Coefficient);
         let [least, greatest] = changed.map_or([0.0; 2], |at| scene.inputs[at].interval());

@@ -26,7 +26,7 @@ pub struct ModuleApi {
     /// As the scene gives them.
     pub(crate) given_ranges: Vec<[f64; 2]>,
     pub(crate) outputs: Vec<Item>,
-    /// Those that are the bound over time.
+    /// Positions of outputs that are the bound over time.
     pub(crate) windows: Vec<usize>,
     /// The length of a step in time, where ticks are such.
     pub(crate) step: Option<f64>,

@@ -41,7 +41,7 @@ pub enum SavedSession {
 }
 
 impl SavedSession {
-    /// That of a controller with these bytes.
+    /// The state of a controller with these bytes.
     pub(crate) fn of_controller(bytes: &[u8]) -> Self {
         Self::Controller { state: bytes.iter().map(|byte| format!("{byte:02x}")).collect() }
     }

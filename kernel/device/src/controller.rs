@@ -7,6 +7,7 @@
 //! same controller on arrays that it owns. What a model does in a tick stands where its memory does: in
 //! [`crate::condensed`] and in `device::full`'s `controller`.
 
+pub use crate::window::Window;
 use crate::{exclusions, ranges};
 use signorini_kernel::limits::{Deadline, Limits};
 use signorini_kernel::report::Report;
@@ -136,15 +137,6 @@ pub trait Storage<R: Real> {
     ) -> Result<Answer<O, R>, Error>;
 }
 
-/// The bound of the evolution until now: the root of the mean of ‖A^½∇(u − s)‖² + ∫_R h(u − s)², whose weights fade into the past.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Window<R> {
-    /// That root at most.
-    pub energy: R,
-    /// How far back the mean reaches, in the unit of time.
-    pub seconds: R,
-}
-
 /// Memory of which a part outlives the program.
 pub trait Saving<R: Real, State>: Storage<R> {
     /// What one tick hands on to the next, sealed.
@@ -239,8 +231,8 @@ impl<S: Scene> Controller<S> {
         if !S::TELLS_WINDOW {
             return answer;
         }
-        let (mut answer, window) = (answer?, self.window());
-        let energy = window.map_or(S::Scalar::INFINITY, |window| window.energy);
+        let mut answer = answer?;
+        let energy = self.window().map_or(S::Scalar::INFINITY, |window| window.energy);
         self.scene.tell(&mut answer.outputs, energy);
         Ok(answer)
     }

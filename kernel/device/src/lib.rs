@@ -61,6 +61,7 @@ pub mod sparse;
 mod state;
 #[cfg(feature = "mesh")]
 pub mod tick;
+mod window;
 #[cfg(feature = "workspace")]
 pub mod workspace;
 

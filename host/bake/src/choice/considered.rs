@@ -16,7 +16,7 @@ const MOST_CONTACTS: usize = 1000;
 /// Bytes of flash beyond which a condensed model is compared with the full one.
 const LARGE: u64 = 1 << 20;
 
-/// What a model is chosen for.
+/// The problem that a model is chosen for, and all that is asked of it.
 pub(super) struct Task<'t> {
     pub problem: &'t Problem,
     pub wanted: Wanted,

@@ -1,4 +1,4 @@
-//! What the baked module does, on this machine and on the same numbers.
+//! The controller of a baked module, on this machine and on the same numbers.
 
 use signorini_contact::dense::blocks::{Block, SIDE, count, padded};
 use signorini_contact::modes::ModalStorage;
@@ -65,7 +65,7 @@ impl<'b, R: Scalar> Controller<'b, R> {
         }
     }
 
-    /// What the last tick has left for the next one, in a model that steps in time.
+    /// Numbers that the last tick has left for the next one, in a model that steps in time.
     pub fn past(&self) -> &[R] {
         match (self.own.storage(), &self.baked.steps) {
             (DeskStorage::Stepped(of), Some(steps)) => {

@@ -1,4 +1,4 @@
-//! What the baked module does, on this machine and on the same numbers.
+//! The controller of a baked module, on this machine and on the same numbers.
 
 use signorini_bound::certificate::Curved;
 use signorini_device::controller::{self, Scene, Window};
@@ -129,7 +129,7 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
         self.certificates
     }
 
-    /// What the factor did in the last tick; `None` without one, or where sweeps had to help.
+    /// Work of the factor in the last tick; `None` without one, or where sweeps had to help.
     pub fn solved(&self) -> Option<Solved<R>> {
         self.own.storage().solver.solved
     }

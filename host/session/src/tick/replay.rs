@@ -32,7 +32,7 @@ pub fn replay<D: Into<Onward>>(
     Ok((name, played.ticks))
 }
 
-/// As [`replay`], from a state of another replay where `from` is one; `done` may stop it.
+/// [`replay`] from a state of another replay where `from` is one; `done` may stop it.
 ///
 /// # Errors
 /// As for [`replay`]; a state that is not one of `problem` and its controller.
@@ -55,7 +55,7 @@ pub fn scalar_of_controller(scene: &Scene, asked: Option<ScalarKind>) -> Result<
     setting::scalar(scene, asked)
 }
 
-/// What comes before the first tick.
+/// A replay before its first tick.
 struct Begun {
     problem: Problem,
     error: Option<WindowError>,

@@ -44,15 +44,15 @@ struct Row {
     window_over_error: Option<f64>,
     /// See `window_over_error`.
     at_last: Option<f64>,
-    /// As `error_over_window`, of the full controller.
+    /// `error_over_window` of the full controller.
     full_error_over_window: Option<f64>,
-    /// As `error_over_step`, of the full controller.
+    /// `error_over_step` of the full controller.
     full_error_over_step: Option<f64>,
-    /// As `error_over_window`, of the condensed controller.
+    /// `error_over_window` of the condensed controller.
     condensed_error_over_window: Option<f64>,
-    /// As `error_over_step`, of the condensed controller.
+    /// `error_over_step` of the condensed controller.
     condensed_error_over_step: Option<f64>,
-    /// As `at_last`, of the condensed controller.
+    /// `at_last` of the condensed controller.
     condensed_at_last: Option<f64>,
     /// The part of the last step's bound that the finer answer proves to be error.
     error_over_step: Option<f64>,

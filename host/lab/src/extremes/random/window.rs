@@ -41,10 +41,10 @@ pub struct JudgedTrajectory {
     pub no_bound: Option<String>,
 }
 
-/// What a controller came to.
+/// Bounds of a controller beside the finer play.
 #[derive(Debug, Clone, Default)]
 pub struct Controlled {
-    /// As of the trajectory.
+    /// `windows` of the controller.
     pub windows: Vec<Judged>,
     /// Its last step.
     pub step: Option<Judged>,
@@ -92,7 +92,7 @@ pub(super) fn posed(case: &Trajectory) -> Result<Option<(Problem, CertifiedField
     Ok(start.map(|start| (problem, start)))
 }
 
-/// The same trajectory by its full controller, which begins where its `own` ticks do; nothing where there is none.
+/// The trajectory by its full controller, which begins where its `own` ticks do; nothing where there is none.
 fn full(case: &Trajectory, own: &Played) -> Result<Option<Played>> {
     let sweeps = case.sweeps.map_or_else(String::new, |sweeps| format!("sweeps = {sweeps}\n"));
     let text = format!("{}[setting]\nmodel = \"full\"\n{sweeps}", case.scene_text(1));
@@ -104,7 +104,7 @@ fn full(case: &Trajectory, own: &Played) -> Result<Option<Played>> {
     }
 }
 
-/// The same trajectory by its condensed controller; nothing where there is none.
+/// The trajectory by its condensed controller; nothing where there is none.
 fn condensed(case: &Trajectory) -> Result<Option<Played>> {
     let Some((problem, start)) = posed(case)? else { return Ok(None) };
     replayed(case, problem, start).map(Some)

@@ -211,7 +211,7 @@ fn bounds_of_controllers_hold_where_nothing_else_holds() {
     }
 }
 
-/// What cells that store nothing lack of balance may leave through contact where nothing else holds: no interval of a force is told.
+/// Through contact may leave what cells that store nothing lack of balance, where nothing else holds: no interval of a force is told.
 #[test]
 fn controllers_have_no_intervals_where_nothing_else_holds() {
     let [_, none_below] = materials();
