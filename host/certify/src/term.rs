@@ -5,7 +5,7 @@
 //! of a full model change h, all terms have the h that the scene states, and what inputs add to it is a pattern with products
 //! ([`TransferPattern`]).
 //!
-//! What 8 points miss of u_ext weighs √h, and whether h allows for a bound is a comparison of h at two points of an edge,
+//! What 8 points miss of u_ext weighs √h, in a condensed model too, and whether h allows for a bound is a comparison of h at two points of an edge,
 //! linear in the inputs: both are judged at all corners of the ranges of such inputs.
 //!
 //! The flux of a contact edge goes from a base, which loads contain, over a span to its other end. Where no input changes an
@@ -84,7 +84,10 @@ pub fn full_terms(problem: &Problem) -> Result<Vec<TermData>> {
 pub fn condensed_terms(problem: &Problem) -> Result<Vec<TermData>> {
     let term = |term: Term| {
         let alone = problem.left_with(&[term])?;
-        let data = Evaluated::of_term(&alone)?;
+        let mut data = Evaluated::of_term(&alone)?;
+        if alone.scene.inputs.iter().any(changes_transfer) {
+            data.oscillation = at_all_corners(&alone)?.oscillation;
+        }
         TermData::new(problem, term, alone, data)
     };
     (0..=problem.scene.inputs.len()).map(term).collect()

@@ -100,19 +100,9 @@ fn condensed_as<R: Scalar>(
     setting: &Setting,
     [exact, certified]: [bool; 2],
 ) -> Result<Candidate<R>> {
-    let condensate = origin.model();
-    let unfit = unfit::<R>(scene);
+    let (condensate, costs) = (origin.model(), Costs::measured());
     let all = allowed(setting, condensate, exact);
-    let baked = match (&origin.modes, &origin.steps) {
-        (Some(modes), _) => condensed::Baked::<R>::modal(modes, all, certified),
-        (None, Some(steps)) => condensed::Baked::<R>::stepped(steps, all, certified),
-        (None, None) => condensed::Baked::<R>::new(condensate, all, certified),
-    };
-    let baked = baked.map_err(unfit)?;
-    let mut baked = baked.with_setting(setting);
-    baked.exclusions = exclusions(&origin.exclusions);
-    baked.windows = windows(scene);
-    let costs = Costs::measured();
+    let mut baked = narrowed::<R>(scene, origin, all, certified)?.with_setting(setting);
     let of_states =
         baked.steps.as_ref().map_or(0, |of| of.count() * (condensate.contact + baked.inputs));
     let price = baked.price(entries(condensate, baked.modes.as_ref()) + of_states, exact);
@@ -142,9 +132,41 @@ fn condensed_as<R: Scalar>(
         // Cut off where time is up: no end is proved.
         _ => baked = baked.with_work(within::<R>(&costs, condensate.contact, all, tried, time)),
     }
-    let sizes = condensed::sizes(&baked);
-    let needs = Needs::with_code(baked.kind(), sizes, instructions);
-    let solver = match (condensate.contact, exact) {
+    let needs = Needs::with_code(baked.kind(), condensed::sizes(&baked), instructions);
+    Ok(Candidate {
+        name: name(&baked, exact),
+        shortfalls: budget.shortfalls(&needs),
+        model: Model::Condensed(Box::new(baked)),
+        needs,
+        trial,
+        staying,
+        too_long: worst.filter(|_| is_late(worst)),
+        lacks_bound: false,
+        unbounded: None,
+    })
+}
+
+/// The model in the scalar of the target.
+fn narrowed<R: Scalar>(
+    scene: &Scene,
+    origin: &Origin,
+    all: Work,
+    certified: bool,
+) -> Result<condensed::Baked<R>> {
+    let baked = match (&origin.modes, &origin.steps) {
+        (Some(modes), _) => condensed::Baked::<R>::modal(modes, all, certified),
+        (None, Some(steps)) => condensed::Baked::<R>::stepped(steps, all, certified),
+        (None, None) => condensed::Baked::<R>::new(origin.model(), all, certified),
+    };
+    let mut baked = baked.map_err(unfit::<R>(scene))?;
+    baked.exclusions = exclusions(&origin.exclusions);
+    baked.windows = windows(scene);
+    Ok(baked)
+}
+
+/// A condensed model in a few words.
+fn name<R: Scalar>(baked: &condensed::Baked<R>, exact: bool) -> String {
+    let solver = match (baked.contact, exact) {
         (0, _) => "linear",
         (_, true) => "exact method",
         (_, false) => "sweeps alone",
@@ -155,17 +177,7 @@ fn condensed_as<R: Scalar>(
         (None, None) => String::new(),
     };
     let bound = if baked.without_bound().is_none() { "" } else { ", no error bound" };
-    Ok(Candidate {
-        name: format!("condensed{modes}, {solver}{bound}"),
-        shortfalls: budget.shortfalls(&needs),
-        model: Model::Condensed(Box::new(baked)),
-        needs,
-        trial,
-        staying,
-        too_long: worst.filter(|_| is_late(worst)),
-        lacks_bound: false,
-        unbounded: None,
-    })
+    format!("condensed{modes}, {solver}{bound}")
 }
 
 /// Instructions of a tick in which no edge changes sides, as if every group of eight edges had an open one:

@@ -17,6 +17,7 @@ mod evolution;
 mod gramian;
 mod memory;
 mod modes;
+mod motion;
 mod rows;
 mod shapes;
 
@@ -26,11 +27,11 @@ use super::elimination::{columns, fields};
 use super::evaluate::dot;
 use super::{CondensedModel, Measure, Pieces, Recovery};
 pub(super) use bound::StepShapes;
-use choice::Trial;
 pub use evolution::EvolutionForms;
-use gramian::{Gramian, Subspace};
+use gramian::Subspace;
 pub use memory::Memory;
 use modes::Deviations;
+use motion::Motion;
 use shapes::Shapes;
 use signorini_certify::TermData;
 use signorini_problem::{Approach, Problem, State};
@@ -117,96 +118,38 @@ pub fn stepped(problem: &Problem, memory: Option<usize>) -> Result<(SteppedModel
     let in_step = &problem.stepping(length, State::zero(problem))?;
     let mut pieces = statics.in_step(in_step, length, &shapes.inputs[0])?;
     let openings = pieces.openings(in_step)?;
-    let deviations = Deviations::new(in_step)?;
     let start = shapes.start(problem, length, &openings)?;
-    let columns = shapes.columns(&openings);
-    let sizes = shapes.sizes(&openings);
-    let left = start.deviation(&shapes, &deviations);
-    let coordinates: Vec<_> = columns.iter().map(|u| deviations.coordinates(u)).collect();
-    let gramian = LazyCell::new(|| Gramian::new(&deviations.fading, (&coordinates, &sizes), &left));
-    let dominant = |memory: usize| match memory < deviations.count() {
+    let motion = Motion::new(&shapes, &start, &openings, Deviations::new(in_step)?);
+    let gramian = LazyCell::new(|| motion.gramian());
+    let dominant = |memory: usize| match memory < motion.deviations.count() {
         true => gramian.dominant(memory),
-        false => Subspace::all(&deviations),
+        false => Subspace::all(&motion.deviations),
     };
-    let m = pieces.patterns.len();
     let silent = TermData::silent(in_step)?;
-    pieces.begin_from(&columns, (&silent, length))?;
+    pieces.begin_from(&motion.columns, (&silent, length))?;
     let memory = match memory {
         Some(memory) => memory,
         None => {
-            let trial = Trial {
-                model: &pieces.without_form(&mut pieces.fields(Vec::new())?)?.0,
-                steady: &shapes.steady,
-                begin: [&start.inputs, &start.openings],
-                sizes: &sizes[..m - 1],
-                deviations: &deviations,
-                columns: &coordinates,
-                start: &left,
-                pace: [length, decay_rate(problem)?],
-            };
-            trial.least(dominant)
+            let without = pieces.without_form(&mut pieces.fields(Vec::new())?)?.0;
+            motion.trial(&without, [length, decay_rate(problem)?]).least(dominant)
         }
     };
     let kept = dominant(memory);
-    let states = kept.shapes(&deviations, in_step)?;
+    let states = kept.shapes(&motion.deviations, in_step)?;
     pieces.begin_from(&states, (&silent, length))?;
     let (corrections, ends) = bound::corrections(&pieces, &openings);
     pieces.patterns.resize(pieces.patterns.len() + corrections, silent);
-    let of_states = kept.inner(&left);
-    pieces.beyond = [&start.inputs[1..], &start.openings, &of_states].concat();
-    let of_columns = kept.changes(&deviations.fading, &coordinates);
-    let means = [shapes.inputs.clone(), columns[m - 1..].to_vec(), states];
-    let (fading, modes) = (kept.fading, deviations.count());
-    pieces.step = Some(StepShapes {
-        means,
-        fading: fading.clone(),
-        changes: of_columns.clone(),
-        corrections,
-    });
+    pieces.beyond = [&start.inputs[1..], &start.openings, &kept.inner(&motion.left)].concat();
+    pieces.step = Some(motion.remembered(&kept, states, corrections));
     let fields = pieces.fields(Vec::new())?;
-    let (mut model, mut recovery) = pieces.model(fields)?;
-    let unit = model.energy_unit;
-    let own = 2 * m - 1..model.inputs;
-    model.scale_inputs(own.clone(), unit);
-    recovery.scale_inputs(own.clone(), unit);
-    model.defaults[own].iter_mut().for_each(|x| *x /= unit);
-    let of_inputs = of_columns.iter().map(|row| over(&row[..m - 1], unit)).collect();
-    let full = full_memory(&deviations, (&coordinates, m - 1), &left, unit);
-    let gaps = shapes.gaps(in_step, &model.opening);
-    let mut of = SteppedModel {
-        model,
-        inputs: m,
-        fading,
-        of_inputs,
-        modes,
-        corrections,
-        evolution: None,
-        gaps,
-        full,
-    };
+    let (model, mut recovery) = pieces.model(fields)?;
+    let mut of = motion.model(model, &mut recovery, (kept, corrections));
+    of.gaps = shapes.gaps(in_step, &of.model.opening);
     of.correct_start();
     let stated = problem.scene.time.as_ref().and_then(|time| time.initial.as_ref());
     let begun = (problem, length, stated);
     of.evolution = EvolutionForms::new(&of, (&pieces, &recovery), begun, ends)?;
     Ok((of, recovery))
-}
-
-/// The memory of all modes, for columns of which so many first ones are those of inputs.
-fn full_memory(
-    deviations: &Deviations,
-    (columns, inputs): (&[Vec<f64>], usize),
-    begin: &[f64],
-    unit: f64,
-) -> Memory {
-    let all = Subspace::all(deviations);
-    let changes = all.changes(&deviations.fading, columns);
-    let rows = changes.iter().map(|row| row.split_at(inputs));
-    let (of_p, of_x): (Vec<_>, Vec<_>) = rows.map(|(p, x)| (over(p, unit), x.to_vec())).unzip();
-    Memory::new(&all.fading, [&of_x, &of_p], &over(begin, unit))
-}
-
-fn over(row: &[f64], unit: f64) -> Vec<f64> {
-    row.iter().map(|entry| entry / unit).collect()
 }
 
 impl SteppedModel {

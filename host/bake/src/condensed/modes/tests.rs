@@ -13,7 +13,7 @@ use signorini_scene::mesh;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::{Method, ModelKind, Setting};
-use signorini_solve::ScalarKind;
+use signorini_solve::{Options, ScalarKind, solve};
 use signorini_solve::fixtures::full_at;
 use signorini_tolerances::bake::{GUARANTEE, MODAL, MODAL_BEST, MODAL_BOUND, MODAL_NARROW};
 
@@ -304,4 +304,26 @@ fn a_slab_in_moving_air() -> Result<()> {
         })?;
     }
     Ok(())
+}
+
+/// Points see nothing of this peak: the bound is what they miss of it, which grows with the root of the coefficient.
+#[test]
+fn what_points_miss_of_the_air_counts_at_every_coefficient() -> Result<()> {
+    let peak = "10*max(0, 1 - abs(y - 0.51)/0.002)";
+    let text = AIR
+        .replace("ambient = \"y\"", &format!("ambient = \"{peak}\""))
+        .replace("input.ambient = ", "input.unused = ");
+    let problem = with(&text, Cells::Triangles, Setting::default())?;
+    with_module(&problem, Some(ScalarKind::F64), |session, module| {
+        assert!(module.name.starts_with("condensed by modes"), "{}", module.name);
+        for h in [-1.0, 10.0, 58.0] {
+            let inputs = [-0.3, 0.0, h];
+            session.tick(&inputs)?;
+            let at = problem.with_inputs(&inputs)?;
+            let found = session.answer(&at)?.bound.expect("a bound");
+            let expected = solve(&at, &Options::default())?.bound.expect("a bound");
+            assert!(found.oscillation >= 0.99 * expected.oscillation, "{h}: {found:?} {expected:?}");
+        }
+        Ok(())
+    })
 }
