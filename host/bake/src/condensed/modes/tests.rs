@@ -13,8 +13,8 @@ use signorini_scene::mesh;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::{Method, ModelKind, Setting};
-use signorini_solve::{Options, ScalarKind, solve};
 use signorini_solve::fixtures::full_at;
+use signorini_solve::{Options, ScalarKind, solve};
 use signorini_tolerances::bake::{GUARANTEE, MODAL, MODAL_BEST, MODAL_BOUND, MODAL_NARROW};
 
 use super::super::{Baked, Controller, Work, source};
@@ -322,7 +322,10 @@ fn what_points_miss_of_the_air_counts_at_every_coefficient() -> Result<()> {
             let at = problem.with_inputs(&inputs)?;
             let found = session.answer(&at)?.bound.expect("a bound");
             let expected = solve(&at, &Options::default())?.bound.expect("a bound");
-            assert!(found.oscillation >= 0.99 * expected.oscillation, "{h}: {found:?} {expected:?}");
+            assert!(
+                found.oscillation >= 0.99 * expected.oscillation,
+                "{h}: {found:?} {expected:?}"
+            );
         }
         Ok(())
     })
