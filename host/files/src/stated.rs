@@ -115,7 +115,7 @@ pub fn with_error(of: &OutputBound) -> String {
 /// "27.5 ± 3.6", "(3.31 ± 0.15)e-5": both numbers with the same places, the second rounded up so that all of the interval is said.
 pub fn around(center: f64, plus_minus: f64) -> String {
     let size = center.abs().max(plus_minus);
-    if size == 0.0 || !size.is_finite() || !plus_minus.is_finite() {
+    if size == 0.0 || plus_minus == 0.0 || !size.is_finite() || !plus_minus.is_finite() {
         return format!("{center} ± {plus_minus}");
     }
     let exponent = match size.log10().floor() as i32 {
@@ -176,6 +176,7 @@ mod tests {
         assert_eq!(of(0.4, 13.2), "0 ± 14");
         assert_eq!(of(1.0, 1e-13), "1.00000000000 ± 0.00000000001");
         assert_eq!(of(0.0, 0.0), "0 ± 0");
+        assert_eq!(of(0.25, 0.0), "0.25 ± 0");
         assert_eq!(of(123_456.0, 7890.0), "123500 ± 8000");
     }
 }

@@ -47,6 +47,20 @@ impl<'p> Part<'p> {
             .all(|(edge, _)| self.has(edge))
     }
 
+    /// Whether the data give the flux of all its edges: of N, and of C where both ends of its range are one.
+    pub fn is_given(&self) -> bool {
+        let problem = self.problem;
+        let free = problem.topology.counts.free;
+        let is_given = |edge: usize| match problem.kinds[edge] {
+            EdgeKind::Neumann => true,
+            EdgeKind::Contact if problem.scene.limit_input().is_none() => {
+                problem.loads.flux_range(edge - free).span().length() == 0.0
+            }
+            _ => false,
+        };
+        self.edges().next().is_some() && self.edges().all(is_given)
+    }
+
     /// Whether it has edges, and this condition holds on all of them.
     pub fn is_all(&self, kind: EdgeKind) -> bool {
         self.edges().next().is_some() && self.edges().all(|edge| self.problem.kinds[edge] == kind)

@@ -143,7 +143,7 @@ impl<'p> Weighing<'p> {
             Quantity::Mean if steps => {
                 none("a mean of u has none in a step of time; a force or a flux has one")
             }
-            Quantity::Flux if part.is_all(EdgeKind::Neumann) => none(GIVEN),
+            Quantity::Flux if part.is_given() => none(GIVEN),
             _ if steps && !self.answers.are_balanced && !part.is_all(EdgeKind::Contact) => {
                 none("in a step of a full model the flux of contact boundaries alone has one")
             }

@@ -5,7 +5,7 @@ use signorini_bake::condensed::{Baked, Controller};
 use signorini_bake::intervals::NarrowMidpoint;
 use signorini_bake::module_api::hash;
 use signorini_bake::narrow::narrow;
-use signorini_certify::{ErrorBound, NoBound};
+use signorini_certify::{CertifiedFields, ErrorBound, NoBound};
 use signorini_condense::CondensedModel;
 use signorini_kernel::report::{Ended, Report};
 use signorini_problem::Problem;
@@ -66,6 +66,11 @@ impl<R: Scalar> Session for Condensed<'_, R> {
     fn window(&self) -> Option<[f64; 2]> {
         let window = self.controller.window()?;
         Some([window.energy, window.seconds].map(R::wide))
+    }
+
+    fn s_at_start(&self, at: &Problem) -> Option<CertifiedFields> {
+        let Origin { steps, recovery, .. } = self.origin;
+        steps.as_ref()?.s_at_start(recovery, at)
     }
 
     fn state(&self) -> Option<Vec<u8>> {

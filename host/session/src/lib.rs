@@ -26,6 +26,7 @@ pub use module::{Module, with_module};
 pub use saved::SavedSession;
 pub use setting::{completed, solve, with_session};
 
+use signorini_certify::CertifiedFields;
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::{InputError, Result};
@@ -81,6 +82,11 @@ pub trait Session {
 
     /// The bound of the evolution that a controller carries, and how far back its mean reaches.
     fn window(&self) -> Option<[f64; 2]> {
+        None
+    }
+
+    /// s at the start of a controller that steps in time, where it is another one than that of the scene's start `at`.
+    fn s_at_start(&self, _at: &Problem) -> Option<CertifiedFields> {
         None
     }
 

@@ -11,6 +11,7 @@ use crate::module_api::ModuleApi;
 use crate::narrow::exclusions;
 use signorini_certify::evolution::Evolution;
 use signorini_kernel::relaxation::Relaxation;
+use signorini_problem::functional::wanted;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Approach, Problem};
 use signorini_scene::error::{InputError, Result};
@@ -41,7 +42,11 @@ impl<R: Scalar> Baked<R> {
             false => Some(Scale::new(&problem.own.scene, problem.units)?),
         };
         let exclusions = exclusions(&problem.own.exclusions());
-        Ok(Self { scale, exclusions, ..Self::in_its_units(problem.problem(), face)? })
+        let baked = Self::in_its_units(problem.problem(), face)?;
+        let wanted = wanted(&problem.own.scene);
+        let outputs = baked.outputs.into_iter().zip(wanted.iter());
+        let outputs = outputs.map(|(output, of)| output.in_scene(of.quantity, &problem.units));
+        Ok(Self { scale, exclusions, outputs: outputs.collect(), ..baked })
     }
 
     /// With what the bound of the evolution begins with, and sweeps for steps so short.

@@ -5,6 +5,8 @@ use signorini_device::full::Contribution;
 use signorini_problem::Problem;
 use signorini_problem::functional::{Functional, basis_at};
 use signorini_problem::scalar::Scalar;
+use signorini_scene::scene::Quantity;
+use signorini_scene::scene::units::Units;
 
 /// An output with its arrays.
 #[derive(Debug, Clone)]
@@ -15,6 +17,21 @@ pub(super) enum Output<R> {
     Saturated(Vec<Contribution<R, u32>>),
     Probe(Vec<Contribution<R, u32>>),
     Bound,
+}
+
+impl<R: Scalar> Output<R> {
+    /// In the scene's unit but for that of u, by which a controller multiplies: a content has that of A, too.
+    #[must_use]
+    pub fn in_scene(self, quantity: Quantity, units: &Units) -> Self {
+        let unit = R::narrow(units.of_output(quantity) / units.u);
+        match (self, quantity) {
+            (Self::Probe(mut shares), Quantity::Content) => {
+                shares.iter_mut().for_each(|share| share.weight *= unit);
+                Self::Probe(shares)
+            }
+            (other, _) => other,
+        }
+    }
 }
 
 /// The arrays of what is read off a solution.

@@ -74,7 +74,7 @@ fn replay_to(
     let baked = as_baked(given)?;
     with_module(&baked, asked, |session, module| {
         let begun = match from {
-            None => anew(given, first, shows_start, done)?,
+            None => anew(given, (&*session, first), shows_start, done)?,
             Some(saved) => again(given, saved, session).map_err(|error| saved.blamed(error))?,
         };
         let Begun { mut problem, error, stated, mut ticks } = begun;
@@ -102,9 +102,18 @@ fn as_baked(given: &Problem) -> Result<Cow<'_, Problem>> {
     Ok(Cow::Owned(at_start(given, given.time)?))
 }
 
-fn anew(given: &Problem, first: f64, shows_start: bool, done: Done) -> Result<Begun> {
+fn anew(
+    given: &Problem,
+    (session, first): (&dyn Session, f64),
+    shows_start: bool,
+    done: Done,
+) -> Result<Begun> {
     let mut begun = Begun { problem: given.clone(), error: None, stated: None, ticks: Vec::new() };
-    let Some(start) = Start::of(given, first)? else { return Ok(begun) };
+    let Some(mut start) = Start::of(given, first)? else { return Ok(begun) };
+    if let Some(s) = session.s_at_start(&start.problem) {
+        let certified = &mut start.solution.certified;
+        (certified.vertices, certified.bubbles) = (s.vertices, s.bubbles);
+    }
     begun.problem = start.stepping(given)?;
     let time = given.scene.time.as_ref();
     begun.stated = time.filter(|of| of.initial.is_some()).map(|of| [0.0, of.step]);

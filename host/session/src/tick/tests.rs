@@ -483,3 +483,37 @@ fn intervals_of_steps_are_those_of_any_units() -> Result<()> {
     assert_eq!(found, 9);
     Ok(())
 }
+
+/// Units of A and of u that are far from 1: contents of controllers are those of this machine's own ticks.
+#[test]
+fn contents_of_controllers_are_in_the_units_of_the_scene() -> Result<()> {
+    for (k, u) in [(1e12, 1.0), (1e-12, 1.0), (1.0, 1e6), (5e4, 300.0)] {
+        for model in ["full", "condensed"] {
+            let text = format!(
+                r#"
+mesh = "grid"
+material.default = {{ conductivity = "{k:e}", capacity = "{k:e}" }}
+boundary.dirichlet = {{ kind = "dirichlet", value = "{u:e}" }}
+boundary.contact = {{ kind = "contact", gap = "0" }}
+output.heat = {{ kind = "content" }}
+output.mean = {{ kind = "mean", of = "default" }}
+time = {{ step = 0.1, initial = "{u:e}" }}
+setting = {{ model = "{model}" }}
+"#
+            );
+            let (_, problem) = on_grid(&text, grid(3, Cells::Triangles))?;
+            let moments = [at(0.1), at(0.2)];
+            let asked = (Some(ScalarKind::F64), false);
+            let (_, baked) = replay(&problem, &moments, asked, |_, _| Ok(()))?;
+            let budget = Budget { shows_start: false, ..Budget::of(&problem.scene) };
+            let own = play(&problem, None, &moments, &budget, |_, _| Ok(()))?;
+            for (baked, own) in baked.iter().zip(&own) {
+                let pairs = baked.outputs.iter().zip(&own.outputs);
+                for (baked, own) in pairs.map(|(a, b)| (a.unwrap(), b.unwrap())) {
+                    assert!((baked - own).abs() <= 1e-6 * own.abs(), "{model}: {baked} {own}");
+                }
+            }
+        }
+    }
+    Ok(())
+}
