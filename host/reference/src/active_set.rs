@@ -15,7 +15,7 @@
 //!
 //! A component that only contact holds has Σλ = −Σr > 0 whatever A is, so some active unknown of it
 //! has λ_i > 0 and stays: if all leave, the load points away from the obstacle and there is no
-//! minimum.
+//! minimum. The same holds where every λ ≤ 0.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{
@@ -110,7 +110,7 @@ impl<'a> ActiveSet<'a> {
             } else {
                 wrong.drain(..wrong.len() - 1);
             }
-            self.change_sides(&wrong)?;
+            self.change_sides(&wrong, &d, lower)?;
         }
         Err(ReferenceError::Cycling { steps: self.steps })
     }
@@ -166,16 +166,40 @@ impl<'a> ActiveSet<'a> {
     }
 
     /// Each of `wrong`, with whether it is to be below ψ if it leaves, goes to another side.
-    fn change_sides(&mut self, wrong: &[(usize, bool)]) -> Result<(), ReferenceError> {
+    fn change_sides(
+        &mut self,
+        wrong: &[(usize, bool)],
+        d: &[f64],
+        lower: &[f64],
+    ) -> Result<(), ReferenceError> {
         for &(i, to_below) in wrong {
             self.active[i] = !self.active[i];
             self.below[i] = !self.active[i] && to_below;
         }
         self.factor = None;
         self.hold(wrong);
+        self.stop(wrong, |i| d[i] - lower[i]);
         match self.floating.iter().find(|component| !component.iter().any(|&i| self.active[i])) {
             Some(component) => Err(ReferenceError::Unbounded { unknown: self.free + component[0] }),
             None => Ok(()),
+        }
+    }
+
+    /// Where some λ ≥ 0 and others ≤ 0, a component that nothing active holds any more moves until one of those that it moves towards ψ
+    /// is there.
+    fn stop(&mut self, wrong: &[(usize, bool)], opening: impl Fn(usize) -> f64) {
+        for component in self.floating {
+            let left = wrong.iter().find(|(i, _)| component.contains(i));
+            let (Some(&(_, falls)), false) = (left, component.iter().any(|&i| self.active[i]))
+            else {
+                continue;
+            };
+            let nears = |&&i: &&usize| self.below[i] != falls;
+            let first = component.iter().filter(nears);
+            let first = first.min_by(|&&a, &&b| opening(a).abs().total_cmp(&opening(b).abs()));
+            if let Some(&i) = first {
+                (self.active[i], self.below[i]) = (true, false);
+            }
         }
     }
 

@@ -115,3 +115,14 @@ fn pivoting_with_three_sides_agrees_with_the_reference() {
     }
     assert!(with_all > solved / 2, "{with_all}");
 }
+
+/// Two unknowns that hold each other, one with λ ≥ 0 and one with λ ≤ 0: both leave at first, and one has to stay.
+#[test]
+fn signs_of_both_kinds_hold_a_floating_component() {
+    let matrix = Mat::from_fn(2, 2, |i, j| if i == j { 1.0 } else { -1.0 });
+    let spans = [f64::INFINITY, f64::NEG_INFINITY];
+    for (load, expected) in [([1.0, -2.0], [0.0, -2.0]), ([2.0, -1.0], [2.0, 0.0])] {
+        let found = minimise_between(matrix.as_ref(), &[vec![0, 1]], &load, &spans);
+        assert_eq!(found, Ok(expected.to_vec()), "{load:?}");
+    }
+}
