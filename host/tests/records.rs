@@ -1,6 +1,7 @@
 //! Pages quote the committed records of extremes, trajectories, fuzzing and mutants.
 
 use serde_json::Value;
+use signorini_files::digits::rounded;
 
 use crate::command::{json, repository, text};
 
@@ -45,18 +46,38 @@ fn the_page_quotes_the_record_of_the_extremes() {
 }
 
 #[test]
-fn the_page_quotes_the_record_of_random_scenes() {
-    let record = json(repository("host/benches/extremes/random.json"));
-    let count = |outcome: &str| record["outcomes"][outcome].as_u64().unwrap_or(0);
-    let [correct, poor, refused, wrong] =
-        ["correct", "certified-poor", "typed-error", "wrong"].map(count);
-    let (all, seed) = (record["cases"].as_u64(), &record["seed"]);
-    assert_eq!(all, Some(correct + poor + refused + wrong));
-    assert_eq!(record["violations"], Value::Array(Vec::new()));
-    the_page_says(&[format!(
-        "Of {} scenes of seed {seed} {correct} are correct, {poor} certified but poor, {refused} refused, {wrong} wrong.",
-        all.unwrap_or_default()
-    )]);
+fn the_page_quotes_the_records_of_random_scenes() {
+    for file in ["random", "features"] {
+        let record = json(repository(&format!("host/benches/extremes/{file}.json")));
+        let count = |outcome: &str| record["outcomes"][outcome].as_u64().unwrap_or(0);
+        let [correct, poor, refused, wrong] =
+            ["correct", "certified-poor", "typed-error", "wrong"].map(count);
+        let (all, seed) = (record["cases"].as_u64(), &record["seed"]);
+        assert_eq!(all, Some(correct + poor + refused + wrong));
+        assert_eq!(record["violations"], Value::Array(Vec::new()));
+        the_page_says(&[format!(
+            "Of {} scenes of seed {seed} {correct} are correct, {poor} certified but poor, {refused} refused, {wrong} wrong.",
+            all.unwrap_or_default()
+        )]);
+    }
+}
+
+/// A row of the page's table for each feature.
+#[test]
+fn the_page_has_the_table_of_features() {
+    let record = json(repository("host/benches/extremes/features.json"));
+    let features = record["features"].as_object().expect("features");
+    let rows: Vec<_> = features
+        .iter()
+        .map(|(name, of)| {
+            let ratios = of["over_error"].as_array().expect("ratios").iter();
+            let ratios: Vec<_> =
+                ratios.map(|ratio| rounded(ratio.as_f64().expect("a number"), 3, 0.0)).collect();
+            format!("| {name} | {} | {} | {} |", of["scenes"], of["with_bound"], ratios.join(" | "))
+        })
+        .collect();
+    assert_eq!(rows.len(), 14);
+    the_page_says(&rows);
 }
 
 /// What the judge could not say is no broken bound.
