@@ -517,3 +517,54 @@ setting = {{ model = "{model}" }}
     }
     Ok(())
 }
+
+/// u = y² stands still: beside a large transfer coefficient s of a condensed start is another one than that of a solve, and its error too.
+#[test]
+fn the_error_of_a_condensed_controller_begins_at_its_own_start() -> Result<()> {
+    let text = r#"
+mesh = "grid"
+material.default = { conductivity = "1", capacity = "1" }
+source.f = "-2"
+boundary.dirichlet = { kind = "robin", coefficient = "1e4", ambient = "1.0002" }
+boundary.left = { kind = "neumann", flux = "0" }
+boundary.right = { kind = "neumann", flux = "0" }
+boundary.contact = { kind = "contact", gap = "-5" }
+exact = { u = "y^2", gradient = ["0", "2*y"] }
+setting = { model = "condensed", memory = 2 }
+time = { step = 0.1, initial = "y^2" }
+"#;
+    for cells in [Cells::Triangles, Cells::Quads] {
+        let (_, problem) = on_grid(text, grid(2, cells))?;
+        let moments: Vec<_> = (1..4).map(|tick| at(0.1 * f64::from(tick))).collect();
+        let asked = (Some(ScalarKind::F64), false);
+        let (_, ticks) = replay(&problem, &moments, asked, |_, _| Ok(()))?;
+        for tick in &ticks {
+            let (error, [energy, _]) = (tick.window_error.unwrap(), tick.window.unwrap());
+            println!("{cells:?}: {error} {energy}");
+            assert!(error <= energy, "{cells:?}: {error} {energy}");
+        }
+    }
+    Ok(())
+}
+
+/// Both ends of the flux are one, so that the data give it: an interval of no width would leave out what a sum rounds.
+#[test]
+fn a_flux_that_the_data_give_has_no_interval() -> Result<()> {
+    let text = r#"
+mesh = "grid"
+material.default.conductivity = "1"
+boundary.dirichlet = { kind = "dirichlet", value = "1" }
+boundary.contact = { kind = "contact", gap = "0", flux = "0.38962", limit = "0.38962" }
+input.level = { of = "dirichlet", field = "value", pattern = "1" }
+output.through = { kind = "flux", of = "contact" }
+"#;
+    for model in ["full", "condensed"] {
+        let text = format!("{text}setting.model = \"{model}\"\n");
+        let (_, problem) = on_grid(&text, grid(3, Cells::Triangles))?;
+        let asked = (Some(ScalarKind::F32), false);
+        let (_, ticks) = replay(&problem, &[at(0.0)], asked, |_, _| Ok(()))?;
+        let why = ticks[0].intervals[0].as_ref().unwrap_err();
+        assert!(why.contains("the data give it"), "{model}: {why}");
+    }
+    Ok(())
+}
