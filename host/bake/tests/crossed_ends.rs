@@ -94,3 +94,36 @@ fn all_take_the_same_inputs() -> Result<()> {
     }
     Ok(())
 }
+
+/// u = q (1 − y) on an area of 2, where the scene has 1 for the one end of q and less, by less than a slack, for the other.
+#[test]
+fn ends_that_the_scene_crosses_are_in_the_bound_of_every_controller() -> Result<()> {
+    let crossed = 2e-6;
+    let face = format!("kind = \"contact\", gap = \"-9\", flux = \"1\", limit = \"1 - {crossed} + 0*x\"");
+    let text = format!(
+        "mesh = \"grid\"
+material.default.conductivity = \"1\"
+boundary.dirichlet = {{ kind = \"dirichlet\", value = \"0\" }}
+boundary.left = {{ kind = \"neumann\", flux = \"0\" }}
+boundary.right = {{ kind = \"neumann\", flux = \"0\" }}
+boundary.contact = {{ {face} }}
+input.level = {{ of = \"dirichlet\", field = \"value\", pattern = \"1\" }}
+"
+    );
+    let (_, problem) = on_grid(&text, grid(4, Cells::Triangles))?;
+    let baked = full::Baked::<f64>::new(&problem)?;
+    let mut on_mesh = full::Controller::<f64, TRIANGLES>::new(&baked);
+    let model = condense(&problem)?;
+    let work = condensed::Work { pivots: Some(100), sweeps: 100 };
+    let small = condensed::Baked::<f64>::new(&model, work, true).expect("in range");
+    let mut condensed = condensed::Controller::new(&small);
+    let off = 0.5 * crossed * 2f64.sqrt();
+    let bounds = [
+        on_mesh.tick_within(&[0.0], to_the_end()).expect("a tick").1.verdict,
+        condensed.tick(&[0.0]).expect("a tick").1.verdict,
+    ];
+    for bound in bounds.map(|verdict| verdict.certificate().expect("a bound").total) {
+        assert!(bound >= off && bound < 20.0 * off, "{bound} beside {off}");
+    }
+    Ok(())
+}

@@ -255,6 +255,11 @@ impl<R: Scalar> Certifier<R> {
         self.seek(assembled, active)
     }
 
+    /// Whether what a cell lacks of balance leaves through a side of the domain: else cells that store keep it.
+    pub fn hands_on(&self) -> bool {
+        self.hands_on
+    }
+
     /// Finds ways out that may lead through these contact edges; whether there are any.
     fn seek(
         &mut self,

@@ -25,6 +25,7 @@ use super::cell::Cell;
 use super::robin::missed;
 use super::stretch::is_even;
 pub use alpha::alpha;
+pub use edges::off_mean;
 use edges::{of_flux, pole_on_edge};
 use parts::square;
 use rules::{ELLIPSES, LEFT, POINTS, RESOLVED, differences};

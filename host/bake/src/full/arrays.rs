@@ -10,6 +10,7 @@ use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
 use signorini_kernel::stiffness::Stiffness;
 
+use super::cancellation::Reach;
 use super::data::{Data, refuse_faint};
 use super::factored::Factored;
 use super::options::{Scale, TickOptions};
@@ -120,7 +121,9 @@ impl<R: Scalar> Baked<R> {
         let certifier = Certifier::new(&least, &held, &assembled).map_err(&unfit)?;
         let discretization = certifier.discretization(&assembled).map_err(&unfit)?;
         let outputs = functionals(problem)?.iter().map(|of| output(problem, of)).collect();
-        let mut data = Data::new(problem, &full_terms(problem)?, discretization.stiffness)?;
+        let reach = Reach::new(&least, &certifier, discretization.stability.largest);
+        let terms = full_terms(problem)?;
+        let mut data = Data::new(problem, &terms, discretization.stiffness, &reach)?;
         if problem.loads.step.is_some() && data.is_curved() {
             data.no_bound = data.no_bound.or_else(|| Some(NoBound::curved_in_step()));
         }

@@ -7,6 +7,7 @@ use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::stiffness::Stiffness;
 
 use super::bent::{Bent, bent};
+use super::cancellation::Reach;
 use super::pattern::{Pattern, fluxes};
 use crate::narrow::{narrow, pairs};
 use crate::range::wider;
@@ -47,7 +48,12 @@ pub(super) struct Data<R> {
 
 impl<R: Scalar> Data<R> {
     /// From the parts of the data, base first.
-    pub fn new(problem: &Problem, parts: &[TermData], stiffness: Stiffness<R>) -> Result<Self> {
+    pub fn new(
+        problem: &Problem,
+        parts: &[TermData],
+        stiffness: Stiffness<R>,
+        reach: &Reach,
+    ) -> Result<Self> {
         let Some((base, of_inputs)) = parts.split_first() else { return Ok(Self::default()) };
         let neumann = with_flux(parts);
         let is_uniform = parts.iter().all(TermData::is_uniform);
@@ -81,7 +87,7 @@ impl<R: Scalar> Data<R> {
             forms: forms.narrowed(),
             of_ambient,
             patterns: patterns.collect(),
-            oscillation: oscillation(problem, parts, stiffness),
+            oscillation: oscillation(problem, parts, stiffness, reach.lost(parts, &neumann, R::EPSILON.wide())),
             no_bound: parts.iter().find_map(|part| part.no_bound.clone()).or_else(changed),
         };
         data.leave_out_zeros(problem);
@@ -189,22 +195,36 @@ fn with_flux(parts: &[TermData]) -> Vec<u32> {
     edges
 }
 
-/// Of each part, what f, g and q leave out and, where inputs change ψ or u_D, what rounding does to its
+/// Of each part, what f, g and q leave out, what rounding does to its loads and, where inputs change ψ or u_D, to its
 /// boundary values: the kernel's own allowance knows only their sum, which may be a small difference.
-fn oscillation<R: Scalar>(problem: &Problem, parts: &[TermData], k: Stiffness<R>) -> Vec<R> {
+fn oscillation<R: Scalar>(
+    problem: &Problem,
+    parts: &[TermData],
+    k: Stiffness<R>,
+    lost: Vec<f64>,
+) -> Vec<R> {
     let moves = |part: &TermData| part.ends.size() > 0.0;
     let varies = parts.iter().skip(1).any(moves);
-    let perturbation = |part| if varies { perturbation(problem, part, k) } else { 0.0 };
-    parts.iter().map(|part| R::narrow(part.oscillation + perturbation(part))).collect()
+    // As the kernel counts one value, and more where many terms are added up.
+    let terms = parts.iter().filter(|part| moves(part)).count();
+    let share = R::EPSILON.wide() * (0.5 * (terms + 2) as f64).max(2.0);
+    let perturbation = |part| if varies { perturbation(problem, part, k, share) } else { 0.0 };
+    let all = parts.iter().zip(lost);
+    all.map(|(part, lost)| R::narrow(part.oscillation + perturbation(part) + lost)).collect()
 }
 
-/// As the kernel counts it: each value moves by 2ε, at 4Σ|K| of its cell for each square.
-fn perturbation<R: Scalar>(problem: &Problem, part: &TermData, k: Stiffness<R>) -> f64 {
+/// Each value moves by this `share` of it, at 4Σ|K| of its cell for each square.
+fn perturbation<R: Scalar>(
+    problem: &Problem,
+    part: &TermData,
+    k: Stiffness<R>,
+    share: f64,
+) -> f64 {
     let free = problem.topology.counts.free;
     let size = |entries: &[R]| entries.iter().map(|k| k.wide().abs()).sum::<f64>();
     let ends = part.ends.gap.iter().chain(&part.ends.given).zip(free..);
     let squares = ends.map(|(ends, edge)| {
-        let moved = 2.0 * R::EPSILON.wide() * ends[0].abs().max(ends[1].abs());
+        let moved = share * ends[0].abs().max(ends[1].abs());
         let (cell, _) = problem.topology.first_side(edge);
         let stiff = match cell.checked_sub(k.triangles.len()) {
             None => size(&k.triangles[cell]),

@@ -15,6 +15,7 @@ mod arrays;
 mod baking;
 mod bent;
 mod borrowed;
+mod cancellation;
 mod controller;
 mod data;
 mod factored;

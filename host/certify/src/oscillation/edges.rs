@@ -19,6 +19,9 @@ use signorini_scene::expression::enclosure::{Form, Region, Shape};
 use signorini_scene::mesh::shape::edge_length;
 use signorini_scene::scene::Field;
 
+/// Of the trace inequality, with |E| h_K²/|K|.
+const TRACE: f64 = 1.0 / (PI * PI) + 1.0 / PI;
+
 /// Most parts of an edge.
 const MOST: usize = 200;
 
@@ -36,21 +39,41 @@ fn of_end(problem: &Problem, edge: usize, field: Field) -> Result<[f64; 2]> {
     if g.constant().is_some() {
         return Ok([0.0; 2]);
     }
-    let segment @ [a, b] = problem.segment(edge);
+    let segment = problem.segment(edge);
     let (length, mean) = (problem.lengths[edge], g.mean_and_missed(segment)?);
     let square = length_square(&g, segment, length, mean)?;
-    let (at, side) = problem.topology.first_side(edge);
-    let apex = opposite(&Cell::of(problem, at), side);
-    let diameter = length.max(edge_length([a, apex])).max(edge_length([b, apex]));
-    let shape = length * diameter * diameter / triangle_area([a, b, apex]);
-    let trace = 1.0 / (PI * PI) + 1.0 / PI;
-    let by_trace = |square: f64| (shape * trace * square / alpha(problem, at)).sqrt();
+    let (at, _) = problem.topology.first_side(edge);
+    let shape = shape(problem, edge);
+    let by_trace = |square: f64| (shape * TRACE * square / alpha(problem, at)).sqrt();
     let known = by_trace(square.value);
     if square.missed == 0.0 && !is_even(problem, at) {
         let by_flux = stretched::along_edge(problem, edge, &g, mean.value, by_trace);
         return Ok([known.min(by_flux), 0.0]);
     }
     Ok([known, by_trace(square.value + square.missed) - known])
+}
+
+/// How far the mean of v along an edge may be from that in its cell, where ‖A^½∇v‖ = 1 there. The mean of |v − v_T| is not larger.
+pub fn off_mean(problem: &Problem, edge: usize) -> f64 {
+    let (at, _) = problem.topology.first_side(edge);
+    let (cell, softness, length) = (Cell::of(problem, at), alpha(problem, at), problem.lengths[edge]);
+    let shape = shape(problem, edge);
+    let from_triangle = (shape * TRACE / (length * softness)).sqrt();
+    if matches!(cell, Cell::Triangle(_)) {
+        return from_triangle;
+    }
+    // |K| = |E| h_K²/shape, where h_K ≥ |E|.
+    let area = length.powi(3) / shape;
+    from_triangle + cell.diameter() / PI / (area * softness).sqrt()
+}
+
+/// |E| h_K²/|K| of the triangle K of an edge.
+fn shape(problem: &Problem, edge: usize) -> f64 {
+    let ([a, b], length) = (problem.segment(edge), problem.lengths[edge]);
+    let (at, side) = problem.topology.first_side(edge);
+    let apex = opposite(&Cell::of(problem, at), side);
+    let diameter = length.max(edge_length([a, apex])).max(edge_length([b, apex]));
+    length * diameter * diameter / triangle_area([a, b, apex])
 }
 
 /// ‖g − ḡ‖² on an edge. What is missed of the mean counts with it.

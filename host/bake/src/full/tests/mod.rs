@@ -1,5 +1,6 @@
 //! Baked arrays through the kernel, against the solver on the same scene.
 
+mod cancellation;
 mod compiled;
 mod factored;
 mod forms;
