@@ -1,5 +1,7 @@
 //! Loads and boundary data of one time as the kernel's certificate takes them.
 
+use std::borrow::Cow;
+
 use signorini_bound::certificate::{Curved, LoadCase, TransferForms};
 use signorini_bound::conforming::VertexData;
 use signorini_kernel::Error as KernelError;
@@ -54,6 +56,15 @@ pub struct Evaluated {
     pub no_bound: Option<NoBound>,
 }
 
+/// What is evaluated.
+#[derive(Debug, Clone, Copy)]
+enum Of {
+    /// The data as they are.
+    Whole,
+    /// One term of a sum over the inputs.
+    Term,
+}
+
 impl Evaluated {
     /// Evaluates the data of `problem` at its time.
     ///
@@ -68,7 +79,7 @@ impl Evaluated {
     /// # Errors
     /// As for [`Evaluated::new`].
     pub fn again(problem: &Problem, enclosed: &mut Enclosed) -> Result<Self> {
-        Self::with(problem, Ends::moved, enclosed)
+        Self::with(problem, Of::Whole, enclosed)
     }
 
     /// Data of one term of a sum. A term may break what the sum has to meet: where u_D is on a side of ψ that does not exist, the caller that
@@ -77,12 +88,12 @@ impl Evaluated {
     /// # Errors
     /// Data that are not finite.
     pub fn of_term(problem: &Problem) -> Result<Self> {
-        Self::with(problem, Ends::moved_on_dirichlet, &mut Enclosed::default())
+        Self::with(problem, Of::Term, &mut Enclosed::default())
     }
 
     fn with(
         problem: &Problem,
-        moved: fn(&Ends, &Problem) -> f64,
+        of: Of,
         enclosed: &mut Enclosed,
     ) -> Result<Self> {
         let time = problem.time;
@@ -104,7 +115,11 @@ impl Evaluated {
             curved_edges.records.iter_mut().for_each(|record| record.peak = f64::INFINITY);
         }
         // s is off by that much, and once more where u_h is compared with it.
-        let left_out = 2.0 * (curved_edges.left_out + moved(&ends, problem));
+        let moved = match of {
+            Of::Whole => ends.moved(problem),
+            Of::Term => ends.moved_on_dirichlet(problem),
+        };
+        let left_out = 2.0 * (curved_edges.left_out + moved);
         let curved = curved_edges.records;
         let Oscillation { of_cells, unresolved, pole } = with_source(
             problem,
@@ -121,7 +136,12 @@ impl Evaluated {
         let vanishes = || forms.vanishing.map(|edge| NoBound::transfer_vanishes(problem, edge));
         let no_bound =
             rough.or_else(|| NoBound::of_data(problem, &ends, &curved)).or_else(vanishes);
-        let (carried, no_way) = match carried(problem) {
+        // Other terms may lower h, through which it has to leave.
+        let whole_or_least = match of {
+            Of::Term if problem.loads.missed > 0.0 => Cow::Owned(problem.at_least_transfer()?),
+            _ => Cow::Borrowed(problem),
+        };
+        let (carried, no_way) = match carried(&whole_or_least) {
             Ok(carried) => (carried, None),
             Err(reason) => (0.0, Some(reason)),
         };

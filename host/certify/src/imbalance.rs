@@ -36,3 +36,32 @@ pub(super) fn carried(problem: &Problem) -> Result<f64, NoBound> {
     let carried = 2.0 * forest.stability() * loads.missed;
     if carried.is_finite() { Ok(carried) } else { Err(NoBound::unbalanced(loads.missed)) }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::Evaluated;
+    use signorini_problem::fixtures::on_grid;
+    use signorini_scene::error::Result;
+    use signorini_scene::mesh::structured::{Cells, grid};
+
+    /// Through a wall with h = 1 that an input may lower to 1e−4.
+    #[test]
+    fn what_is_missed_leaves_a_term_where_the_least_passes() -> Result<()> {
+        let text = "
+mesh = \"grid\"
+material.default.conductivity = \"1\"
+source.f = \"sign(sin(300*x*y))\"
+boundary.left = { kind = \"robin\", coefficient = \"1\", ambient = \"0\" }
+boundary.right = { kind = \"neumann\", flux = \"0\" }
+boundary.dirichlet = { kind = \"neumann\", flux = \"0\" }
+boundary.contact = { kind = \"neumann\", flux = \"0\" }
+input.frost = { of = \"left\", field = \"coefficient\", pattern = \"1\", range = [-0.9999, 0] }
+";
+        let (_, problem) = on_grid(text, grid(2, Cells::Triangles))?;
+        assert!(problem.loads.missed > 0.0);
+        let [whole, term] =
+            [Evaluated::new(&problem)?, Evaluated::of_term(&problem)?].map(|data| data.unresolved);
+        assert!(term > 10.0 * whole, "{term} beside {whole}");
+        Ok(())
+    }
+}
