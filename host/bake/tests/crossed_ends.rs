@@ -99,7 +99,8 @@ fn all_take_the_same_inputs() -> Result<()> {
 #[test]
 fn ends_that_the_scene_crosses_are_in_the_bound_of_every_controller() -> Result<()> {
     let crossed = 2e-6;
-    let face = format!("kind = \"contact\", gap = \"-9\", flux = \"1\", limit = \"1 - {crossed} + 0*x\"");
+    let face =
+        format!("kind = \"contact\", gap = \"-9\", flux = \"1\", limit = \"1 - {crossed} + 0*x\"");
     let text = format!(
         "mesh = \"grid\"
 material.default.conductivity = \"1\"

@@ -91,11 +91,7 @@ impl Evaluated {
         Self::with(problem, Of::Term, &mut Enclosed::default())
     }
 
-    fn with(
-        problem: &Problem,
-        of: Of,
-        enclosed: &mut Enclosed,
-    ) -> Result<Self> {
+    fn with(problem: &Problem, of: Of, enclosed: &mut Enclosed) -> Result<Self> {
         let time = problem.time;
         let ends = Ends::at_time(problem, time)?;
         let stores = !problem.capacities.is_empty();

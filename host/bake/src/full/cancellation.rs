@@ -43,7 +43,9 @@ impl<'a> Reach<'a> {
         let way = largest.wide()
             + match certifier.hands_on() {
                 true => 0.0,
-                false => costs.iter().filter(|cost| cost.is_finite()).fold(0.0, |a: f64, b| a.max(*b)),
+                false => {
+                    costs.iter().filter(|cost| cost.is_finite()).fold(0.0, |a: f64, b| a.max(*b))
+                }
             };
         Self { least, of_cells: costs.into_iter().map(|cost| cost.min(way)).collect() }
     }
@@ -111,7 +113,8 @@ impl<'a> Reach<'a> {
 
     /// The most that |E| h may be along each transfer edge, all its terms added up.
     fn most_transfer(&self, parts: &[TermData]) -> Vec<f64> {
-        let largest = |all: &mut dyn Iterator<Item = f64>| all.fold(0.0, |a: f64, b| a.max(b.abs()));
+        let largest =
+            |all: &mut dyn Iterator<Item = f64>| all.fold(0.0, |a: f64, b| a.max(b.abs()));
         let base = parts.iter().take(1).flat_map(|part| &part.transfer);
         let mut most: Vec<f64> =
             base.map(|points| largest(&mut points.iter().map(|[h, _]| *h))).collect();

@@ -87,7 +87,12 @@ impl<R: Scalar> Data<R> {
             forms: forms.narrowed(),
             of_ambient,
             patterns: patterns.collect(),
-            oscillation: oscillation(problem, parts, stiffness, reach.lost(parts, &neumann, R::EPSILON.wide())),
+            oscillation: oscillation(
+                problem,
+                parts,
+                stiffness,
+                reach.lost(parts, &neumann, R::EPSILON.wide()),
+            ),
             no_bound: parts.iter().find_map(|part| part.no_bound.clone()).or_else(changed),
         };
         data.leave_out_zeros(problem);
@@ -214,12 +219,7 @@ fn oscillation<R: Scalar>(
 }
 
 /// Each value moves by this `share` of it, at 4Σ|K| of its cell for each square.
-fn perturbation<R: Scalar>(
-    problem: &Problem,
-    part: &TermData,
-    k: Stiffness<R>,
-    share: f64,
-) -> f64 {
+fn perturbation<R: Scalar>(problem: &Problem, part: &TermData, k: Stiffness<R>, share: f64) -> f64 {
     let free = problem.topology.counts.free;
     let size = |entries: &[R]| entries.iter().map(|k| k.wide().abs()).sum::<f64>();
     let ends = part.ends.gap.iter().chain(&part.ends.given).zip(free..);

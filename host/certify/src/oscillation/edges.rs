@@ -56,7 +56,8 @@ fn of_end(problem: &Problem, edge: usize, field: Field) -> Result<[f64; 2]> {
 /// How far the mean of v along an edge may be from that in its cell, where ‖A^½∇v‖ = 1 there. The mean of |v − v_T| is not larger.
 pub fn off_mean(problem: &Problem, edge: usize) -> f64 {
     let (at, _) = problem.topology.first_side(edge);
-    let (cell, softness, length) = (Cell::of(problem, at), alpha(problem, at), problem.lengths[edge]);
+    let (cell, softness, length) =
+        (Cell::of(problem, at), alpha(problem, at), problem.lengths[edge]);
     let shape = shape(problem, edge);
     let from_triangle = (shape * TRACE / (length * softness)).sqrt();
     if matches!(cell, Cell::Triangle(_)) {

@@ -142,7 +142,13 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         // All of it in one function: in parts it lost the compiler's knowledge of the statics, and cost 3 % more.
         let report = tick.enter(data, size).advance(method, limits, deadline)?;
         *progress = tick.progress();
-        let report = Report { verdict: self.allowed(report.verdict, &data.given.ends), ..report };
+        let verdict = self.allowed(report.verdict, &data.given.ends);
+        // Without a bound of the error that of the iteration alone was small enough.
+        let ended = match (report.ended, verdict.certificate()) {
+            (Ended::Accurate, None) => Ended::Settled,
+            (ended, _) => ended,
+        };
+        let report = Report { verdict, ended, ..report };
         let answer = TickState { tick: &tick, data: &given, report: &report };
         let mut is_known = true;
         for (output, functional) in outputs.iter_mut().zip(self.outputs) {

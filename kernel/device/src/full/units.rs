@@ -9,7 +9,7 @@
 //! Each is a power of two: products are exact but for what leaves the range of the scalar.
 
 use super::Functional;
-use crate::tick::{Figures, Report};
+use crate::tick::{Ended, Figures, Report};
 use signorini_kernel::Real;
 use signorini_kernel::limits::Limits;
 use signorini_kernel::verdict::{Certificate, Verdict};
@@ -31,21 +31,25 @@ impl<R: Real> Units<R> {
         Limits { error: limits.error / self.energy, ..limits }
     }
 
-    /// Outputs and report in the scene's units.
+    /// Outputs and report in the scene's units; the tick has ended as [`Ended::NotFinite`] where an output leaves the range of the scalar.
     pub(super) fn answer<I>(
         &self,
         of: &[Functional<R, I>],
         outputs: &mut [R],
         report: Report<R>,
     ) -> Report<R> {
-        let report = self.report(report);
+        let mut report = self.report(report);
         for (output, of) in outputs.iter_mut().zip(of) {
+            let is_known = output.finite();
             *output = match (of, report.certificate()) {
                 (Functional::Flux(_) | Functional::Force(_), _) => *output * self.flux,
                 (Functional::Probe(_), _) => *output * self.u,
                 (Functional::Bound, Some(certificate)) => certificate.total,
                 _ => *output,
             };
+            if is_known && !output.finite() {
+                report.ended = Ended::NotFinite;
+            }
         }
         report
     }

@@ -1,7 +1,7 @@
 //! Scenes far from 1: the module's answers are those of the same scene near 1, in other units.
 
 use signorini_device::tick::{Ended, Limits, Report};
-use signorini_kernel::rows;
+use signorini_kernel::{Real, rows};
 use signorini_tolerances::bake::WITHOUT_UNITS;
 
 use super::{BENT, Baked, Controller, fixtures, source, to_the_end};
@@ -211,5 +211,22 @@ fn a_large_input_after_defaults_of_zero_has_a_bound() -> Result<()> {
         let total = certificate.unwrap_or_else(|| panic!("no bound of {heat}: {report:?}")).total;
         assert!(total.is_finite() && total > 0.0, "{heat}: {total}");
     }
+    Ok(())
+}
+
+/// Fluxes are near 2⁸⁴, and inputs many times as large make them as many times larger: f32 ends at 2¹²⁸.
+#[test]
+fn an_output_beyond_the_scalar_is_no_answer() -> Result<()> {
+    let baked = baked::<f32>(powers(42, 42))?;
+    let ended = |times: f32| -> Ended {
+        let mut controller = Controller::<f32, { rows::QUADS }>::new(&baked);
+        let inputs = INPUTS.map(|input| times * f32::narrow(input));
+        let (outputs, report) = controller.tick_within(&inputs, to_the_end()).expect("a tick");
+        let is_known = outputs.iter().all(|output| output.finite());
+        assert_eq!(is_known, report.ended != Ended::NotFinite, "{outputs:?}");
+        report.ended
+    };
+    assert_ne!(ended(1.0), Ended::NotFinite);
+    assert_eq!(ended(2f32.powi(48)), Ended::NotFinite);
     Ok(())
 }

@@ -1,11 +1,11 @@
 //! A scene's setting: what its ticks do, and what is refused.
 
 use signorini_bound::certificate::Verdict;
-use signorini_device::tick::{Ended, Report};
+use signorini_device::tick::{Ended, Limits, Report};
 use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_tolerances::bake::{SWEPT, SWEPT_NARROW};
 
-use super::{BENT, Baked, Controller, fixtures};
+use super::{BENT, Baked, Controller, fixtures, to_the_end};
 use crate::full::sizes;
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
@@ -141,5 +141,23 @@ fn what_no_module_can_have_is_refused_by_its_key() -> Result<()> {
     let baked = Baked::<f64>::new(&problem)?;
     let mut controller = Controller::<f64, TRIANGLES>::new(&baked);
     assert!(controller.tick(&[0.3, 0.7, 0.0, 0.0, 0.0, 0.0]).is_ok());
+    Ok(())
+}
+
+/// u_D jumps from one side to the next.
+#[test]
+fn nothing_is_accurate_without_a_bound() -> Result<()> {
+    let text = unbounded().replace(
+        "boundary.left = { kind = \"robin\", coefficient = \"2 + y\", ambient = \"y\" }",
+        "boundary.left = { kind = \"dirichlet\", value = \"9\" }",
+    );
+    let text = text.lines().filter(|line| !line.starts_with("input.air")).collect::<Vec<_>>();
+    let problem = scene(&text.join("\n"), Cells::Quads, Setting::default())?;
+    let baked = Baked::<f64>::new(&problem)?;
+    let limits = Limits { error: 1e9, ..to_the_end() };
+    let inputs = [0.3, 0.7, 0.0, 0.0, 0.0];
+    let ticked = Controller::<f64, QUADS>::new(&baked).tick_within(&inputs, limits);
+    let (_, report) = ticked.expect("a tick");
+    assert_eq!((report.verdict, report.ended), (Verdict::Unavailable, Ended::Settled));
     Ok(())
 }
