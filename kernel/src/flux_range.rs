@@ -93,10 +93,10 @@ impl<'a, R: Real> Spans<'a, R> {
         Self { moved, ..self }
     }
 
-    /// By how much the ends of a span of this length may have been moved.
+    /// By how much each of their ends was moved at most.
     #[inline(always)]
-    pub fn moved(&self, span: Span<R>) -> R {
-        if features::LIMITED && span.length() == R::ZERO { self.moved } else { R::ZERO }
+    pub fn moved(&self) -> R {
+        if features::LIMITED { self.moved } else { R::ZERO }
     }
 
     /// By how much |E| (hi − lo) may exceed its integral; 0 where it is constant along every edge.

@@ -14,7 +14,7 @@ use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_session::tick::{ScheduledTick, replay};
-use signorini_solve::ScalarKind;
+use signorini_solve::{Options, ScalarKind, solve};
 
 /// A face below that gives 1 at least and 2 + `cap` at most, over a length of 2.
 const FACE: &str = r#"kind = "contact", gap = "1.2 + 0.5*x", flux = "1", limit = "2""#;
@@ -95,36 +95,42 @@ fn all_take_the_same_inputs() -> Result<()> {
     Ok(())
 }
 
-/// u = q (1 − y) on an area of 2, where the scene has 1 for the one end of q and less, by less than a slack, for the other.
+/// u = q (1 − y) on an area of 2, where the scene has 1 for the one end of q and less, by less than a slack, for the other: off a gap,
+/// and on it. With an input of a limit everybody finds out at the tick.
 #[test]
-fn ends_that_the_scene_crosses_are_in_the_bound_of_every_controller() -> Result<()> {
+fn ends_that_cross_are_in_every_bound() -> Result<()> {
     let crossed = 2e-6;
-    let face =
-        format!("kind = \"contact\", gap = \"-9\", flux = \"1\", limit = \"1 - {crossed} + 0*x\"");
-    let text = format!(
-        "mesh = \"grid\"
+    let level = "input.level = { of = \"dirichlet\", field = \"value\", pattern = \"1\" }";
+    let cap =
+        "input.cap = { of = \"contact\", field = \"limit\", pattern = \"1\", range = [0, 1] }";
+    for (gap, input) in [("-9", level), ("1 - 1e-6", level), ("-9", cap), ("1 - 1e-6", cap)] {
+        let text = format!(
+            "mesh = \"grid\"
 material.default.conductivity = \"1\"
 boundary.dirichlet = {{ kind = \"dirichlet\", value = \"0\" }}
 boundary.left = {{ kind = \"neumann\", flux = \"0\" }}
 boundary.right = {{ kind = \"neumann\", flux = \"0\" }}
-boundary.contact = {{ {face} }}
-input.level = {{ of = \"dirichlet\", field = \"value\", pattern = \"1\" }}
+boundary.contact = {{ kind = \"contact\", gap = \"{gap}\", flux = \"1\", limit = \"1 - {crossed} + 0*x\" }}
+{input}
 "
-    );
-    let (_, problem) = on_grid(&text, grid(4, Cells::Triangles))?;
-    let baked = full::Baked::<f64>::new(&problem)?;
-    let mut on_mesh = full::Controller::<f64, TRIANGLES>::new(&baked);
-    let model = condense(&problem)?;
-    let work = condensed::Work { pivots: Some(100), sweeps: 100 };
-    let small = condensed::Baked::<f64>::new(&model, work, true).expect("in range");
-    let mut condensed = condensed::Controller::new(&small);
-    let off = 0.5 * crossed * 2f64.sqrt();
-    let bounds = [
-        on_mesh.tick_within(&[0.0], to_the_end()).expect("a tick").1.verdict,
-        condensed.tick(&[0.0]).expect("a tick").1.verdict,
-    ];
-    for bound in bounds.map(|verdict| verdict.certificate().expect("a bound").total) {
-        assert!(bound >= off && bound < 20.0 * off, "{bound} beside {off}");
+        );
+        let (_, problem) = on_grid(&text, grid(4, Cells::Triangles))?;
+        let baked = full::Baked::<f64>::new(&problem)?;
+        let mut on_mesh = full::Controller::<f64, TRIANGLES>::new(&baked);
+        let model = condense(&problem)?;
+        let work = condensed::Work { pivots: Some(100), sweeps: 100 };
+        let small = condensed::Baked::<f64>::new(&model, work, true).expect("in range");
+        let mut condensed = condensed::Controller::new(&small);
+        let off = 0.5 * crossed * 2f64.sqrt();
+        let of_controllers = [
+            on_mesh.tick_within(&[0.0], to_the_end()).expect("a tick").1.verdict,
+            condensed.tick(&[0.0]).expect("a tick").1.verdict,
+        ];
+        let totals = of_controllers.map(|verdict| verdict.certificate().expect("a bound").total);
+        let solved = solve(&problem, &Options::default())?.bound.expect("a bound").total;
+        for bound in totals.into_iter().chain([solved]) {
+            assert!(bound >= off && bound < 20.0 * off, "{gap}, {input}: {bound} beside {off}");
+        }
     }
     Ok(())
 }

@@ -137,7 +137,12 @@ impl Evaluated {
             Of::Term if problem.loads.missed > 0.0 => Cow::Owned(problem.at_least_transfer()?),
             _ => Cow::Borrowed(problem),
         };
-        let (carried, no_way) = match carried(&whole_or_least) {
+        let moved = match of {
+            // Where inputs change an end, a tick tells by how much ends of the sum have moved.
+            Of::Term if problem.scene.limit_input().is_some() => 0.0,
+            Of::Whole | Of::Term => problem.loads.moved,
+        };
+        let (carried, no_way) = match carried(&whole_or_least, moved) {
             Ok(carried) => (carried, None),
             Err(reason) => (0.0, Some(reason)),
         };

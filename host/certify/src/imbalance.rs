@@ -4,22 +4,23 @@
 //! edge of D or R. ‖A^{−½}θ‖ ≤ stability Σ|δ_T| moves the gap once, and what the bound is about, τ, once more. Of an edge, the
 //! deviation from the mean in its cell counts as g's own ([`super::oscillation`]), and the mean leaves from there.
 
-use signorini_problem::{Assembled, Problem};
+use signorini_problem::{Assembled, EdgeKind, Problem};
 
 use super::forest::EquilibrationForest;
 use super::metric::Metric;
 use super::no_bound::NoBound;
+use super::reach::Reach;
 
 /// Part of the loads up to which contact alone takes what is missed, as it takes what rounding leaves.
 const ROUNDING: f64 = 1e-9;
 
-/// The share of the oscillation that comes from what is missed of the loads.
+/// The share of the oscillation that comes from what is missed of the loads, and from ends of contact fluxes that have `moved`.
 ///
 /// # Errors
 /// More is missed than rounding would where contact alone holds a part, or nothing does.
-pub(super) fn carried(problem: &Problem) -> Result<f64, NoBound> {
+pub(super) fn carried(problem: &Problem, moved: f64) -> Result<f64, NoBound> {
     let loads = &problem.loads;
-    if loads.missed == 0.0 {
+    if loads.missed == 0.0 && moved == 0.0 {
         return Ok(0.0);
     }
     let cells = loads.triangles.iter().chain(&loads.quads).chain(&loads.contact_flux);
@@ -30,10 +31,17 @@ pub(super) fn carried(problem: &Problem) -> Result<f64, NoBound> {
     let metric = Metric::new(problem);
     let mut forest = EquilibrationForest::new(problem);
     let is_small = loads.missed <= ROUNDING * size;
-    forest
-        .find(&assembled, &metric, |_| is_small)
-        .map_err(|_| NoBound::unbalanced(loads.missed))?;
-    let carried = 2.0 * forest.stability() * loads.missed;
+    let touches = |edge: usize| is_small && problem.kinds[edge] == EdgeKind::Contact;
+    let stores = |edge| problem.loads.content(problem.topology.first_side(edge).0) > 0.0;
+    let leads_out = forest.find(&assembled, &metric, touches).is_ok();
+    if !leads_out {
+        forest
+            .find(&assembled, &metric, |edge| touches(edge) || is_small && stores(edge))
+            .map_err(|_| NoBound::unbalanced(loads.missed))?;
+    }
+    let reach = Reach::new(problem, forest.stability(), !leads_out);
+    let most = reach.of_cells().iter().fold(0.0, |most: f64, &cost| most.max(cost));
+    let carried = 2.0 * most * loads.missed + reach.settled(moved);
     if carried.is_finite() { Ok(carried) } else { Err(NoBound::unbalanced(loads.missed)) }
 }
 

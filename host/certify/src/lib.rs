@@ -38,6 +38,7 @@ pub mod metric;
 mod no_bound;
 pub mod oscillation;
 mod profile;
+pub mod reach;
 mod relaxed;
 pub mod robin;
 pub mod sampled;

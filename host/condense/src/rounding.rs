@@ -18,7 +18,6 @@ use super::form::FormData;
 use super::{Columns, Pieces};
 use signorini_certify::forest::EquilibrationForest;
 use signorini_certify::metric::Metric;
-use signorini_certify::oscillation::off_mean;
 use signorini_problem::{Assembled, EdgeKind, Loads, Problem};
 use signorini_scene::error::Result;
 use signorini_solve::unfit;
@@ -54,19 +53,7 @@ impl FormData<'_> {
                 *lost += stability * self.skewed(field, column);
             }
         }
-        if let Some(constant) = lost.first_mut() {
-            *constant += self.settled(way);
-        }
         Ok(lost)
-    }
-
-    /// What ends of contact fluxes that have gone to their mean cost, see [`Loads::moved`].
-    fn settled(&self, way: f64) -> f64 {
-        let Problem { topology, loads, .. } = self.columns.pieces.problem;
-        let edges = topology.counts.free..topology.counts.unknowns();
-        let settled = loads.spans.iter().zip(edges).filter(|(span, _)| **span == 0.0);
-        let cost = |edge| way + off_mean(self.columns.pieces.problem, edge);
-        settled.map(|(_, edge)| loads.moved * cost(edge)).sum()
     }
 
     /// Energy that it takes to bring 1 from the farthest cell to the boundary.

@@ -57,7 +57,7 @@ impl<R: Scalar> Loads<R> {
     pub fn law(&self) -> Law<'_, R> {
         // Those of a scene that is refused, or of a part of the loads, are none.
         let spans = Spans::new(&self.spans).unwrap_or(Spans::UNLIMITED);
-        Law::above(&self.gap).with_spans(spans.varying(self.span_excess).moved_by(self.moved))
+        Law::above(&self.gap).with_spans(spans.varying(self.span_excess))
     }
 
     /// ∫f over the cells.

@@ -197,7 +197,7 @@ impl<R: Real> Form<'_, R> {
         ulps * R::EPSILON * sum
     }
 
-    /// By how much an entry of r can be off.
+    /// By how much an entry of r can be off: by rounding, and where ends of its range have moved.
     pub(super) fn uncertainty(&self, answer: &Candidate<R>) -> R {
         let Candidate { inputs, x, ranges, .. } = *answer;
         let size = |x: R| if ranges.are_limited() { x.magnitude() } else { x };
@@ -205,7 +205,8 @@ impl<R: Real> Form<'_, R> {
         let loads = self.largest_load.iter().zip(inputs);
         let loads = loads.fold(R::ZERO, |sum, (&b, p)| sum + b * p.magnitude());
         let terms = R::from_count((x.len() + inputs.len() + 4) as u32);
-        terms * R::HALF * R::EPSILON * (self.row_sum * largest + loads + self.spans(answer))
+        let sizes = self.row_sum * largest + loads + self.spans(answer);
+        terms * R::HALF * R::EPSILON * sizes + ranges.moved()
     }
 
     /// ‖δ‖: by how much r has to change so that open edges balance and touching ones are pressed; `None` where no edge bears it.

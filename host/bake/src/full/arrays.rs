@@ -10,7 +10,6 @@ use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
 use signorini_kernel::stiffness::Stiffness;
 
-use super::cancellation::Reach;
 use super::data::{Data, refuse_faint};
 use super::factored::Factored;
 use super::options::{Scale, TickOptions};
@@ -18,6 +17,7 @@ use super::output::{Output, output};
 use super::storing::Stored;
 use crate::module_api::ModuleApi;
 use crate::setting::checked;
+use signorini_certify::reach::Reach;
 use signorini_certify::term::full_terms;
 use signorini_certify::{Certifier, NoBound};
 use signorini_problem::functional::functionals;
@@ -121,9 +121,10 @@ impl<R: Scalar> Baked<R> {
         let certifier = Certifier::new(&least, &held, &assembled).map_err(&unfit)?;
         let discretization = certifier.discretization(&assembled).map_err(&unfit)?;
         let outputs = functionals(problem)?.iter().map(|of| output(problem, of)).collect();
-        let reach = Reach::new(&least, &certifier, discretization.stability.largest);
+        let largest = discretization.stability.largest.wide();
+        let reach = Reach::new(&least, largest, !certifier.hands_on());
         let terms = full_terms(problem)?;
-        let mut data = Data::new(problem, &terms, discretization.stiffness, &reach)?;
+        let mut data = Data::new(problem, &terms, discretization.stiffness, (&least, &reach))?;
         if problem.loads.step.is_some() && data.is_curved() {
             data.no_bound = data.no_bound.or_else(|| Some(NoBound::curved_in_step()));
         }

@@ -73,6 +73,7 @@ impl<R: Scalar> Data<R> {
                 false => Spans::baked(&self.spans, self.span_excess),
             },
             rooms,
+            settling: self.settling,
             gap: &self.gap,
             dirichlet: &self.dirichlet,
             ends: VertexData { gap: &self.gap_ends, given: &self.dirichlet_ends },

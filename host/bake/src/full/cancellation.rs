@@ -3,144 +3,67 @@
 //! A load Σ p_j L_j of m terms is off by at most ½(m + 2) ε Σ|p_j L_j|: each is narrowed, multiplied and added. As a change of the data
 //! this moves u, with m ≥ 2 where anything can cancel, by
 //! ```text
-//!   Σ_T reach_T δ_T + Σ_E (reach_T + off_E) δ_E + Σ_R min(reach_T + off_E, 1/√H) δ_R + (Σ_R H δu_ext²)^½
+//!   Σ_T reach_T δ_T + Σ_E reach_E δ_E + Σ_R min(reach_R, 1/√H) δ_R + (Σ_R H δu_ext²)^½
 //! ```
-//! in ‖A^½∇·‖. Here reach_T brings 1 from a cell to where it can leave, or be stored; off_E is what a mean along
-//! an edge differs from that in its cell, H the least ∫h. The last sum is of u_ext at points, where these stand beside ∫h u_ext.
-//! The kernel's own allowance knows only the sum of the terms, which may be a small difference. Ends of a flux that cross by rounding
-//! have gone to their mean, which is a load of the same kind.
+//! in ‖A^½∇·‖, with what a load of 1 costs by [`signorini_certify::reach`] and H the least ∫h. The last sum is of u_ext at points, where
+//! these stand beside ∫h u_ext. Products p_c p_a of a coefficient and u_ext are terms of their own, rounded once more. The kernel's own
+//! allowance knows only the sum of the terms, which may be a small difference.
 
 use signorini_kernel::mesh::boundary::Robin;
 
-use signorini_certify::oscillation::off_mean;
-use signorini_certify::{Certifier, TermData};
-use signorini_problem::scalar::Scalar;
+use signorini_certify::TermData;
+use signorini_certify::reach::Reach;
 use signorini_problem::{Problem, TransferPattern};
 
 use super::pattern::fluxes;
 
-/// What a load of 1 that is not there costs.
-#[derive(Debug)]
-pub(super) struct Reach<'a> {
-    /// With the least ∫h.
-    least: &'a Problem,
-    /// In each cell.
-    of_cells: Vec<f64>,
-}
-
 /// Numbers ≥ 0 by place: of cells, Neumann records, contact fluxes, spans, and ∫h u_ext of transfer laws.
 type Places = [Vec<f64>; 5];
 
-/// Some of the [`Places`].
-const CONTACT: usize = 2;
+/// The last of the [`Places`].
 const AMBIENT: usize = 4;
 
-impl<'a> Reach<'a> {
-    /// Where `certifier` balances the mesh of `least` at the cost `largest` of the farthest cell.
-    pub fn new<R: Scalar>(least: &'a Problem, certifier: &Certifier<R>, largest: R) -> Self {
-        let stored = |cell: usize| 1.0 / least.loads.content(cell).sqrt();
-        let costs: Vec<f64> = (0..least.cells()).map(stored).collect();
-        let way = largest.wide()
-            + match certifier.hands_on() {
-                true => 0.0,
-                false => {
-                    costs.iter().filter(|cost| cost.is_finite()).fold(0.0, |a: f64, b| a.max(*b))
-                }
-            };
-        Self { least, of_cells: costs.into_iter().map(|cost| cost.min(way)).collect() }
-    }
-
-    fn of_edge(&self, edge: usize) -> f64 {
-        let (cell, _) = self.least.topology.first_side(edge);
-        self.of_cells[cell] + off_mean(self.least, edge)
-    }
-
-    fn of_places(&self, neumann: &[u32]) -> Places {
-        let counts = self.least.topology.counts;
-        let contact: Vec<f64> =
-            (counts.free..counts.unknowns()).map(|edge| self.of_edge(edge)).collect();
-        let of_law = |law: &Robin<f64, u32>| {
-            self.of_edge(law.edge as usize).min(1.0 / law.coefficient.sqrt())
-        };
-        [
-            self.of_cells.clone(),
-            neumann.iter().map(|&edge| self.of_edge(edge as usize)).collect(),
-            contact.clone(),
-            contact,
-            self.least.loads.robin.iter().map(of_law).collect(),
-        ]
-    }
-
-    /// By how much each term of the data, base first, may move u for each unit of its input.
-    pub fn lost(&self, parts: &[TermData], neumann: &[u32], epsilon: f64) -> Vec<f64> {
-        let mut amounts: Vec<Places> = parts.iter().map(|part| amounts(part, neumann)).collect();
-        self.add_products(parts, &mut amounts);
-        let (costs, most) = (self.of_places(neumann), self.most_transfer(parts));
-        let share = |kind: usize, at: usize| {
-            let acts = |of: &&Places| of[kind].get(at).is_some_and(|&amount| amount > 0.0);
-            let terms = amounts.iter().filter(acts).count();
-            if terms < 2 { 0.0 } else { 0.5 * (terms + 2) as f64 * epsilon }
-        };
-        let of_term = |(part, of): (&TermData, &Places)| {
-            let of_kind = |kind: usize| {
-                let places = of[kind].iter().zip(&costs[kind]).enumerate();
-                let acts = places.filter(|(_, (amount, _))| **amount > 0.0);
-                acts.map(|(at, (amount, cost))| share(kind, at) * amount * cost).sum::<f64>()
-            };
-            let along = part.transfer.iter().zip(&most).enumerate().map(|(at, (points, most))| {
-                let ambient = points.iter().fold(0.0, |most: f64, [_, u]| most.max(u.abs()));
-                most * (share(AMBIENT, at) * ambient).powi(2)
-            });
-            (0..of.len()).map(of_kind).sum::<f64>() + along.sum::<f64>().sqrt()
-        };
-        let mut lost: Vec<f64> = parts.iter().zip(&amounts).map(of_term).collect();
-        if let (Some(first), Some(base)) = (lost.first_mut(), parts.first()) {
-            *first += settled(base, &costs[CONTACT]);
-        }
-        lost
-    }
-
-    /// Adds what coefficients within their ranges make of u_ext: p_c ∫π u₀ counts for the coefficient, p_c p_a ∫π w for u_ext.
-    fn add_products(&self, parts: &[TermData], amounts: &mut [Places]) {
-        for (input, of, most) in self.coefficients(parts) {
-            for (term, products) in &of.ambient {
-                let (to, factor) = if *term == 0 { (input, 1.0) } else { (*term, most) };
-                let sums = amounts[to][AMBIENT].iter_mut().zip(products);
-                sums.for_each(|(sum, product)| *sum += factor * product.abs());
+/// By how much rounding in a scalar with this `epsilon` may move u in each term of the data, base first, for each unit of its input. The
+/// problem has the `least` ∫h; `neumann` are the edges with a record of their flux.
+pub(super) fn lost(
+    least: &Problem,
+    reach: &Reach,
+    parts: &[TermData],
+    neumann: &[u32],
+    epsilon: f64,
+) -> Vec<f64> {
+    let of_inputs = coefficients(least, parts);
+    let mut amounts: Vec<Places> = parts.iter().map(|part| amounts(part, neumann)).collect();
+    let mut counts = counts(&amounts);
+    for (input, of, most) in &of_inputs {
+        for (term, products) in &of.ambient {
+            // p_c ∫π u₀ counts for the coefficient, p_c p_a ∫π w for u_ext.
+            let (to, factor) = if *term == 0 { (*input, 1.0) } else { (*term, *most) };
+            for (at, product) in products.iter().enumerate().filter(|(_, product)| **product != 0.0)
+            {
+                amounts[to][AMBIENT][at] += factor * product.abs();
+                counts[AMBIENT][at] += 2.0;
             }
         }
     }
-
-    /// The most that |E| h may be along each transfer edge, all its terms added up.
-    fn most_transfer(&self, parts: &[TermData]) -> Vec<f64> {
-        let largest =
-            |all: &mut dyn Iterator<Item = f64>| all.fold(0.0, |a: f64, b| a.max(b.abs()));
-        let base = parts.iter().take(1).flat_map(|part| &part.transfer);
-        let mut most: Vec<f64> =
-            base.map(|points| largest(&mut points.iter().map(|[h, _]| *h))).collect();
-        for (_, of, factor) in self.coefficients(parts) {
-            let added = of.points.iter().map(|points| largest(&mut points.iter().copied()));
-            most.iter_mut().zip(added).for_each(|(most, added)| *most += factor * added);
-        }
-        most
-    }
-
-    /// The terms that change a coefficient, with the largest |p|.
-    fn coefficients<'p>(
-        &self,
-        parts: &'p [TermData],
-    ) -> impl Iterator<Item = (usize, &'p TransferPattern, f64)> {
-        let inputs = self.least.scene.inputs.iter();
-        let most = inputs.map(|input| input.interval().map(f64::abs)).map(|[a, b]| a.max(b));
-        let terms = parts.iter().enumerate().skip(1).zip(most.collect::<Vec<_>>());
-        terms.filter_map(|((at, part), most)| Some((at, part.coefficient.as_ref()?, most)))
-    }
-}
-
-/// What ends of contact fluxes that have gone to their mean cost, see [`Loads::moved`](signorini_problem::Loads).
-fn settled(base: &TermData, costs: &[f64]) -> f64 {
-    let ends = base.spans.iter().zip(costs).filter(|(span, _)| **span == 0.0);
-    base.loads().moved * ends.map(|(_, cost)| cost).sum::<f64>()
+    let (costs, most) = (costs(least, reach, neumann), most_transfer(parts, &of_inputs));
+    let share = |kind: usize, at: usize| match counts[kind][at] {
+        terms if terms < 2.0 => 0.0,
+        terms => 0.5 * (terms + 2.0) * epsilon,
+    };
+    let of_term = |(part, of): (&TermData, &Places)| {
+        let of_kind = |kind: usize| {
+            let places = of[kind].iter().zip(&costs[kind]).enumerate();
+            let acts = places.filter(|(_, (amount, _))| **amount > 0.0);
+            acts.map(|(at, (amount, cost))| share(kind, at) * amount * cost).sum::<f64>()
+        };
+        let along = part.transfer.iter().zip(&most).enumerate().map(|(at, (points, most))| {
+            let ambient = points.iter().fold(0.0, |most: f64, [_, u]| most.max(u.abs()));
+            most * (share(AMBIENT, at) * ambient).powi(2)
+        });
+        (0..of.len()).map(of_kind).sum::<f64>() + along.sum::<f64>().sqrt()
+    };
+    parts.iter().zip(&amounts).map(of_term).collect()
 }
 
 /// The loads of a term.
@@ -158,4 +81,56 @@ fn amounts(part: &TermData, neumann: &[u32]) -> Places {
         size(part.spans.clone()),
         size(loads.robin.iter().map(|law| law.ambient).collect()),
     ]
+}
+
+/// How many terms act at each place.
+fn counts(amounts: &[Places]) -> Places {
+    let mut counts = Places::default();
+    for (kind, counts) in counts.iter_mut().enumerate() {
+        for of in amounts {
+            counts.resize(counts.len().max(of[kind].len()), 0.0);
+            let acting = counts.iter_mut().zip(&of[kind]).filter(|(_, amount)| **amount > 0.0);
+            acting.for_each(|(count, _)| *count += 1.0);
+        }
+    }
+    counts
+}
+
+/// What a load of 1 that is not there costs at each place.
+fn costs(least: &Problem, reach: &Reach, neumann: &[u32]) -> Places {
+    let contact: Vec<f64> = reach.of_contact().collect();
+    let of_law =
+        |law: &Robin<f64, u32>| reach.of_edge(law.edge as usize).min(1.0 / law.coefficient.sqrt());
+    [
+        reach.of_cells().to_vec(),
+        neumann.iter().map(|&edge| reach.of_edge(edge as usize)).collect(),
+        contact.clone(),
+        contact,
+        least.loads.robin.iter().map(of_law).collect(),
+    ]
+}
+
+/// A term that changes a coefficient, what it adds, and the largest |p|.
+type OfCoefficient<'a> = (usize, &'a TransferPattern, f64);
+
+fn coefficients<'a>(problem: &Problem, parts: &'a [TermData]) -> Vec<OfCoefficient<'a>> {
+    let most = problem.scene.inputs.iter().map(|input| {
+        let [a, b] = input.interval().map(f64::abs);
+        a.max(b)
+    });
+    let terms = parts.iter().enumerate().skip(1).zip(most);
+    terms.filter_map(|((at, part), most)| Some((at, part.coefficient.as_ref()?, most))).collect()
+}
+
+/// The most that |E| h may be along each transfer edge, all its terms added up.
+fn most_transfer(parts: &[TermData], of_inputs: &[OfCoefficient]) -> Vec<f64> {
+    let largest = |all: &mut dyn Iterator<Item = f64>| all.fold(0.0, |a: f64, b| a.max(b.abs()));
+    let base = parts.iter().take(1).flat_map(|part| &part.transfer);
+    let mut most: Vec<f64> =
+        base.map(|points| largest(&mut points.iter().map(|[h, _]| *h))).collect();
+    for (_, of, factor) in of_inputs {
+        let added = of.points.iter().map(|points| largest(&mut points.iter().copied()));
+        most.iter_mut().zip(added).for_each(|(most, added)| *most += factor * added);
+    }
+    most
 }

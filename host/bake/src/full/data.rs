@@ -7,11 +7,12 @@ use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::stiffness::Stiffness;
 
 use super::bent::{Bent, bent};
-use super::cancellation::Reach;
+use super::cancellation;
 use super::pattern::{Pattern, fluxes};
 use crate::narrow::{narrow, pairs};
 use crate::range::wider;
 use crate::room::Room;
+use signorini_certify::reach::Reach;
 use signorini_certify::term::rooms_of;
 use signorini_certify::transfer_forms::Forms;
 use signorini_certify::{NoBound, TermData};
@@ -31,6 +32,7 @@ pub(super) struct Data<R> {
     pub spans: Vec<R>,
     pub span_excess: R,
     pub rooms: Vec<Room<R>>,
+    pub settling: R,
     pub gap: Vec<R>,
     pub gap_ends: Vec<[R; 2]>,
     pub dirichlet: Vec<R>,
@@ -52,7 +54,7 @@ impl<R: Scalar> Data<R> {
         problem: &Problem,
         parts: &[TermData],
         stiffness: Stiffness<R>,
-        reach: &Reach,
+        (least, reach): (&Problem, &Reach),
     ) -> Result<Self> {
         let Some((base, of_inputs)) = parts.split_first() else { return Ok(Self::default()) };
         let neumann = with_flux(parts);
@@ -67,7 +69,10 @@ impl<R: Scalar> Data<R> {
         let (forms, of_ambient) = forms(problem, parts)?;
         let changed = || NoBound::of_changed_transfer(problem, &forms.laws);
         let of_base = neumann.iter().zip(fluxes(&neumann, base));
+        let rooms = rooms_of(problem, parts);
         let along = base.transfer.iter().filter(|_| !is_uniform);
+        let lost = cancellation::lost(least, reach, parts, &neumann, R::EPSILON.wide());
+        let settling = if rooms.is_empty() { 0.0 } else { reach.of_contact().sum() };
         let mut data = Self {
             triangles: narrow(&base.loads().triangles),
             quads: narrow(&base.loads().quads),
@@ -76,7 +81,8 @@ impl<R: Scalar> Data<R> {
             contact_flux: narrow(&base.loads().contact_flux),
             spans: narrow(&base.spans),
             span_excess: R::narrow(span_excess(problem)),
-            rooms: rooms_of(problem, parts).iter().map(Room::new).collect(),
+            rooms: rooms.iter().map(Room::new).collect(),
+            settling: R::narrow(settling),
             gap: narrow(&base.loads().gap),
             gap_ends: pairs(&base.ends.gap),
             dirichlet: narrow(&base.loads().dirichlet),
@@ -87,12 +93,7 @@ impl<R: Scalar> Data<R> {
             forms: forms.narrowed(),
             of_ambient,
             patterns: patterns.collect(),
-            oscillation: oscillation(
-                problem,
-                parts,
-                stiffness,
-                reach.lost(parts, &neumann, R::EPSILON.wide()),
-            ),
+            oscillation: oscillation(problem, parts, stiffness, lost),
             no_bound: parts.iter().find_map(|part| part.no_bound.clone()).or_else(changed),
         };
         data.leave_out_zeros(problem);

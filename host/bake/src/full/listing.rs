@@ -213,6 +213,7 @@ fn base<R: Scalar, I: Index>(of: &Base<R, u32>, to: &mut Statics) -> String {
         ("contact_flux", contact_flux),
         ("spans", spans),
         ("rooms", room::written(of.rooms, to)),
+        ("settling", format!("{:?}", of.settling)),
         ("gap", gap),
         ("dirichlet", dirichlet),
         ("ends", record("VertexData", [("gap", gap_ends), ("given", given)])),

@@ -53,19 +53,21 @@ fn of_end(problem: &Problem, edge: usize, field: Field) -> Result<[f64; 2]> {
     Ok([known, by_trace(square.value + square.missed) - known])
 }
 
-/// How far the mean of v along an edge may be from that in its cell, where ‖A^½∇v‖ = 1 there. The mean of |v − v_T| is not larger.
+/// How far the mean of v along an edge may be from that in its cell, where ‖A^½∇v‖ = 1 there. The mean of |v − v_T| is not larger. In
+/// a quad it is the mean of the reference square, over which loads are spread.
 pub fn off_mean(problem: &Problem, edge: usize) -> f64 {
     let (at, _) = problem.topology.first_side(edge);
-    let (cell, softness, length) =
-        (Cell::of(problem, at), alpha(problem, at), problem.lengths[edge]);
+    let (softness, length) = (alpha(problem, at), problem.lengths[edge]);
     let shape = shape(problem, edge);
     let from_triangle = (shape * TRACE / (length * softness)).sqrt();
-    if matches!(cell, Cell::Triangle(_)) {
-        return from_triangle;
-    }
-    // |K| = |E| h_K²/shape, where h_K ≥ |E|.
+    let cell = Cell::of(problem, at);
+    let Cell::Quad(corners) = cell else { return from_triangle };
+    // |K| = |E| h_K²/shape, where h_K ≥ |E|; of the square 1/(4 det) weighs v, whose least stands at a corner.
     let area = length.powi(3) / shape;
-    from_triangle + cell.diameter() / PI / (area * softness).sqrt()
+    let corner = |at: usize| triangle_area([0, 1, 3].map(|next| corners[(at + next) % 4]));
+    let least = (0..4).map(corner).fold(f64::INFINITY, f64::min);
+    let from_square = (1.0 / area).sqrt() + (0.5 / least).sqrt();
+    from_triangle + cell.diameter() / PI / softness.sqrt() * from_square
 }
 
 /// |E| h_K²/|K| of the triangle K of an edge.

@@ -138,8 +138,7 @@ pub(super) fn charge<R: Real>(
         if end.finite() {
             let (mean, terms) = (R::TWO * mean, tau.magnitude() + end.magnitude());
             let distance = (tau - end).magnitude();
-            let unseen = range.unseen(distance, contact.spans().excess())
-                + contact.spans().moved(range.span());
+            let unseen = range.unseen(distance, contact.spans().excess());
             sum += (distance + unseen) * mean;
             size += terms * mean.magnitude();
         }
@@ -235,15 +234,5 @@ mod tests {
         // An edge that lets nothing vary, beside others on which hi − lo does.
         assert_eq!(charged(0.0, 0.5, 1.0, [0.25, 0.25]), 0.0);
         assert_eq!(charged(f64::INFINITY, 0.0, 1.5, [0.25, 0.0]), 0.25);
-    }
-
-    /// Of ends that were moved to their mean, 1: twice what s is away from the gap times that.
-    #[test]
-    fn ends_that_were_moved_are_charged_for_it() {
-        let spans = Spans::new(&[0.0]).unwrap_or(Spans::UNLIMITED).moved_by(0.125);
-        let law = Law::above(&[0.0]).with_spans(spans);
-        let charged = |span, means| charge(FluxRange::new(1.0, Span::new(span)), law, 1.0, means).0;
-        assert_eq!([charged(0.0, [0.25, 0.0]), charged(0.0, [0.0, 0.5])], [0.0625, 0.125]);
-        assert_eq!(charged(1.0, [0.25, 0.0]), 0.0);
     }
 }

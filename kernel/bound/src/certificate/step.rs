@@ -120,7 +120,9 @@ impl<R: Real, I: Index> OfStep<'_, R, I> {
             let distance = motion.with_transfer(discretization, given, ends);
             let distance = distance.map(|of| of.square(missed));
             let contact = motion.contacts(discretization, given, iterate.law, step.openings);
-            let oscillation = given.oscillation + certificate.rounding;
+            // What rounding leaves of a cell's balance may stay in a step, and not in all of them.
+            let lasting = parts.unbalanced(discretization.cells.len(), discretization.stability);
+            let oscillation = given.oscillation + certificate.rounding + lasting;
             let residual = [means.mean, inside.rest, inside.loose];
             StepTerms::new(step.length, (residual, oscillation), distance, contact)
         });

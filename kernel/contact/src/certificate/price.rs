@@ -160,12 +160,11 @@ impl<R: Real> Form<'_, R> {
         }
         let [above, below] = Excess { ends: [a[0], b[0]], bubble: R::ZERO }.sides();
         let range = FluxRange::new(R::ZERO, Span::new(most - least));
-        let beside = unsure + answer.ranges.moved(edge);
         let one = |mean: R, may_be: bool, distance: R| {
             let mean = if may_be { mean + slack } else { mean };
             if mean > R::ZERO && distance.finite() {
                 let unseen = range.unseen(distance + unsure, most_excess).or_smaller(most_excess);
-                R::TWO * mean * (distance + unseen + beside)
+                R::TWO * mean * (distance + unseen + unsure)
             } else {
                 R::ZERO
             }

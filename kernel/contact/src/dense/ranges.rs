@@ -82,10 +82,10 @@ impl<R: Real> Ranges<'_, R> {
         })
     }
 
-    /// By how much the ends of an edge's range may have been moved to their mean.
+    /// By how much ends of ranges have moved at most.
     #[inline(always)]
-    pub(crate) fn moved(&self, at: usize) -> R {
-        self.spans.moved(self.spans.on(at))
+    pub(crate) fn moved(&self) -> R {
+        self.spans.moved()
     }
 
     /// The flux added to b for an edge off the gap: the end that belongs to the sign of x; 0 at x = 0 or for an infinite end.

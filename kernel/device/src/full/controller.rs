@@ -37,7 +37,7 @@ pub struct Task<'t, R, I> {
     pub setup: &'t Setup<'t, R, I>,
     /// One value a pattern.
     pub inputs: &'t [R],
-    /// In the units of the model.
+    /// In the units of the scene.
     pub limits: Limits<R>,
 }
 
@@ -62,12 +62,12 @@ impl<R: Real, I: Index, S: Sweeping<R, I> + Copy> Solver<R, I> for S {
     fn tick<F: FnMut() -> u32, const WIDTH: usize>(
         &mut self,
         full: &Full<R, I>,
-        Task { inputs, limits, .. }: Task<R, I>,
+        Task { inputs, limits, setup }: Task<R, I>,
         deadline: &mut Deadline<F>,
         memory: Memory<R, I, WIDTH>,
         outputs: &mut [R],
     ) -> Result<Report<R>, Error> {
-        full.tick(inputs, *self, limits, deadline, memory, outputs)
+        full.tick_in(setup.units, inputs, *self, limits, deadline, memory, outputs)
     }
 }
 
@@ -103,7 +103,7 @@ where
         let factored = setup.factored.ok_or(missing)?;
         let exact = &mut Exact::new(*factored, self.exchanges.memory(setup.lengths.active)?)?;
         let method = Substitutions { exact, sweeps: self.sweeps };
-        full.tick(inputs, method, limits, deadline, memory, outputs)
+        full.tick_in(setup.units, inputs, method, limits, deadline, memory, outputs)
     }
 }
 
@@ -164,13 +164,10 @@ where
         limits: Limits<R>,
         deadline: &mut Deadline<F>,
     ) -> Result<Answer<O, R>, Error> {
-        let Setup { lengths, units, .. } = *setup;
-        let limits = units.map_or(limits, |units| units.limits(limits));
         let task = Task { setup, inputs: terms.as_ref().get(1..).unwrap_or_default(), limits };
-        let memory = self.own.memory(full, lengths)?;
+        let memory = self.own.memory(full, setup.lengths)?;
         let outputs = self.outputs.as_mut();
         let report = self.solver.tick(full, task, deadline, memory, outputs)?;
-        let report = units.map_or(report, |units| units.answer(full.outputs, outputs, report));
         let outputs = O::read(&Read(outputs))?;
         Ok(Answer { outputs, report: report.with(()) })
     }

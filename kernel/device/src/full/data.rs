@@ -37,6 +37,8 @@ pub struct Base<'a, R, I> {
     pub spans: Spans<'a, R>,
     /// Room that inputs leave in ranges that they change.
     pub rooms: &'a [Room<'a, R>],
+    /// What it costs in ‖A^½∇u‖ that each end of such a range has moved by 1.
+    pub settling: R,
     /// Means of ψ, one a contact edge.
     pub gap: &'a [R],
     /// Means of u_D, one a Dirichlet edge.
@@ -123,10 +125,10 @@ impl<R: Real, I: Index> DataMemory<'_, R, I> {
         base: &Base<'d, R, I>,
         edges: &Edges<I>,
         forms: &'d [TransferForms<'d, R, I>],
-        (oscillation, moved): (R, R),
+        oscillation: R,
     ) -> Result<Data<'d, R, I>, Error> {
         let contact_flux = own_or(self.contact_flux, base.contact_flux);
-        let spans = self.spans(base.spans).moved_by(moved);
+        let spans = self.spans(base.spans);
         let (neumann, robin) = (own_or(self.neumann, base.neumann), own_or(self.robin, base.robin));
         let given = LoadCase {
             loads: CellLoads {

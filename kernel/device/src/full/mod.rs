@@ -97,11 +97,29 @@ impl<R: Real, I: Index> Full<'_, R, I> {
     /// Inputs that are not finite, or so large that data or answers may overflow ([`Tick::begin`]), or that leave a contact
     /// edge no flux; arrays of the wrong length, a factor of another mesh. The last answer stays then, bit for bit, and
     /// `outputs` are as they were.
-    // Inlined, as all on the way to it from a module's tick: whatever the compiler decides by itself depends on how many checks come
-    // before, and what stays apart loses its knowledge of the statics.
     #[inline(always)]
     pub fn tick<M: Method<R, I>, const WIDTH: usize, F: FnMut() -> u32>(
         &self,
+        inputs: &[R],
+        method: M,
+        limits: Limits<R>,
+        deadline: &mut Deadline<F>,
+        memory: Memory<R, I, WIDTH>,
+        outputs: &mut [R],
+    ) -> Result<Report<R>, Error> {
+        self.tick_in(None, inputs, method, limits, deadline, memory, outputs)
+    }
+
+    /// The same with limits, outputs and report in the scene's units, where they are not those of the model.
+    ///
+    /// # Errors
+    /// Those of [`Full::tick`].
+    // Inlined, as all on the way to it from a module's tick: whatever the compiler decides by itself depends on how many checks come
+    // before, and what stays apart loses its knowledge of the statics.
+    #[inline(always)]
+    pub fn tick_in<M: Method<R, I>, const WIDTH: usize, F: FnMut() -> u32>(
+        &self,
+        units: Option<Units<R>>,
         inputs: &[R],
         mut method: M,
         limits: Limits<R>,
@@ -117,7 +135,7 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         all_finite(Array::Inputs, inputs)?;
         let Memory { tick: of_tick, data: mut of_data, mut past, mut handed_on, progress } = memory;
         let moved = of_data.evaluate(&self.base, self.patterns, inputs)?;
-        let oscillation = self.oscillation(inputs);
+        let oscillation = self.oscillation(inputs, moved);
         let (edges, forms) = (&self.discretization.edges, self.base.transfer.forms(inputs));
         let forms = if features::PIECES { forms.as_slice() } else { &[] };
         if let Some(storing) = self.storing.get() {
@@ -128,7 +146,7 @@ impl<R: Real, I: Index> Full<'_, R, I> {
             past.weigh(storing, of_data.robin);
         }
         let step = self.storing.get().map(|storing| past.step(storing, handed_on.openings));
-        let given = of_data.view(&self.base, edges, forms, (oscillation, moved))?;
+        let given = of_data.view(&self.base, edges, forms, oscillation)?;
         let data = Data { step: step.as_ref().map_or(IfStoring::NOTHING, IfStoring::of), ..given };
         let known = match progress.has_begun() {
             true => *progress,
@@ -139,23 +157,28 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         if !progress.has_begun() || self.is_cold() {
             self.start(&data, tick.memory());
         }
+        let refused = self.refused(&data.given.ends);
+        let limits = units.map_or(limits, |units| units.limits(limits));
+        // Where there is no bound nothing is small enough.
+        let error = if refused.is_some() { R::ZERO } else { limits.error };
+        let limits = Limits { error, ..limits };
         // All of it in one function: in parts it lost the compiler's knowledge of the statics, and cost 3 % more.
         let report = tick.enter(data, size).advance(method, limits, deadline)?;
         *progress = tick.progress();
-        let verdict = self.allowed(report.verdict, &data.given.ends);
-        // Without a bound of the error that of the iteration alone was small enough.
-        let ended = match (report.ended, verdict.certificate()) {
-            (Ended::Accurate, None) => Ended::Settled,
-            (ended, _) => ended,
+        let verdict = match (report.verdict, refused) {
+            (verdict @ Verdict::NotAsked, _) | (verdict, None) => verdict,
+            (_, Some(refused)) => refused,
         };
-        let report = Report { verdict, ended, ..report };
+        let report = Report { verdict, ..report };
         let answer = TickState { tick: &tick, data: &given, report: &report };
-        let mut is_known = true;
         for (output, functional) in outputs.iter_mut().zip(self.outputs) {
             *output = functional.of(&answer);
-            // Without a bound its output is infinite, and nothing else is.
-            is_known &= output.finite() || *functional == Functional::Bound;
         }
+        let has_bound = report.verdict.certificate().is_some();
+        let report = units.map_or(report, |units| units.answer(self.outputs, outputs, report));
+        // Without a bound its output is infinite, and nothing else is.
+        let mut values = outputs.iter().zip(self.outputs);
+        let is_known = values.all(|(value, of)| value.finite() || *of == Functional::Bound);
         let report = if is_known { report } else { Report { ended: Ended::NotFinite, ..report } };
         if let Some(storing) = self.storing.get() {
             if report.ended == Ended::NotFinite {
@@ -164,7 +187,6 @@ impl<R: Real, I: Index> Full<'_, R, I> {
                 return Ok(report);
             }
             if M::CERTIFIES {
-                let has_bound = report.verdict.certificate().is_some();
                 let terms = step.as_ref().filter(|_| has_bound).map(|step| step.terms.get());
                 handed_on.advance(storing, &terms.unwrap_or_default(), &tick, &given)?;
             }
@@ -173,13 +195,12 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         Ok(report)
     }
 
-    /// The verdict that the data allow for.
-    fn allowed(&self, verdict: Verdict<R>, ends: &VertexData<R>) -> Verdict<R> {
-        match verdict {
-            Verdict::NotAsked => verdict,
-            _ if !self.has_bound => Verdict::Unavailable,
-            _ if !self.meet(ends) => Verdict::BelowGap,
-            _ => verdict,
+    /// Why the data allow for no bound.
+    fn refused(&self, ends: &VertexData<R>) -> Option<Verdict<R>> {
+        match self.has_bound {
+            false => Some(Verdict::Unavailable),
+            true if !self.meet(ends) => Some(Verdict::BelowGap),
+            true => None,
         }
     }
 
@@ -194,13 +215,15 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         self.corners.iter().all(|corner| below(corner) <= slack)
     }
 
-    /// osc(p) ≤ osc₀ + Σ|p_j| osc_j
-    fn oscillation(&self, inputs: &[R]) -> R {
+    /// osc(p) ≤ osc₀ + Σ|p_j| osc_j, and what it costs that ends of fluxes have `moved`.
+    fn oscillation(&self, inputs: &[R], moved: R) -> R {
         let (first, rest) = match self.oscillation.split_first() {
             Some((&first, rest)) => (first, rest),
             None => return R::ZERO,
         };
-        rest.iter().zip(inputs).fold(first, |sum, (&of_one, p)| sum + of_one * p.magnitude())
+        let all = rest.iter().zip(inputs);
+        let all = all.fold(first, |sum, (&of_one, p)| sum + of_one * p.magnitude());
+        if features::LIMITED { all + moved * self.base.settling } else { all }
     }
 
     /// Where sweeps begin: on the gap, and elsewhere at one value; a step that is not cold from the answer before, or from the start.

@@ -9,7 +9,7 @@
 //! Each is a power of two: products are exact but for what leaves the range of the scalar.
 
 use super::Functional;
-use crate::tick::{Ended, Figures, Report};
+use crate::tick::{Figures, Report};
 use signorini_kernel::Real;
 use signorini_kernel::limits::Limits;
 use signorini_kernel::verdict::{Certificate, Verdict};
@@ -31,31 +31,28 @@ impl<R: Real> Units<R> {
         Limits { error: limits.error / self.energy, ..limits }
     }
 
-    /// Outputs and report in the scene's units; the tick has ended as [`Ended::NotFinite`] where an output leaves the range of the scalar.
+    /// Outputs and report in the scene's units.
     pub(super) fn answer<I>(
         &self,
         of: &[Functional<R, I>],
         outputs: &mut [R],
         report: Report<R>,
     ) -> Report<R> {
-        let mut report = self.report(report);
+        let report = self.report(report);
         for (output, of) in outputs.iter_mut().zip(of) {
-            let is_known = output.finite();
             *output = match (of, report.certificate()) {
                 (Functional::Flux(_) | Functional::Force(_), _) => *output * self.flux,
                 (Functional::Probe(_), _) => *output * self.u,
-                (Functional::Bound, Some(certificate)) => certificate.total,
+                (Functional::Bound, certificate) => certificate.map_or(R::INFINITY, |of| of.total),
                 _ => *output,
             };
-            if is_known && !output.finite() {
-                report.ended = Ended::NotFinite;
-            }
         }
         report
     }
 
     fn report(&self, report: Report<R>) -> Report<R> {
         let verdict = match report.verdict {
+            Verdict::Certified(of) if !(of.of_u * self.energy).finite() => Verdict::NotFinite,
             Verdict::Certified(of) => Verdict::Certified(Certificate {
                 duality_gap: of.duality_gap * self.energy,
                 algebraic: of.algebraic * self.energy,
