@@ -45,7 +45,10 @@ pub fn ran(text: &str) -> Result<String, String> {
             let ran = Command::new(&program).output().expect("a program");
             return Ok(String::from_utf8_lossy(&ran.stdout).into_owned());
         }
-        said = String::from_utf8_lossy(&compiled.stderr).into_owned();
+        // Of the newest: an older one may be of other features.
+        if said.is_empty() {
+            said = String::from_utf8_lossy(&compiled.stderr).into_owned();
+        }
     }
     Err(said)
 }

@@ -111,7 +111,7 @@ table! {
         "the constant is a thousand ranges, of which rounding is 1e-13, times the condition of a small mesh";
     ZERO_SWEPT: "figures of ticks with a constant added to every datum of u, relative", 1e-7,
         "sweeps end at a share of the bound, one of them earlier or later";
-    ZERO_NARROW: "figures in f32 with a constant of twenty ranges added to every datum of u, relative", 3e-4,
+    ZERO_NARROW: "figures in f32 with a constant of twenty ranges added to every datum of u, relative", 1e-3,
         "the data are narrowed with another zero: 6e-8, times the condition of a small mesh";
     TRANSFER: "a wall with a transfer coefficient that an input sets, against its resistances in series", 3e-12,
         "u is affine, and exact in the elements: sweeps end at 4√n ε = 1e-14 of its size 2, times the condition of a small mesh, 100";
