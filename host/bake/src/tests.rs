@@ -1,4 +1,19 @@
-//! Generated text beside the controller on this machine: the same bits, tick after tick; and standard scenes.
+//! Generated text beside the controller on this machine: the same bits, tick after tick; and standard scenes. Below
+//! it controllers beside solves of the same scenes.
+
+mod condensed_bound;
+mod condensed_length;
+mod condensed_limits;
+mod crossed_ends;
+mod direct;
+mod excluded;
+mod limit_inputs;
+mod means;
+mod plus_minus;
+mod promise;
+mod transfer;
+mod unsolvable;
+mod warm_inputs;
 
 use std::path::Path;
 

@@ -6,8 +6,8 @@ use signorini_tolerances::bake::{
 };
 use std::path::Path;
 
-use signorini_bake::choice::{Choice, Wanted};
-use signorini_bake::condensed::{Baked, Controller, Work};
+use crate::choice::{Choice, Wanted};
+use crate::condensed::{Baked, Controller, Work};
 use signorini_certify::admissible::Following;
 use signorini_certify::curved::followed;
 use signorini_certify::exact::{Distance, distance};

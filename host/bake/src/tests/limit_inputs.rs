@@ -1,9 +1,9 @@
 //! Full models with limits of the flux, and inputs on either end of it, tick after tick: against the direct solver and
 //! an exact solution, and where inputs leave no flux.
 
-use crate::direct::{Beside, HEATER, bounded, directly, played, refusal, to_the_end};
-use signorini_bake::full::{Baked, Controller, source};
-use signorini_bake::narrow::narrow;
+use super::direct::{Beside, HEATER, bounded, directly, played, refusal, to_the_end};
+use crate::full::{Baked, Controller, source};
+use crate::narrow::narrow;
 use signorini_kernel::Error;
 use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::Problem;

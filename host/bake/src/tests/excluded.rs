@@ -1,9 +1,9 @@
 //! Inputs without a range that make boundaries exclude each other: every model refuses them, and goes on as if it had not seen them.
 
-use signorini_bake::Bakes;
-use signorini_bake::choice::{Choice, Wanted};
-use signorini_bake::emit::emit;
-use signorini_bake::{condensed, full};
+use crate::Bakes;
+use crate::choice::{Choice, Wanted};
+use crate::emit::emit;
+use crate::{condensed, full};
 use signorini_kernel::Error;
 use signorini_kernel::rows::TRIANGLES;
 use signorini_problem::Problem;

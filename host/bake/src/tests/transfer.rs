@@ -1,8 +1,8 @@
 //! Transfer coefficients that inputs change, tick after tick: against solvers, resistances and an exact solution.
 
-use crate::direct::{Beside, bounded, directly, played, refusal, to_the_end};
-use signorini_bake::full::{Baked, Controller, source};
-use signorini_bake::narrow::narrow;
+use super::direct::{Beside, bounded, directly, played, refusal, to_the_end};
+use crate::full::{Baked, Controller, source};
+use crate::narrow::narrow;
 use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::Problem;
 use signorini_problem::fixtures::{SMOOTH, changed, on_grid, transfer_wall};

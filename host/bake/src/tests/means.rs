@@ -1,6 +1,6 @@
 //! Means of u over boundaries: of an affine u they are known, in every model and scalar.
 
-use signorini_bake::{condensed, full};
+use crate::{condensed, full};
 use signorini_condense::condense;
 use signorini_device::tick::Limits;
 use signorini_kernel::rows::{QUADS, TRIANGLES};

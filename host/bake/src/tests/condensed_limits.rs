@@ -1,9 +1,9 @@
 //! A condensed model with limits of the flux, tick after tick: against the direct solver on the mesh, and its bound against that
 //! of the same numbers in f64.
 
-use crate::direct::{HEATER, directly};
-use signorini_bake::condensed::{Baked, Controller, Work};
-use signorini_bake::narrow::narrow;
+use super::direct::{HEATER, directly};
+use crate::condensed::{Baked, Controller, Work};
+use crate::narrow::narrow;
 use signorini_condense::{CondensedModel, condense};
 use signorini_kernel::report::Ended;
 use signorini_problem::Problem;

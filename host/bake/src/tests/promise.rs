@@ -1,7 +1,7 @@
 //! A controller keeps a promised error in its own scalar, or is refused with the inputs at which it does not.
 
-use signorini_bake::choice::{Choice, Wanted};
-use signorini_bake::promise::check;
+use crate::choice::{Choice, Wanted};
+use crate::promise::check;
 use signorini_problem::Problem;
 use signorini_scene::goal::Goal;
 use signorini_scene::mesh::adapted;

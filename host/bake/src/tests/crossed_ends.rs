@@ -1,10 +1,10 @@
 //! A limit that an input brings below the least flux: by up to a slack, the same for every scalar and model, both are their mean; beyond,
 //! everybody refuses the input by its name.
 
-use crate::direct::{directly, played, to_the_end};
-use signorini_bake::condensed;
-use signorini_bake::full;
-use signorini_bake::narrow::narrow;
+use super::direct::{directly, played, to_the_end};
+use crate::condensed;
+use crate::full;
+use crate::narrow::narrow;
 use signorini_condense::condense;
 use signorini_kernel::Error;
 use signorini_kernel::rows::TRIANGLES;

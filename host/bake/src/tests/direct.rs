@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use signorini_bake::full::{Baked, Controller};
-use signorini_bake::narrow::narrow;
+use crate::full::{Baked, Controller};
+use crate::narrow::narrow;
 use signorini_certify::CertifiedFields;
 use signorini_certify::admissible::Following;
 use signorini_certify::exact::distance;

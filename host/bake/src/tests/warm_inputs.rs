@@ -1,6 +1,6 @@
 //! Inputs that change from tick to tick where contact alone holds the domain, and every tick is a warm solve.
 
-use crate::direct::played;
+use super::direct::played;
 use signorini_problem::fixtures::on_grid;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};

@@ -1,7 +1,7 @@
 //! Inputs whose loads contact cannot hold, or holds at no one place, in ticks of a condensed model: against loads added up by hand and what the host
 //! says of the same problem, and the ticks that follow against a controller that was never asked.
 
-use signorini_bake::condensed::{Baked, Controller, Work};
+use crate::condensed::{Baked, Controller, Work};
 use signorini_condense::condense;
 use signorini_kernel::Error;
 use signorini_kernel::error::CellId;
