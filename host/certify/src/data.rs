@@ -138,8 +138,8 @@ impl Evaluated {
             _ => Cow::Borrowed(problem),
         };
         let moved = match of {
-            // Where inputs change an end, a tick tells by how much ends of the sum have moved.
-            Of::Term if problem.scene.limit_input().is_some() => 0.0,
+            // Where inputs change an end, a tick tells by how much those of the sum have moved.
+            Of::Term if problem.scene.limit_input().is_some() => problem.range_term(0)?.moved,
             Of::Whole | Of::Term => problem.loads.moved,
         };
         let (carried, no_way) = match carried(&whole_or_least, moved) {

@@ -31,13 +31,17 @@ pub(super) fn carried(problem: &Problem, moved: f64) -> Result<f64, NoBound> {
     let metric = Metric::new(problem);
     let mut forest = EquilibrationForest::new(problem);
     let is_small = loads.missed <= ROUNDING * size;
-    let touches = |edge: usize| is_small && problem.kinds[edge] == EdgeKind::Contact;
-    let stores = |edge| problem.loads.content(problem.topology.first_side(edge).0) > 0.0;
-    let leads_out = forest.find(&assembled, &metric, touches).is_ok();
-    if !leads_out {
-        forest
-            .find(&assembled, &metric, |edge| touches(edge) || is_small && stores(edge))
-            .map_err(|_| NoBound::unbalanced(loads.missed))?;
+    // An end that has moved takes nothing, and contact alone takes rounding: where nothing else leads out.
+    let touches = |edge: usize| {
+        let contact = edge.checked_sub(problem.topology.counts.free);
+        let is_contact = is_small && problem.kinds[edge] == EdgeKind::Contact;
+        is_contact && contact.is_some_and(|at| loads.spans.get(at) != Some(&0.0))
+    };
+    let stores = |edge| is_small && loads.content(problem.topology.first_side(edge).0) > 0.0;
+    let mut find = |also: &dyn Fn(usize) -> bool| forest.find(&assembled, &metric, also).is_ok();
+    let leads_out = find(&|_| false) || find(&touches);
+    if !leads_out && !find(&|edge| touches(edge) || stores(edge)) {
+        return Err(NoBound::unbalanced(loads.missed));
     }
     let reach = Reach::new(problem, forest.stability(), !leads_out);
     let most = reach.of_cells().iter().fold(0.0, |most: f64, &cost| most.max(cost));

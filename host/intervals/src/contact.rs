@@ -169,7 +169,9 @@ impl ContactEdge {
             dropped: [dropped, 0.0],
         };
         if least == most {
-            return Self { clear: [f64::INFINITY; 2], left: [0.0; 2], ..none };
+            // Of a condensed model τ has it but for rounding.
+            let dropped = [dropped, off(least)];
+            return Self { clear: [f64::INFINITY; 2], left: [0.0; 2], dropped, ..none };
         }
         if let Some(excess) = excess(problem, edge, problem.time) {
             // σ·n and τ·n = lo + θ (hi − lo) may both be where hi − lo is widest.

@@ -171,6 +171,11 @@ impl<'a, const WIDTH: usize> Solver<'a, WIDTH> {
         };
         let wanted =
             |(row, &rest): (usize, &f64)| if is_held(row) { 0.0 } else { rest + force(row) };
+        // Sets may cycle with nothing left to correct in any of them.
+        let Counts { iterations, sets, .. } = self.count;
+        if sets > MOST_SETS {
+            return Err(Failure::Slow { iterations, sets, residual: self.measure().scaled });
+        }
         let all = self.residual.iter().enumerate().map(wanted);
         let present = all.fold(0.0, |most: f64, rest| most.max(rest.abs()));
         if present == 0.0 {
@@ -189,11 +194,11 @@ impl<'a, const WIDTH: usize> Solver<'a, WIDTH> {
         self.count.iterations += made;
         self.count.of_set += made;
         self.count.longest = self.count.longest.max(self.count.of_set);
-        let Counts { iterations, sets, .. } = self.count;
+        let iterations = self.count.iterations;
         if made == 0 {
             return Err(Failure::Breakdown { iterations, residual: self.measure().scaled });
         }
-        if made == most || sets > MOST_SETS {
+        if made == most {
             return Err(Failure::Slow { iterations, sets, residual: self.measure().scaled });
         }
         let unit = largest / self.edges.unit;

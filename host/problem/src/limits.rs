@@ -103,6 +103,8 @@ pub struct RangeTerm {
     pub fluxes: Vec<f64>,
     /// To ∫(hi − lo), which has either sign; ±∞ stands in the first term alone.
     pub spans: Vec<f64>,
+    /// By how much ends were moved to their mean at most, on edges where no input moves one.
+    pub moved: f64,
 }
 
 impl Problem {
@@ -132,7 +134,15 @@ impl Problem {
         let mut all = RangeTerm::default();
         for edge in counts.free..counts.unknowns() {
             let (ends, _) = ends(&alone, edge, self.time)?;
-            let [base, span] = lower_and_span(ends, self.lengths[edge]);
+            let [mut base, mut span] = lower_and_span(ends, self.lengths[edge]);
+            // Where an input moves an end, a tick does that.
+            let of_inputs = || {
+                self.boundary_of(edge).is_some_and(|of| self.inputs_of(of, &ENDS).next().is_some())
+            };
+            if span < 0.0 && span.is_finite() && !of_inputs() {
+                all.moved = all.moved.max(-0.5 * span);
+                (base, span) = (base + 0.5 * span, 0.0);
+            }
             all.fluxes.push(base);
             all.spans.push(if term == 0 || span.is_finite() { span } else { 0.0 });
         }

@@ -123,3 +123,44 @@ pub fn solve(problem: &Problem) -> Result<Solution> {
         ..found
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use signorini_intervals::{Coverage, of_outputs};
+    use signorini_problem::fixtures::scene;
+    use signorini_scene::mesh::{Curve, Mesh};
+
+    /// flux = limit = 0 lets nothing pass, whatever a condensed model rounds: a wall with next to no transfer makes it round at 1e11.
+    #[test]
+    fn a_flux_that_is_given_is_in_its_interval() -> Result<()> {
+        let vertices = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let curve = |name: &str, edge| Curve { name: name.to_owned(), edges: vec![edge] };
+        let mesh = Mesh {
+            vertices,
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            curves: vec![curve("bot", [0, 1]), curve("top", [2, 3])],
+            ..Mesh::default()
+        };
+        for coefficient in ["1e-11", "1e-9", "1e-6"] {
+            let text = format!(
+                "
+mesh = \"grid\"
+material.default.conductivity = \"1\"
+source.f = \"sin(2*y)\"
+boundary.bot = {{ kind = \"contact\", flux = \"0\", limit = \"0\" }}
+boundary.top = {{ kind = \"contact\", flux = \"0\", limit = \"0\" }}
+boundary.default = {{ kind = \"robin\", coefficient = \"{coefficient}\", ambient = \"0\" }}
+output.q = {{ kind = \"flux\", of = \"bot\" }}
+setting.model = \"condensed\"
+"
+            );
+            let problem = Problem::new(&scene(&text)?, mesh.clone())?;
+            let found = of_outputs(&problem, &solve(&problem)?, Coverage::Usual);
+            let interval = found["q"].as_ref().expect("an interval");
+            let (center, half) = (interval.center, interval.plus_minus);
+            assert!(center.abs() <= half, "{coefficient}: {center:e} ± {half:e}");
+        }
+        Ok(())
+    }
+}

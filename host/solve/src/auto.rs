@@ -38,7 +38,8 @@ pub(super) fn chosen<R: Scalar>(
         let found = match solver {
             Ran::Multigrid => multigrid::attempted::<R>(problem, parts, options, start)?.ok(),
             Ran::Direct if is_double => {
-                direct::directly(problem, parts, options).ok().filter(is_converged)
+                let found = direct::attempted(problem, parts, options);
+                found.ok().and_then(|found| found.ok()).filter(is_converged)
             }
             Ran::Factor => by_factor::<R>(problem, parts, options, start, None)?,
             _ => None,

@@ -6,14 +6,31 @@ use signorini_kernel::Error as KernelError;
 use signorini_kernel::mesh::components::Support;
 use signorini_kernel::solver::{Outcome, Status};
 
-use super::{Attempt, Factored, Options, Ran, Solution, Solved, unfit};
+use super::{Attempt, Factored, Options, Ran, Solution, Solved, by_kernel, unfit};
 use signorini_problem::progress::stage;
 use signorini_problem::scalar::{Scalar, widened};
 use signorini_problem::{Assembled, Parts, Problem};
 use signorini_reference::{Factor, ReferenceError};
 use signorini_scene::error::{InputError, Result};
 
+/// Its answer; where its active set goes round in circles that of the kernel, which says so.
 pub(super) fn directly(problem: &Problem, parts: &Parts, options: &Options) -> Result<Solution> {
+    match attempted(problem, parts, options)? {
+        Ok(found) => Ok(found),
+        Err(why) => {
+            let solution = by_kernel::<f64>(problem, parts, options, &[])?;
+            let given_up = Some(format!("the direct solver gave up, the kernel took over: {why}"));
+            Ok(Solution { given_up, ..solution })
+        }
+    }
+}
+
+/// Its answer, or why its active set does not settle.
+pub(super) fn attempted(
+    problem: &Problem,
+    parts: &Parts,
+    options: &Options,
+) -> Result<std::result::Result<Solution, String>> {
     let unfit = unfit::<f64>(&problem.scene);
     let attempt = Attempt::<f64>::new(problem, parts, options)?;
     let assembled = &attempt.assembled;
@@ -27,7 +44,10 @@ pub(super) fn directly(problem: &Problem, parts: &Parts, options: &Options) -> R
     stage("a sparse Cholesky factor");
     let (lower, spans) = (system.law().lower(), system.law().spans().lengths());
     let factor = Factor::new(&reduced.problem(lower, spans)).map_err(failed)?;
-    let found = factor.solve_between(&reduced.load, lower, spans, None).map_err(failed)?;
+    let found = match factor.solve_between(&reduced.load, lower, spans, None) {
+        Err(why @ ReferenceError::Cycling { .. }) => return Ok(Err(why.to_string())),
+        found => found.map_err(failed)?,
+    };
     u[..found.u.len()].copy_from_slice(&found.u);
     system.make_feasible(&mut u);
     let residual = system.residual(&u);
@@ -39,7 +59,7 @@ pub(super) fn directly(problem: &Problem, parts: &Parts, options: &Options) -> R
     let outcome = Outcome { status, sweeps: 0, conjugate: 0, residual, omega: 0.0 };
     let (exchanges, rounds) = (found.steps as u32, found.passes as u32);
     let factored = Some(Factored { entries: factor.entries(), exchanges, rounds });
-    attempt.conclude(Solved { outcome, ran: Ran::Direct, factored, u, low: Vec::new() })
+    attempt.conclude(Solved { outcome, ran: Ran::Direct, factored, u, low: Vec::new() }).map(Ok)
 }
 
 /// K and b with the Dirichlet columns moved to the right: what the reference takes.

@@ -43,7 +43,8 @@ pub(super) fn by_multigrid<R: Scalar>(
         ScalarKind::F64 => ("direct solver", directly(problem, parts, options)?),
         ScalarKind::F32 => ("kernel", by_kernel::<R>(problem, parts, options, start)?),
     };
-    let given_up = Some(format!("multigrid gave up, the {solver} took over: {why}"));
+    let after = solution.given_up.map(|next| format!("; {next}")).unwrap_or_default();
+    let given_up = Some(format!("multigrid gave up, the {solver} took over: {why}{after}"));
     Ok(Solution { given_up, ..solution })
 }
 

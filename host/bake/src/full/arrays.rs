@@ -121,8 +121,9 @@ impl<R: Scalar> Baked<R> {
         let certifier = Certifier::new(&least, &held, &assembled).map_err(&unfit)?;
         let discretization = certifier.discretization(&assembled).map_err(&unfit)?;
         let outputs = functionals(problem)?.iter().map(|of| output(problem, of)).collect();
-        let largest = discretization.stability.largest.wide();
-        let reach = Reach::new(&least, largest, !certifier.hands_on());
+        // Where it is infinite so is the kernel's allowance for rounding.
+        let largest = Some(discretization.stability.largest.wide()).filter(|way| way.is_finite());
+        let reach = Reach::new(&least, largest.unwrap_or_default(), !certifier.hands_on());
         let terms = full_terms(problem)?;
         let mut data = Data::new(problem, &terms, discretization.stiffness, (&least, &reach))?;
         if problem.loads.step.is_some() && data.is_curved() {

@@ -39,10 +39,10 @@ impl<R: Scalar> Certifier<R> {
         let buffers = (self.fields.buffers(), second.handed());
         let given_step = (&given, &of_kernel);
         let judged = certify_step_with(&discretization, given_step, iterate, buffers, &moved)?;
-        let terms = judged.iter().filter_map(|way| Some((way.terms?, way.verdict.certificate()?)));
-        let wide = terms.map(|(terms, certificate)| {
+        let wide = judged.iter().filter_map(|way| way.terms).map(|terms| {
             // How far extensions have moved stands in the residual there.
-            let oscillation = data.oscillation() + certificate.rounding;
+            let more = given.oscillation - data.oscillation();
+            let oscillation = terms.oscillation - more + R::TWO * R::EPSILON * given.oscillation;
             let terms = widened(&StepTerms { oscillation, ..terms });
             lifted(StepTerms { length: step.length, ..terms }, data.lifts(), step.begin.lifted)
         });

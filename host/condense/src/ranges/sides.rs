@@ -113,6 +113,8 @@ impl Sides {
         let sizes = lo.iter().chain(hi).map(|x| x.abs());
         let largest = sizes.fold(0.0, f64::max);
         let side = |at: usize| match () {
+            // Its ends may have to go to their mean, which a tick finds out.
+            () if may_cross(model, &inputs, at) => EdgeSide::MayChange,
             () if lo[at] > NEGLIGIBLE * largest => EdgeSide::Open,
             () if hi[at] < -NEGLIGIBLE * largest => EdgeSide::Saturated,
             () if reaction[at] > 0.0 => EdgeSide::Touching,
@@ -221,4 +223,15 @@ fn there_is(model: &CondensedModel, at: usize, [lo, hi]: [f64; 2]) -> [f64; 2] {
 pub(super) fn widened(ranges: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let noise = |end: f64| f64::from(f32::EPSILON) * end.abs() + f64::from(f32::MIN_POSITIVE);
     ranges.iter().map(|&[lo, hi]| [lo - noise(lo), hi + noise(hi)]).collect()
+}
+
+/// Whether inputs within these may put the upper end of an edge's flux below the lower one.
+fn may_cross(model: &CondensedModel, inputs: &[[f64; 2]], at: usize) -> bool {
+    if !model.is_varying() {
+        return false;
+    }
+    let spans = model.spans.iter().map(|column| column[at]);
+    let least = spans.zip(inputs).filter(|(span, _)| *span != 0.0);
+    let least: f64 = least.map(|(span, [lo, hi])| (span * lo).min(span * hi)).sum();
+    least < 0.0 && least.is_finite()
 }

@@ -7,8 +7,9 @@ use signorini_tolerances::solve::{MULTIGRID, MULTIGRID_NARROW};
 use super::{Options, SolverKind, distance, meshes, read, solve, standard_scenes};
 use crate::{Ran, ScalarKind, Solution};
 use signorini_problem::Problem;
-use signorini_problem::fixtures::{SMOOTH, changed, on_grid};
+use signorini_problem::fixtures::{SMOOTH, changed, on_grid, scene};
 use signorini_scene::error::Result;
+use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::refine::refined;
 use signorini_scene::mesh::structured::{Cells, grid};
 
@@ -117,6 +118,32 @@ fn iterations_stay_where_they_are() -> Result<()> {
             assert!(work.longest <= most, "{}: {work:?}", path.display());
             assert!(found.ending().contains("by multigrid, "), "{}", found.ending());
         }
+    }
+    Ok(())
+}
+
+/// On one triangle that contact alone holds: the lower side is at its limit, the left one at its least flux, the third one on its gap. Every guess of
+/// sides has a solution at once, and the next one is another guess.
+#[test]
+fn where_sides_go_round_in_circles_the_kernel_answers() -> Result<()> {
+    let text = "
+mesh = \"grid\"
+material.default.conductivity = \"1\"
+boundary.default = { kind = \"contact\", gap = \"5*x - 7*y\", flux = \"-1\", limit = \"1\" }
+";
+    let mesh = Mesh {
+        vertices: vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
+        triangles: vec![[0, 1, 2]],
+        ..Mesh::default()
+    };
+    let problem = Problem::new(&scene(text)?, mesh)?;
+    let known = solve(&problem, &by(SolverKind::Kernel))?;
+    for solver in [SolverKind::Direct, SolverKind::Multigrid] {
+        let found = solve(&problem, &by(solver))?;
+        assert!(found.converged(), "{solver:?}: {}", found.ending());
+        let given_up = found.given_up.as_deref().unwrap_or_default();
+        assert!(given_up.contains("the kernel took over"), "{solver:?}: {given_up}");
+        MULTIGRID.check(format_args!("{solver:?}"), distance(&found.u, &known.u));
     }
     Ok(())
 }

@@ -223,7 +223,8 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         };
         let all = rest.iter().zip(inputs);
         let all = all.fold(first, |sum, (&of_one, p)| sum + of_one * p.magnitude());
-        if features::LIMITED { all + moved * self.base.settling } else { all }
+        let has_moved = features::LIMITED && moved > R::ZERO;
+        if has_moved { all + moved * self.base.settling } else { all }
     }
 
     /// Where sweeps begin: on the gap, and elsewhere at one value; a step that is not cold from the answer before, or from the start.
