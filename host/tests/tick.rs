@@ -594,3 +594,25 @@ fn why_there_is_no_bound_over_time_is_said() {
         assert!(ticks.column("error_bound")[1..].iter().all(|bound| !bound.is_empty()));
     }
 }
+
+#[test]
+fn no_output_has_the_name_of_a_column() {
+    let scene = |outputs: &str| {
+        let text = text(repository("meshes").join(LEVEE));
+        text.replace("mesh = \"", &format!("mesh = \"{}/", repository("meshes/scenes").display()))
+            + outputs
+    };
+    let folder = Folder::new();
+    let flux = "kind = \"flux\"\nof = \"river\"\n";
+    for (outputs, said) in [
+        (format!("[output.error_bound]\n{flux}"), "output.error_bound: ticks.csv has a column"),
+        (
+            format!("[output.q]\nkind = \"probe\"\nat = [1.0, 0.1]\n[output.q_cell]\n{flux}"),
+            "output.q_cell: output_bounds.csv has a column",
+        ),
+    ] {
+        let path = folder.write("scene.toml", &scene(&outputs));
+        let message = refused("tick", &path, &[]);
+        assert!(message.contains(said) && message.contains("another name"), "{message}");
+    }
+}

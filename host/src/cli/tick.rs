@@ -20,7 +20,7 @@ use signorini_problem::progress::{note, say, steps, warn};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::mesh;
 use signorini_scene::scene::Scene;
-use signorini_session::tick::columns::{bounds_csv, ticks_csv};
+use signorini_session::tick::columns::{bounds_csv, check_names, ticks_csv};
 use signorini_session::tick::refusals::refusals;
 use signorini_session::tick::window_error::without_window_error;
 use signorini_session::tick::{
@@ -154,6 +154,7 @@ impl Arguments {
     fn task(&self) -> Result<Task> {
         let mut scene = self.place.scene()?;
         self.step.iter().for_each(|&step| scene.set_step(step));
+        check_names(&scene)?;
         if !self.baked {
             check_ticks(&scene, self.scalar.is_some())?;
         }

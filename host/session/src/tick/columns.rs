@@ -1,8 +1,47 @@
 //! `ticks.csv` and `output_bounds.csv`: one line a tick.
 
+use std::collections::BTreeSet;
+
 use super::TickRecord;
 use super::window_error::has_window_error;
-use signorini_scene::scene::{Quantity, Scene};
+use signorini_scene::error::Result;
+use signorini_scene::scene::{Output, Quantity, Scene};
+
+const FIXED: [&str; 6] =
+    ["t", "status", "sweeps", "contact_force", "contact_length", "error_bound"];
+const COMBINED: &str = "error_combined";
+const WINDOW: [&str; 3] = ["window_energy", "window_seconds", "window_error"];
+
+/// Refuses outputs whose name would stand twice above the columns of a table.
+///
+/// # Errors
+/// The first such output.
+pub fn check_names(scene: &Scene) -> Result<()> {
+    let mut bounds = BTreeSet::new();
+    for output in &scene.outputs {
+        let name = &output.name;
+        let is_column = FIXED.iter().chain(&WINDOW).chain([&COMBINED]).any(|of| of == &name.value);
+        let is_bound = |name: &String| !bounds.insert(name.clone());
+        let table = match () {
+            () if is_column => "ticks.csv",
+            () if BTreeSet::from(bounded_names(scene, output)).iter().any(is_bound) => {
+                "output_bounds.csv"
+            }
+            () => continue,
+        };
+        let message = format!("output.{}: {table} has a column of this name", name.value);
+        return Err(scene.error(name, message).hint("give the output another name").into());
+    }
+    Ok(())
+}
+
+/// What stands above the intervals of an output over time, and above those of each tick by itself.
+fn bounded_names(scene: &Scene, output: &Output) -> [String; 2] {
+    let of_step = if scene.stores() { "_step" } else { "" };
+    let cell = if matches!(output.quantity, Quantity::Probe { .. }) { "_cell" } else { "" };
+    let name = &output.name.value;
+    [name.clone(), format!("{name}{cell}{of_step}")]
+}
 
 /// The text of `ticks.csv`:
 /// `t,status,sweeps,contact_force,contact_length,error_bound[,error_combined]` and a column for each
@@ -10,17 +49,16 @@ use signorini_scene::scene::{Quantity, Scene};
 /// does not exist is an empty field.
 pub fn ticks_csv(scene: &Scene, ticks: &[TickRecord]) -> csv::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let fixed = ["t", "status", "sweeps", "contact_force", "contact_length", "error_bound"];
     // The exact solution is that of the evolution, and a bound that of a step.
     let exact = || scene.exact.iter().filter(|_| !scene.stores());
-    let combined = exact().map(|_| "error_combined");
+    let combined = exact().map(|_| COMBINED);
     let outputs = scene.outputs.iter().map(|output| output.name.value.as_str());
     let window = match (scene.stores(), has_window_error(scene)) {
         (false, _) => &[][..],
-        (true, false) => &["window_energy", "window_seconds"],
-        (true, true) => &["window_energy", "window_seconds", "window_error"],
+        (true, false) => &WINDOW[..2],
+        (true, true) => &WINDOW[..],
     };
-    let names = fixed.into_iter().chain(combined).chain(outputs).chain(window.iter().copied());
+    let names = FIXED.into_iter().chain(combined).chain(outputs).chain(window.iter().copied());
     writer.write_record(names)?;
     for tick in ticks {
         let mut fields =
@@ -59,16 +97,11 @@ pub fn bounds_csv(scene: &Scene, ticks: &[TickRecord]) -> csv::Result<Vec<u8>> {
 
 /// A name and the interval of each tick, for all that is bounded in some tick.
 fn bounded(scene: &Scene, ticks: &[TickRecord]) -> Vec<(String, Vec<Option<[f64; 2]>>)> {
-    let of_step = if scene.stores() { "_step" } else { "" };
     let columns = scene.outputs.iter().enumerate().flat_map(|(at, output)| {
-        let cell = if matches!(output.quantity, Quantity::Probe { .. }) { "_cell" } else { "" };
-        let name = &output.name.value;
         let over_time = ticks.iter().map(|tick| tick.over_time.get(at).copied().flatten());
         let anew = ticks.iter().map(|tick| tick.intervals.get(at)?.as_ref().ok().copied());
-        [
-            (name.clone(), over_time.collect::<Vec<_>>()),
-            (format!("{name}{cell}{of_step}"), anew.collect()),
-        ]
+        let [evolution, step] = bounded_names(scene, output);
+        [(evolution, over_time.collect::<Vec<_>>()), (step, anew.collect())]
     });
     columns.filter(|(_, intervals)| intervals.iter().any(Option::is_some)).collect()
 }
