@@ -611,7 +611,7 @@ fn no_output_has_the_name_of_a_column() {
             "output.q_cell: output_bounds.csv has a column",
         ),
     ] {
-        let path = folder.write("scene.toml", &scene(&outputs));
+        let path = folder.write("scene.toml", scene(&outputs));
         let message = refused("tick", &path, &[]);
         assert!(message.contains(said) && message.contains("another name"), "{message}");
     }

@@ -107,7 +107,7 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         memory: Memory<R, I, WIDTH>,
         outputs: &mut [R],
     ) -> Result<Report<R>, Error> {
-        self.tick_in(None, inputs, method, limits, deadline, memory, outputs)
+        self.tick_in(inputs, method, (None, limits), deadline, memory, outputs)
     }
 
     /// The same with limits, outputs and report in the scene's units, where they are not those of the model.
@@ -119,10 +119,9 @@ impl<R: Real, I: Index> Full<'_, R, I> {
     #[inline(always)]
     pub fn tick_in<M: Method<R, I>, const WIDTH: usize, F: FnMut() -> u32>(
         &self,
-        units: Option<Units<R>>,
         inputs: &[R],
         mut method: M,
-        limits: Limits<R>,
+        (units, limits): (Option<Units<R>>, Limits<R>),
         deadline: &mut Deadline<F>,
         memory: Memory<R, I, WIDTH>,
         outputs: &mut [R],
