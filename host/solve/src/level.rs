@@ -11,7 +11,7 @@
 use signorini_kernel::mesh::components::Support;
 
 use super::{Solution, unfit};
-use signorini_problem::{Parts, Problem};
+use signorini_problem::{Assembled, Parts, Problem};
 use signorini_scene::error::Result;
 
 /// Roundings of the largest flux, or of the largest number of a part, that count as none.
@@ -58,7 +58,13 @@ pub fn free_levels(problem: &Problem, solution: &Solution) -> Result<Vec<FreeLev
     }
     let parts = Parts::examine(problem)?;
     let held_by_contact = parts.roots().filter(|&part| parts.support(part) == Support::Contact);
-    let found = held_by_contact.map(|part| free_level(problem, solution, &parts, part));
+    let unfit = unfit::<f64>(&problem.scene);
+    let assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
+    let system = assembled.system().map_err(&unfit)?;
+    let rows = system.matrix().iter().enumerate();
+    let own = rows.map(|(i, row)| row.entries().find(|(column, _)| *column == i));
+    let diagonal: Vec<f64> = own.map(|own| own.map_or(0.0, |(_, value)| value)).collect();
+    let found = held_by_contact.map(|part| free_level(problem, solution, &parts, &diagonal, part));
     Ok(found.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect())
 }
 
@@ -66,20 +72,23 @@ fn free_level(
     problem: &Problem,
     solution: &Solution,
     parts: &Parts,
+    diagonal: &[f64],
     part: usize,
 ) -> Result<Option<FreeLevel>> {
     let counts = problem.topology.counts;
     let edges = problem.topology.edges().map_err(unfit::<f64>(&problem.scene))?;
     let own = (0..counts.contact).filter(|&at| parts.of_edge(&edges, counts.free + at) == part);
     let rounding = ROUNDINGS * solution.scalar.epsilon() + 10.0 * solution.algebraic_residual;
-    let flux_rounding = rounding * solution.largest_flux();
-    let (mut by, mut largest, mut near) = ([f64::INFINITY; 2], 0.0_f64, [0.0; 2]);
+    let size = |at: usize| solution.u[counts.free + at].abs().max(problem.loads.gap[at].abs());
+    let largest = own.clone().map(size).fold(0.0, f64::max);
+    let (mut by, mut near) = ([f64::INFINITY; 2], [0.0; 2]);
     for at in own {
         let edge = counts.free + at;
         let opening = solution.u[edge] - solution.gap(problem, at);
-        let room = room(problem, solution.flux[edge], opening, at, flux_rounding);
+        // A flux is a sum of K u, which may be large beside it.
+        let terms = solution.largest_flux().max(diagonal[edge] * largest);
+        let room = room(problem, solution.flux[edge], opening, at, rounding * terms);
         by = [by[0].min(room[0]), by[1].min(room[1])];
-        largest = largest.max(solution.u[edge].abs()).max(problem.loads.gap[at].abs());
         near = problem.segment(edge)[0];
     }
     let moves = by.iter().sum::<f64>() > rounding * largest && by.iter().all(|by| by.is_finite());

@@ -9,10 +9,11 @@ use signorini_condense::condense;
 use signorini_kernel::Error;
 use signorini_kernel::rows::TRIANGLES;
 use signorini_problem::Problem;
-use signorini_problem::fixtures::{on_grid, wall};
+use signorini_problem::fixtures::{on_grid, scene, wall};
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_scene::mesh::{Curve, Mesh};
 use signorini_session::tick::{ScheduledTick, replay};
 use signorini_solve::{Options, ScalarKind, solve};
 
@@ -132,5 +133,78 @@ boundary.contact = {{ kind = \"contact\", gap = \"{gap}\", flux = \"1\", limit =
             assert!(bound >= off && bound < 20.0 * off, "{gap}, {input}: {bound} beside {off}");
         }
     }
+    Ok(())
+}
+
+/// The scene of the last test with this face below and `left` beside it.
+fn crossing(left: &str, more: &str) -> String {
+    format!(
+        "mesh = \"grid\"
+material.default.conductivity = \"1\"
+boundary.dirichlet = {{ kind = \"dirichlet\", value = \"0\" }}
+boundary.left = {{ {left} }}
+boundary.right = {{ kind = \"neumann\", flux = \"0\" }}
+boundary.contact = {{ kind = \"contact\", gap = \"-9\", flux = \"1\", limit = \"1 - 2e-6 + 0*x\" }}
+{more}
+"
+    )
+}
+
+/// An input moves the limit of another boundary, through which nothing passes below its gap.
+#[test]
+fn ends_cross_beside_an_input_of_another_limit() -> Result<()> {
+    let left = "kind = \"contact\", gap = \"9\", flux = \"-inf\", limit = \"0\"";
+    let cap = "input.cap = { of = \"left\", field = \"limit\", pattern = \"1\", range = [0, 1] }";
+    let (_, problem) = on_grid(&crossing(left, cap), grid(4, Cells::Triangles))?;
+    let baked = full::Baked::<f64>::new(&problem)?;
+    let mut on_mesh = full::Controller::<f64, TRIANGLES>::new(&baked);
+    let verdict = on_mesh.tick_within(&[0.0], to_the_end()).expect("a tick").1.verdict;
+    let bound = verdict.certificate().expect("a bound").total;
+    let off = 1e-6 * 2f64.sqrt();
+    assert!(bound >= off && bound < 20.0 * off, "{bound} beside {off}");
+    Ok(())
+}
+
+/// Far below its gap in every tick, the face would be taken out of a model for these ranges.
+#[test]
+fn edges_whose_ends_may_cross_stay_in_a_model() -> Result<()> {
+    let cap =
+        "input.cap = { of = \"contact\", field = \"limit\", pattern = \"1\", range = [0, 1] }";
+    let left = "kind = \"neumann\", flux = \"0\"";
+    let (_, problem) = on_grid(&crossing(left, cap), grid(4, Cells::Triangles))?;
+    let moments = [ScheduledTick { time: 0.0, inputs: [(0, 0.0)].into() }];
+    let (_, ticks) = replay(&problem, &moments, (Some(ScalarKind::F64), false), |_, _| Ok(()))?;
+    let bound = ticks[0].bound.as_ref().expect("a bound").total;
+    let off = 1e-6 * 2f64.sqrt();
+    assert!(bound >= off && bound < 40.0 * off, "{bound} beside {off}");
+    Ok(())
+}
+
+/// A strip of 256 squares with u given at its far end: what crosses by δ on each edge below it leaves there, ‖∇w‖ = δ (L³/3)^½.
+#[test]
+fn what_crosses_leaves_at_the_far_end() -> Result<()> {
+    let length = 256_u32;
+    let row = |y: f64| (0..=length).map(move |x| [f64::from(x), y]);
+    let (above, edge) = (length + 1, |name: &str, edges| Curve { name: name.to_owned(), edges });
+    let mesh = Mesh {
+        vertices: row(0.0).chain(row(1.0)).collect(),
+        quads: (0..length).map(|x| [x, x + 1, above + x + 1, above + x]).collect(),
+        curves: vec![
+            edge("below", (0..length).map(|x| [x, x + 1]).collect()),
+            edge("end", vec![[length, above + length]]),
+        ],
+        ..Mesh::default()
+    };
+    let text = "
+mesh = \"strip\"
+material.default.conductivity = \"1\"
+boundary.below = { kind = \"contact\", gap = \"-9\", flux = \"1e-3\", limit = \"1e-3 - 3e-9 + 0*x\" }
+boundary.end = { kind = \"dirichlet\", value = \"0\" }
+boundary.default = { kind = \"neumann\", flux = \"0\" }
+";
+    let problem = Problem::new(&scene(text)?, mesh)?;
+    let bound = solve(&problem, &Options::default())?.bound.expect("a bound");
+    let off = 1.5e-9 * (f64::from(length).powi(3) / 3.0).sqrt();
+    assert!(bound.oscillation >= off, "{} beside {off}", bound.oscillation);
     Ok(())
 }

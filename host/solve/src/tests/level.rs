@@ -61,3 +61,29 @@ fn a_level_that_an_edge_holds_is_not_told() -> Result<()> {
     }
     Ok(())
 }
+
+/// What rains on a plate leaves below at the most that may pass, or not at all and above: u may be anywhere between both gaps, less what it
+/// rises by. A solver that stops at an end of that leaves edges on their gap, with a flux that is at its end but for rounding.
+#[test]
+fn a_level_is_told_at_the_end_of_its_room() -> Result<()> {
+    let text = "
+mesh = \"grid\"
+material.default.conductivity = \"1\"
+source.f = \"-1\"
+boundary.contact = { kind = \"contact\", gap = \"-10\", flux = \"0\", limit = \"1\" }
+boundary.dirichlet = { kind = \"contact\", gap = \"10\", flux = \"0\", limit = \"1\" }
+boundary.left = { kind = \"neumann\", flux = \"0\" }
+boundary.right = { kind = \"neumann\", flux = \"0\" }
+";
+    for n in [1, 4, 8, 16] {
+        let (_, problem) = on_grid(text, grid(n, Cells::Triangles))?;
+        for solver in [SolverKind::Kernel, SolverKind::Auto] {
+            let found = solve(&problem, &Options { solver, ..Options::default() })?;
+            let levels = free_levels(&problem, &found)?;
+            let [level] = levels[..] else { panic!("{n}, {solver:?}: {levels:?}") };
+            let room = level.by[0] + level.by[1];
+            assert!((room - 19.5).abs() < 1e-6, "{n}, {solver:?}: {room}");
+        }
+    }
+    Ok(())
+}
