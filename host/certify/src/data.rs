@@ -1,7 +1,5 @@
 //! Loads and boundary data of one time as the kernel's certificate takes them.
 
-use std::borrow::Cow;
-
 use signorini_bound::certificate::{Curved, LoadCase, TransferForms};
 use signorini_bound::conforming::VertexData;
 use signorini_kernel::Error as KernelError;
@@ -65,6 +63,34 @@ enum Of {
     Term,
 }
 
+impl Of {
+    /// What it costs that s leaves the data.
+    fn moved(self, ends: &Ends, problem: &Problem) -> f64 {
+        match self {
+            Self::Whole => ends.moved(problem),
+            Self::Term => ends.moved_on_dirichlet(problem),
+        }
+    }
+
+    /// What it costs that loads are not what the data say: [`carried`].
+    fn carried(self, problem: &Problem) -> Result<std::result::Result<f64, NoBound>> {
+        let loads = &problem.loads;
+        if matches!(self, Self::Whole) {
+            return Ok(carried(problem, loads.moved));
+        }
+        // Where inputs change an end, a tick tells by how much those of the sum have moved.
+        let moved = match problem.scene.limit_input() {
+            None => loads.moved,
+            Some(_) => problem.range_term(0)?.moved,
+        };
+        if loads.missed == 0.0 {
+            return Ok(carried(problem, moved));
+        }
+        // Other terms may lower h, through which it has to leave.
+        Ok(carried(&problem.at_least_transfer()?, moved))
+    }
+}
+
 impl Evaluated {
     /// Evaluates the data of `problem` at its time.
     ///
@@ -111,11 +137,7 @@ impl Evaluated {
             curved_edges.records.iter_mut().for_each(|record| record.peak = f64::INFINITY);
         }
         // s is off by that much, and once more where u_h is compared with it.
-        let moved = match of {
-            Of::Whole => ends.moved(problem),
-            Of::Term => ends.moved_on_dirichlet(problem),
-        };
-        let left_out = 2.0 * (curved_edges.left_out + moved);
+        let left_out = 2.0 * (curved_edges.left_out + of.moved(&ends, problem));
         let curved = curved_edges.records;
         let Oscillation { of_cells, unresolved, pole } = with_source(
             problem,
@@ -132,17 +154,7 @@ impl Evaluated {
         let vanishes = || forms.vanishing.map(|edge| NoBound::transfer_vanishes(problem, edge));
         let no_bound =
             rough.or_else(|| NoBound::of_data(problem, &ends, &curved)).or_else(vanishes);
-        // Other terms may lower h, through which it has to leave.
-        let whole_or_least = match of {
-            Of::Term if problem.loads.missed > 0.0 => Cow::Owned(problem.at_least_transfer()?),
-            _ => Cow::Borrowed(problem),
-        };
-        let moved = match of {
-            // Where inputs change an end, a tick tells by how much those of the sum have moved.
-            Of::Term if problem.scene.limit_input().is_some() => problem.range_term(0)?.moved,
-            Of::Whole | Of::Term => problem.loads.moved,
-        };
-        let (carried, no_way) = match carried(&whole_or_least, moved) {
+        let (carried, no_way) = match of.carried(problem)? {
             Ok(carried) => (carried, None),
             Err(reason) => (0.0, Some(reason)),
         };

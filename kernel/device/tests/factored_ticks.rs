@@ -292,9 +292,11 @@ fn a_full_model_begins_with_memory_of_any_contents() -> Result<(), Error> {
             let report = match has_bound {
                 true => {
                     let by_factor = certified(by_factor.exact);
-                    full.tick(&[], by_factor, NO_SWEEPS, never, memory, &mut outputs)?
+                    full.tick(&[], by_factor, (None, NO_SWEEPS), never, memory, &mut outputs)?
                 }
-                false => full.tick(&[], by_factor, NO_SWEEPS, never, memory, &mut outputs)?,
+                false => {
+                    full.tick(&[], by_factor, (None, NO_SWEEPS), never, memory, &mut outputs)?
+                }
             };
             assert_eq!((report.ended, report.sweeps), (Ended::Exact, 0));
             // The exchanges of the first tick are still there in the second.

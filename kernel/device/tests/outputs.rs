@@ -20,7 +20,8 @@ fn tick<const N: usize>(
     let (mut progress, mut found) = (Progress::NONE, [0.0; N]);
     let memory = of_full(arrays.memory(edges)?, DataMemory::default(), &mut progress);
     let (limits, never) = (Limits::default(), &mut Deadline::never());
-    let report = full.tick(&[], CertifiedSweeps(Libm), limits, never, memory, &mut found)?;
+    let report =
+        full.tick(&[], CertifiedSweeps(Libm), (None, limits), never, memory, &mut found)?;
     Ok((report, found))
 }
 

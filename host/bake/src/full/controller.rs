@@ -265,12 +265,11 @@ impl<R: Scalar> DeskSolver<R> {
         outputs: &mut [R],
     ) -> Result<Report<R>, Error> {
         let Some((factored, own)) = setup.factored.zip(self.exchanges.as_mut()) else {
-            return full.tick_in(inputs, sweeps, (setup.units, limits), deadline, memory, outputs);
+            return full.tick(inputs, sweeps, (setup.units, limits), deadline, memory, outputs);
         };
         let exact = &mut Exact::new(*factored, own.memory(setup.lengths.active)?)?;
         let method = Substitutions { exact, sweeps };
-        let report =
-            full.tick_in(inputs, method, (setup.units, limits), deadline, memory, outputs)?;
+        let report = full.tick(inputs, method, (setup.units, limits), deadline, memory, outputs)?;
         self.solved = exact.solved();
         Ok(report)
     }

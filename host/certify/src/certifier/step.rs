@@ -41,8 +41,9 @@ impl<R: Scalar> Certifier<R> {
         let judged = certify_step_with(&discretization, given_step, iterate, buffers, &moved)?;
         let wide = judged.iter().filter_map(|way| way.terms).map(|terms| {
             // How far extensions have moved stands in the residual there.
-            let more = given.oscillation - data.oscillation();
-            let oscillation = terms.oscillation - more + R::TWO * R::EPSILON * given.oscillation;
+            let of_extensions = given.oscillation - data.oscillation();
+            let rounding = R::TWO * R::EPSILON * given.oscillation;
+            let oscillation = terms.oscillation - of_extensions + rounding;
             let terms = widened(&StepTerms { oscillation, ..terms });
             lifted(StepTerms { length: step.length, ..terms }, data.lifts(), step.begin.lifted)
         });

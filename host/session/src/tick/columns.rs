@@ -7,32 +7,41 @@ use super::window_error::has_window_error;
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Output, Quantity, Scene};
 
-const FIXED: [&str; 6] =
-    ["t", "status", "sweeps", "contact_force", "contact_length", "error_bound"];
-const COMBINED: &str = "error_combined";
-const WINDOW: [&str; 3] = ["window_energy", "window_seconds", "window_error"];
-
 /// Refuses outputs whose name would stand twice above the columns of a table.
 ///
 /// # Errors
 /// The first such output.
 pub fn check_names(scene: &Scene) -> Result<()> {
+    let header = header(scene);
     let mut bounds = BTreeSet::new();
     for output in &scene.outputs {
         let name = &output.name;
-        let is_column = FIXED.iter().chain(&WINDOW).chain([&COMBINED]).any(|of| of == &name.value);
-        let is_bound = |name: &String| !bounds.insert(name.clone());
+        let columns = header.iter().filter(|of| **of == name.value).count();
+        let mut of_bounds = BTreeSet::from(bounded_names(scene, output)).into_iter();
         let table = match () {
-            () if is_column => "ticks.csv",
-            () if BTreeSet::from(bounded_names(scene, output)).iter().any(is_bound) => {
-                "output_bounds.csv"
-            }
+            () if columns > 1 => "ticks.csv",
+            () if of_bounds.any(|name| !bounds.insert(name)) => "output_bounds.csv",
             () => continue,
         };
         let message = format!("output.{}: {table} has a column of this name", name.value);
         return Err(scene.error(name, message).hint("give the output another name").into());
     }
     Ok(())
+}
+
+/// The columns of `ticks.csv`.
+fn header(scene: &Scene) -> Vec<&str> {
+    let fixed = ["t", "status", "sweeps", "contact_force", "contact_length", "error_bound"];
+    let combined = has_combined(scene).then_some("error_combined");
+    let outputs = scene.outputs.iter().map(|output| output.name.value.as_str());
+    let window = ["window_energy", "window_seconds"].into_iter().filter(|_| scene.stores());
+    let error = (scene.stores() && has_window_error(scene)).then_some("window_error");
+    fixed.into_iter().chain(combined).chain(outputs).chain(window).chain(error).collect()
+}
+
+/// The exact solution is that of the evolution, and a bound that of a step.
+fn has_combined(scene: &Scene) -> bool {
+    scene.exact.is_some() && !scene.stores()
 }
 
 /// What stands above the intervals of an output over time, and above those of each tick by itself.
@@ -49,28 +58,19 @@ fn bounded_names(scene: &Scene, output: &Output) -> [String; 2] {
 /// does not exist is an empty field.
 pub fn ticks_csv(scene: &Scene, ticks: &[TickRecord]) -> csv::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    // The exact solution is that of the evolution, and a bound that of a step.
-    let exact = || scene.exact.iter().filter(|_| !scene.stores());
-    let combined = exact().map(|_| COMBINED);
-    let outputs = scene.outputs.iter().map(|output| output.name.value.as_str());
-    let window = match (scene.stores(), has_window_error(scene)) {
-        (false, _) => &[][..],
-        (true, false) => &WINDOW[..2],
-        (true, true) => &WINDOW[..],
-    };
-    let names = FIXED.into_iter().chain(combined).chain(outputs).chain(window.iter().copied());
-    writer.write_record(names)?;
+    let names = header(scene);
+    writer.write_record(&names)?;
     for tick in ticks {
         let mut fields =
             vec![digits(tick.time), tick.status.name().to_owned(), tick.sweeps.to_string()];
         let bound = tick.bound.map(|bound| bound.total);
-        let combined = exact().map(|_| tick.combined);
+        let combined = has_combined(scene).then_some(tick.combined);
         let numbers = [tick.contact_force, tick.contact_length, bound].into_iter().chain(combined);
         let numbers = numbers.chain(tick.outputs.iter().copied());
         let [energy, seconds] = tick.window.map_or([None; 2], |window| window.map(Some));
-        let numbers =
-            numbers.chain([energy, seconds, tick.window_error].into_iter().take(window.len()));
-        fields.extend(numbers.map(|number| number.map_or(String::new(), digits)));
+        let numbers = numbers.chain([energy, seconds, tick.window_error]);
+        let left = names.len() - fields.len();
+        fields.extend(numbers.take(left).map(|number| number.map_or(String::new(), digits)));
         writer.write_record(fields)?;
     }
     writer.into_inner().map_err(|error| error.into_error().into())

@@ -67,7 +67,7 @@ impl<R: Real, I: Index, S: Sweeping<R, I> + Copy> Solver<R, I> for S {
         memory: Memory<R, I, WIDTH>,
         outputs: &mut [R],
     ) -> Result<Report<R>, Error> {
-        full.tick_in(inputs, *self, (setup.units, limits), deadline, memory, outputs)
+        full.tick(inputs, *self, (setup.units, limits), deadline, memory, outputs)
     }
 }
 
@@ -103,7 +103,7 @@ where
         let factored = setup.factored.ok_or(missing)?;
         let exact = &mut Exact::new(*factored, self.exchanges.memory(setup.lengths.active)?)?;
         let method = Substitutions { exact, sweeps: self.sweeps };
-        full.tick_in(inputs, method, (setup.units, limits), deadline, memory, outputs)
+        full.tick(inputs, method, (setup.units, limits), deadline, memory, outputs)
     }
 }
 

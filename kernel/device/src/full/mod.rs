@@ -92,32 +92,16 @@ impl<R: Real, I: Index> Full<'_, R, I> {
     /// [`Verdict::NotAsked`] for methods without one, [`Verdict::Unavailable`] for data that never allow for one,
     /// [`Verdict::BelowGap`] where u_D lies below ψ where they meet. A method without one does not use
     /// the memory of s, and of the discretization only edges and element matrices; the rest of either may be empty.
+    /// Limits, outputs and report are in the scene's units: what 1 stands for in the model, or nothing where that is 1.
     ///
     /// # Errors
     /// Inputs that are not finite, or so large that data or answers may overflow ([`Tick::begin`]), or that leave a contact
     /// edge no flux; arrays of the wrong length, a factor of another mesh. The last answer stays then, bit for bit, and
     /// `outputs` are as they were.
-    #[inline(always)]
-    pub fn tick<M: Method<R, I>, const WIDTH: usize, F: FnMut() -> u32>(
-        &self,
-        inputs: &[R],
-        method: M,
-        limits: Limits<R>,
-        deadline: &mut Deadline<F>,
-        memory: Memory<R, I, WIDTH>,
-        outputs: &mut [R],
-    ) -> Result<Report<R>, Error> {
-        self.tick_in(inputs, method, (None, limits), deadline, memory, outputs)
-    }
-
-    /// The same with limits, outputs and report in the scene's units, where they are not those of the model.
-    ///
-    /// # Errors
-    /// Those of [`Full::tick`].
     // Inlined, as all on the way to it from a module's tick: whatever the compiler decides by itself depends on how many checks come
     // before, and what stays apart loses its knowledge of the statics.
     #[inline(always)]
-    pub fn tick_in<M: Method<R, I>, const WIDTH: usize, F: FnMut() -> u32>(
+    pub fn tick<M: Method<R, I>, const WIDTH: usize, F: FnMut() -> u32>(
         &self,
         inputs: &[R],
         mut method: M,

@@ -191,18 +191,36 @@ fn play<R: Scalar>(
         let limits = Limits { share: R::of(0.0625), error: R::ZERO, sweeps: 10 + 30 * (at % 4) };
         let never = &mut Deadline::never();
         let report = match at % 3 {
-            0 | 1 => {
-                full.tick(inputs, CertifiedSweeps(Libm), limits, never, memory, &mut outputs)?
-            }
-            _ => full.tick(inputs, UncertifiedSweeps(Libm), limits, never, memory, &mut outputs)?,
+            0 | 1 => full.tick(
+                inputs,
+                CertifiedSweeps(Libm),
+                (None, limits),
+                never,
+                memory,
+                &mut outputs,
+            )?,
+            _ => full.tick(
+                inputs,
+                UncertifiedSweeps(Libm),
+                (None, limits),
+                never,
+                memory,
+                &mut outputs,
+            )?,
         };
         if at == 0 {
             for _ in 0..2 {
                 storage.reset();
                 let memory = storage.memory(full, &lengths)?;
                 let mut stored = [R::ZERO; 5];
-                let same =
-                    full.tick(inputs, CertifiedSweeps(Libm), limits, never, memory, &mut stored)?;
+                let same = full.tick(
+                    inputs,
+                    CertifiedSweeps(Libm),
+                    (None, limits),
+                    never,
+                    memory,
+                    &mut stored,
+                )?;
                 assert_eq!((same, stored), (report, outputs));
             }
             let kept = storage.numbers(&lengths).expect("its own lengths");
