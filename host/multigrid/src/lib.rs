@@ -69,7 +69,7 @@ pub enum Failure {
     TooWide(usize),
     /// Too many iterations.
     #[error(
-        "no convergence in {iterations} iterations on {sets} active sets: scaled residual {residual:e}"
+        "no convergence in {iterations} iterations on {sets} active sets: scaled residual {residual:.1e}"
     )]
     Slow {
         /// Iterations made.
@@ -80,7 +80,7 @@ pub enum Failure {
         residual: f64,
     },
     /// The preconditioner or the matrix is not positive definite in f32.
-    #[error("breakdown after {iterations} iterations: scaled residual {residual:e}")]
+    #[error("breakdown after {iterations} iterations: scaled residual {residual:.1e}")]
     Breakdown {
         /// Iterations made.
         iterations: usize,

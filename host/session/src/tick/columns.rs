@@ -23,7 +23,7 @@ pub fn check_names(scene: &Scene) -> Result<()> {
             () if of_bounds.any(|name| !bounds.insert(name)) => "output_bounds.csv",
             () => continue,
         };
-        let message = format!("output.{}: {table} has a column of this name", name.value);
+        let message = format!("{table} has a column of this name");
         return Err(scene.error(name, message).hint("give the output another name").into());
     }
     Ok(())
