@@ -7,12 +7,11 @@
 //! The plain sum of σ·n − q, which a force is for the solution, is negative at some of these stops: a test in which
 //! it never is tests nothing.
 
+use signorini_bake::Bakes;
 use signorini_bake::{condensed, full};
 use signorini_condense::{CondensedModel, Recovery, recoverable};
 use signorini_device::tick::Limits;
-use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::Problem;
-use signorini_problem::scalar::Scalar;
 use signorini_scene::scene::{Input, Output, Quantity, Scene};
 use signorini_scene::setting::Setting;
 use signorini_solve::outputs::outputs;
@@ -131,17 +130,12 @@ fn solutions_have_the_forces_of_the_plain_sum() {
 }
 
 /// Ticks of a full model by its own controller; returns how often the plain sum was negative.
-fn ticks<R: Scalar, const WIDTH: usize>(
-    what: &str,
-    problem: &Problem,
-    allowed: Tolerance,
-    random: &mut Random,
-) -> u32 {
+fn ticks<R: Bakes>(what: &str, problem: &Problem, allowed: Tolerance, random: &mut Random) -> u32 {
     let mut pulled = 0;
     let baked = full::Baked::<R>::new(problem).expect("a full model");
     let (units, free) = (baked.units(), problem.topology.counts.free);
     for sweeps in stops(random) {
-        let mut controller = full::Controller::<R, WIDTH>::new(&baked);
+        let mut controller = full::Controller::<R>::new(&baked);
         for _ in 0..3 {
             let p = inputs(&problem.scene, random);
             let narrow: Vec<R> = p.iter().map(|&p| R::narrow(p)).collect();
@@ -164,7 +158,7 @@ fn ticks<R: Scalar, const WIDTH: usize>(
     pulled
 }
 
-fn full_models<R: Scalar>(allowed: Tolerance) {
+fn full_models<R: Bakes>(allowed: Tolerance) {
     let mut random = Random::new(7);
     let mut pulled = [0; 2];
     for name in SCENES.into_iter().filter(|name| *name != "membrane") {
@@ -173,11 +167,7 @@ fn full_models<R: Scalar>(allowed: Tolerance) {
             let setting = Some(Setting { certificate, ..Setting::default() });
             let problem = problem.with_setting(setting);
             let what = format!("{name}, {}, certificate: {certificate}", R::NAME);
-            let run = match problem.mesh.quads.is_empty() {
-                true => ticks::<R, TRIANGLES>,
-                false => ticks::<R, QUADS>,
-            };
-            pulled[usize::from(certificate)] += run(&what, &problem, allowed, &mut random);
+            pulled[usize::from(certificate)] += ticks::<R>(&what, &problem, allowed, &mut random);
         }
     }
     // τ of a certificate keeps the law itself.
@@ -195,7 +185,7 @@ fn full_models_that_are_cut_off_in_f32() {
 }
 
 /// The effect of rounding on Σ w max(r, 0): ε of each term of r, once for every term.
-fn rounding<R: Scalar>(of: &CondensedModel, p: &[f64], x: &[f64]) -> f64 {
+fn rounding<R: Bakes>(of: &CondensedModel, p: &[f64], x: &[f64]) -> f64 {
     let size = |i: usize| {
         let row = &of.matrix[i * of.contact..(i + 1) * of.contact];
         let of_x: f64 = row.iter().zip(x).map(|(entry, x)| (entry * x).abs()).sum();
@@ -207,7 +197,7 @@ fn rounding<R: Scalar>(of: &CondensedModel, p: &[f64], x: &[f64]) -> f64 {
 }
 
 /// Condensed ticks: the edges' table follows from the fields of all columns.
-fn condensed_ticks<R: Scalar>(
+fn condensed_ticks<R: Bakes>(
     name: &str,
     problem: &Problem,
     (condensate, recovery): (&CondensedModel, &Recovery),

@@ -18,7 +18,7 @@ pub fn explanation<R: Bakes>(problem: &Problem, choice: &Choice<R>) -> String {
     R::explain(problem, choice)
 }
 
-pub(crate) fn in_words<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> String {
+pub(crate) fn in_words<R: Bakes>(problem: &Problem, choice: &Choice<R>) -> String {
     let mut text = candidates(choice);
     let chosen = choice.candidate();
     let _ = writeln!(text, "\n{}:", chosen.name);
@@ -39,7 +39,7 @@ pub(crate) fn in_words<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Stri
 }
 
 /// What it costs that a transfer coefficient changes.
-fn following<R: Scalar>(choice: &Choice<R>) -> String {
+fn following<R: Bakes>(choice: &Choice<R>) -> String {
     let candidate = choice.candidate();
     let Some((staying, changing)) = candidate.staying.zip(candidate.needs.instructions()) else {
         return String::new();
@@ -51,7 +51,7 @@ fn following<R: Scalar>(choice: &Choice<R>) -> String {
 }
 
 /// What is to be said of the model chosen: ticks that probably take longer than declared, a bound that there cannot be.
-pub fn warnings<R: Scalar>(choice: &Choice<R>) -> Vec<String> {
+pub fn warnings<R: Bakes>(choice: &Choice<R>) -> Vec<String> {
     let unbounded = choice.unbounded().map(|why| {
         format!("warning: there is no error bound: {why}; certificate = false in [setting] silences this")
     });
@@ -60,7 +60,7 @@ pub fn warnings<R: Scalar>(choice: &Choice<R>) -> Vec<String> {
 }
 
 /// That the longest tick of the trial probably takes longer than declared.
-fn late<R: Scalar>(choice: &Choice<R>) -> Option<String> {
+fn late<R: Bakes>(choice: &Choice<R>) -> Option<String> {
     let (cycles, needed) =
         choice.budget.cycles.zip(choice.candidate().needs.most_instructions())?;
     let estimated = needed * CYCLES;

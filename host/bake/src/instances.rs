@@ -2,6 +2,8 @@
 //!
 //! A generic function is compiled where its type is known. That of baking takes a minute, and six programs and their tests call it.
 
+use signorini_condense::CondensedModel;
+use signorini_kernel::report::Report;
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
@@ -9,8 +11,12 @@ use signorini_solve::adaptive::Promise;
 
 use crate::choice::{self, Choice, Wanted};
 use crate::emit::{self, Emitted};
+use crate::full::OnRows;
 use crate::intervals::{self, OutputIntervals};
-use crate::{explain, promise};
+use crate::{condensed, explain, full, promise};
+
+/// An outcome, or what the kernel says against it.
+type Outcome<T> = std::result::Result<T, signorini_kernel::Error>;
 
 /// A scalar that modules are baked in.
 pub trait Bakes: Scalar {
@@ -34,6 +40,34 @@ pub trait Bakes: Scalar {
     /// # Errors
     /// Those of [`promise::kept`].
     fn keep(problem: &Problem, wanted: Wanted, promise: &Promise) -> Result<(Choice<Self>, usize)>;
+
+    /// [`full::Baked::new`]
+    ///
+    /// # Errors
+    /// Those of [`full::Baked::new`].
+    fn bake_full(problem: &Problem) -> Result<full::Baked<Self>>;
+
+    /// [`condensed::Baked::new`]
+    ///
+    /// # Errors
+    /// Those of [`condensed::Baked::new`].
+    fn bake_condensed(
+        condensate: &CondensedModel,
+        work: condensed::Work,
+        certified: bool,
+    ) -> Outcome<condensed::Baked<Self>>;
+
+    /// A full model's controller before its first tick.
+    fn on_rows<'b>(baked: &'b full::Baked<Self>) -> Box<dyn OnRows<Self> + 'b>;
+
+    /// A condensed model's answer for these inputs.
+    ///
+    /// # Errors
+    /// Those of [`condensed::Controller::tick`].
+    fn answer(
+        controller: &mut condensed::Controller<Self>,
+        inputs: &[Self],
+    ) -> Outcome<(Vec<Self>, Report<Self>)>;
 }
 
 macro_rules! bakes {
@@ -66,6 +100,33 @@ macro_rules! bakes {
                 promise: &Promise,
             ) -> Result<(Choice<Self>, usize)> {
                 promise::keep(problem, wanted, promise)
+            }
+
+            #[inline(never)]
+            fn bake_full(problem: &Problem) -> Result<full::Baked<Self>> {
+                full::Baked::bake(problem)
+            }
+
+            #[inline(never)]
+            fn bake_condensed(
+                condensate: &CondensedModel,
+                work: condensed::Work,
+                certified: bool,
+            ) -> Outcome<condensed::Baked<Self>> {
+                condensed::Baked::bake(condensate, work, certified)
+            }
+
+            #[inline(never)]
+            fn on_rows<'b>(baked: &'b full::Baked<Self>) -> Box<dyn OnRows<Self> + 'b> {
+                full::on_rows(baked)
+            }
+
+            #[inline(never)]
+            fn answer(
+                controller: &mut condensed::Controller<Self>,
+                inputs: &[Self],
+            ) -> Outcome<(Vec<Self>, Report<Self>)> {
+                controller.answer(inputs)
             }
         }
     )*};

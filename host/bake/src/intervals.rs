@@ -40,7 +40,7 @@ pub fn of_choice<R: Bakes>(problem: &Problem, choice: &Choice<R>) -> OutputInter
     R::intervals(problem, choice)
 }
 
-pub(crate) fn guaranteed<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> OutputIntervals {
+pub(crate) fn guaranteed<R: Bakes>(problem: &Problem, choice: &Choice<R>) -> OutputIntervals {
     let origin = choice.condensed().map(|(_, origin)| origin);
     if let Some(step) = problem.scene.step() {
         return of_steps(problem, step, origin.is_some());

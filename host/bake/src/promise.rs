@@ -4,8 +4,6 @@
 
 use std::cell::Cell;
 
-use signorini_kernel::rows::{QUADS, TRIANGLES};
-
 use crate::Bakes;
 use crate::choice::{Choice, Model, Wanted};
 use crate::narrow::narrow;
@@ -74,15 +72,14 @@ pub(crate) fn keep<R: Bakes>(
 ///
 /// # Errors
 /// The bound that it has instead, with the inputs.
-pub fn check<R: Scalar>(scene: &Scene, choice: &Choice<R>, promise: &Promise) -> Result<usize> {
+pub fn check<R: Bakes>(scene: &Scene, choice: &Choice<R>, promise: &Promise) -> Result<usize> {
     // The mesh is that of the steady state, and bounds of steps are others.
     if scene.setting.is_some_and(|setting| !setting.certificate) || scene.stores() {
         return Ok(0);
     }
     let ticks = match &choice.candidates[choice.chosen].model {
         Model::Condensed(baked) => of_condensed(baked, &promise.allowed),
-        Model::Full(baked) if baked.has_quads() => of_full::<R, QUADS>(baked, &promise.allowed),
-        Model::Full(baked) => of_full::<R, TRIANGLES>(baked, &promise.allowed),
+        Model::Full(baked) => of_full(baked, &promise.allowed),
     };
     let worst = ticks.iter().max_by(|a, b| a.ratio().total_cmp(&b.ratio()));
     match worst.filter(|worst| worst.ratio() > 1.0) {
@@ -111,17 +108,14 @@ fn not_kept<R: Scalar>(scene: &Scene, promise: &Promise, worst: &Tick) -> InputE
     InputError::new(message).file(scene.file()).hint(hint)
 }
 
-fn of_condensed<'a, R: Scalar>(baked: &condensed::Baked<R>, all: &'a [Allowed]) -> Vec<Tick<'a>> {
+fn of_condensed<'a, R: Bakes>(baked: &condensed::Baked<R>, all: &'a [Allowed]) -> Vec<Tick<'a>> {
     let mut controller = condensed::Controller::new(baked);
     let bound = |inputs: &[R]| Some(controller.tick(inputs).ok()?.1.certificate()?.total.wide());
     ticks(all, bound).collect()
 }
 
-fn of_full<'a, R: Scalar, const WIDTH: usize>(
-    baked: &full::Baked<R>,
-    all: &'a [Allowed],
-) -> Vec<Tick<'a>> {
-    let mut controller = full::Controller::<R, WIDTH>::new(baked);
+fn of_full<'a, R: Bakes>(baked: &full::Baked<R>, all: &'a [Allowed]) -> Vec<Tick<'a>> {
+    let mut controller = full::Controller::new(baked);
     let updates = Cell::new(0.0);
     let bound = |inputs: &[R]| {
         let (_, report) = controller.tick(inputs).ok()?;

@@ -1,12 +1,11 @@
 //! Warm ticks on this machine: how many exchanges and sweeps a model takes for inputs of the declared ranges.
 
 use signorini_kernel::report::Ended;
-use signorini_kernel::rows::{QUADS, TRIANGLES};
 
 use super::dense::Done;
 use super::{condensed, full};
+use crate::Bakes;
 use signorini_problem::inputs::{InputSpace, drawn};
-use signorini_problem::scalar::Scalar;
 
 /// Ticks of a trial after the first.
 const TICKS: usize = 100;
@@ -33,7 +32,7 @@ pub struct TickWork<T> {
 pub type Trial = TickWork<[u32; 2]>;
 
 /// The trial of a condensed model, and what `price` makes of its median tick and of the longest.
-pub fn of_condensed<R: Scalar>(
+pub fn of_condensed<R: Bakes>(
     baked: &condensed::Baked<R>,
     spaces: &[InputSpace],
     price: impl Fn(&Done) -> Option<f64>,
@@ -56,19 +55,8 @@ pub fn of_condensed<R: Scalar>(
 }
 
 /// The trial of a full model under the limits that its module has.
-pub fn of_full<R: Scalar>(baked: &full::Baked<R>, spaces: &[InputSpace]) -> Trial {
-    if baked.has_quads() {
-        with_width::<R, QUADS>(baked, spaces)
-    } else {
-        with_width::<R, TRIANGLES>(baked, spaces)
-    }
-}
-
-fn with_width<R: Scalar, const WIDTH: usize>(
-    baked: &full::Baked<R>,
-    spaces: &[InputSpace],
-) -> Trial {
-    let mut controller = full::Controller::<R, WIDTH>::new(baked);
+pub fn of_full<R: Bakes>(baked: &full::Baked<R>, spaces: &[InputSpace]) -> Trial {
+    let mut controller = full::Controller::new(baked);
     let (mut ticks, mut updates) = (Vec::new(), 0.0);
     for inputs in drawn::<R>(spaces, TICKS) {
         if ticks.len() > FULL_TICKS && updates > UPDATES {

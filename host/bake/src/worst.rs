@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use crate::Bakes;
 use crate::choice::{Choice, Model};
 use crate::condensed;
 use crate::costs::CYCLES;
@@ -42,7 +43,7 @@ pub const WORST_INSTRUCTIONS: u32 = {most};\n"
 }
 
 /// The same in a paragraph, with the reason where nothing is proved.
-pub fn section<R: Scalar>(choice: &Choice<R>) -> String {
+pub fn section<R: Bakes>(choice: &Choice<R>) -> String {
     let candidate = choice.candidate();
     let Model::Condensed(baked) = &candidate.model else {
         return "\nNo worst case is proved: how many sweeps a mesh takes depends on its inputs. A deadline cuts ticks \
@@ -86,7 +87,7 @@ pub fn section<R: Scalar>(choice: &Choice<R>) -> String {
 }
 
 /// That a proved tick takes longer than `[target]` has, and what was done.
-pub fn warning<R: Scalar>(choice: &Choice<R>) -> Option<String> {
+pub fn warning<R: Bakes>(choice: &Choice<R>) -> Option<String> {
     let candidate = choice.candidate();
     let (Model::Condensed(baked), Some(count)) = (&candidate.model, candidate.too_long) else {
         return None;
@@ -123,7 +124,7 @@ fn cut_off<R: Scalar>(baked: &condensed::Baked<R>) -> String {
     }
 }
 
-fn declared<R: Scalar>(choice: &Choice<R>) -> String {
+fn declared<R: Bakes>(choice: &Choice<R>) -> String {
     let Some(cycles) = choice.budget.cycles else { return String::new() };
     let then = match choice.candidate().too_long {
         Some(_) => ": no tick tried took longer, others may",

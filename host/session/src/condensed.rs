@@ -1,5 +1,6 @@
 //! The controller of a condensed model, with the way back to fields on the mesh.
 
+use signorini_bake::Bakes;
 use signorini_bake::choice::Origin;
 use signorini_bake::condensed::{Baked, Controller};
 use signorini_bake::intervals::NarrowMidpoint;
@@ -9,14 +10,13 @@ use signorini_certify::{CertifiedFields, ErrorBound, NoBound};
 use signorini_condense::CondensedModel;
 use signorini_kernel::report::{Ended, Report};
 use signorini_problem::Problem;
-use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_solve::{Ending, Ran, Solution, unfit};
 
 use crate::Session;
 
 /// A session of a condensed model.
-pub(crate) struct Condensed<'b, R: Scalar> {
+pub(crate) struct Condensed<'b, R: Bakes> {
     problem: &'b Problem,
     origin: &'b Origin,
     baked: &'b Baked<R>,
@@ -29,7 +29,7 @@ pub(crate) struct Condensed<'b, R: Scalar> {
     last: Option<(Vec<R>, Report<R>)>,
 }
 
-impl<'b, R: Scalar> Condensed<'b, R> {
+impl<'b, R: Bakes> Condensed<'b, R> {
     /// A session of `baked`, the model of `problem` that was made of `origin`.
     pub fn new(problem: &'b Problem, baked: &'b Baked<R>, origin: &'b Origin) -> Self {
         let (controller, midpoints, past) = (Controller::new(baked), Vec::new(), Vec::new());
@@ -50,7 +50,7 @@ impl<'b, R: Scalar> Condensed<'b, R> {
     }
 }
 
-impl<R: Scalar> Session for Condensed<'_, R> {
+impl<R: Bakes> Session for Condensed<'_, R> {
     fn tick(&mut self, inputs: &[f64]) -> Result<u32> {
         self.inputs = narrow(inputs);
         let past = self.controller.past().to_vec();

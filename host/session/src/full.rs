@@ -1,12 +1,11 @@
 //! The controller of a full model: the mesh, swept as a baked module does.
 
+use signorini_bake::Bakes;
 use signorini_bake::full::{Baked, Controller};
 use signorini_bake::narrow::narrow;
 use signorini_certify::{CertifiedFields, NoBound};
 use signorini_device::tick::Report;
-use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::Problem;
-use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_solve::{Factored, Ran, Solution, unfit};
@@ -14,34 +13,27 @@ use signorini_solve::{Factored, Ran, Solution, unfit};
 use crate::on_mesh::{Arrays, answer};
 use crate::{Session, Then};
 
-struct Full<'b, R: Scalar, const WIDTH: usize> {
+struct Full<'b, R: Bakes> {
     scene: &'b Scene,
     baked: &'b Baked<R>,
-    controller: Controller<'b, R, WIDTH>,
+    controller: Controller<'b, R>,
     /// Outputs and report of the last tick.
     last: Option<(Vec<R>, Report<R>)>,
 }
 
 /// Calls `then` with a session of a baked model of `scene`.
-pub(crate) fn with_full<R: Scalar>(scene: &Scene, baked: &Baked<R>, then: Then) -> Result<()> {
-    match baked.has_quads() {
-        true => then(&mut Full::<R, QUADS>::new(scene, baked)),
-        false => then(&mut Full::<R, TRIANGLES>::new(scene, baked)),
-    }
+pub(crate) fn with_full<R: Bakes>(scene: &Scene, baked: &Baked<R>, then: Then) -> Result<()> {
+    then(&mut Full { scene, baked, controller: Controller::new(baked), last: None })
 }
 
-impl<'b, R: Scalar, const WIDTH: usize> Full<'b, R, WIDTH> {
-    fn new(scene: &'b Scene, baked: &'b Baked<R>) -> Self {
-        Self { scene, baked, controller: Controller::new(baked), last: None }
-    }
-
+impl<R: Bakes> Full<'_, R> {
     fn factored(&self) -> Option<Factored> {
         let (entries, solved) = self.baked.entries().zip(self.controller.solved())?;
         Some(Factored { entries, exchanges: solved.pivots, rounds: solved.rounds })
     }
 }
 
-impl<R: Scalar, const WIDTH: usize> Session for Full<'_, R, WIDTH> {
+impl<R: Bakes> Session for Full<'_, R> {
     fn tick(&mut self, inputs: &[f64]) -> Result<u32> {
         let last = self.controller.tick(&narrow(inputs)).map_err(unfit::<R>(self.scene))?;
         Ok(self.last.insert(last).1.sweeps)

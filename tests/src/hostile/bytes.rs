@@ -3,7 +3,7 @@
 //! Every read succeeds: behind the end there are zeros. A value takes its bytes from the front, so that a
 //! fuzzer that changes one byte changes one value.
 
-use signorini_problem::scalar::Scalar;
+use signorini_bake::Bakes;
 use signorini_tolerances::twins::AFTER_EXTREMES;
 
 /// Bytes that have not been read yet.
@@ -18,7 +18,7 @@ pub fn sum(data: &[u8]) -> u8 {
 }
 
 /// A scalar that any bits are.
-pub trait Bits: Scalar {
+pub trait Bits: Bakes {
     /// The scalar with these bits, the low ones where it has fewer.
     fn of_bits(bits: u64) -> Self;
 }
@@ -131,12 +131,12 @@ impl<'a> Bytes<'a> {
 }
 
 /// The bits of numbers, which tell −0 from 0 and one NaN from another.
-pub fn bits<R: Scalar>(numbers: &[R]) -> Vec<u64> {
+pub fn bits<R: Bakes>(numbers: &[R]) -> Vec<u64> {
     numbers.iter().map(|x| x.wide().to_bits()).collect()
 }
 
 /// Asserts that an answer after extreme ticks is that of a cold start.
-pub fn check_settled<R: Scalar>(what: &str, found: &[R], cold: &[R]) {
+pub fn check_settled<R: Bakes>(what: &str, found: &[R], cold: &[R]) {
     let size = cold.iter().fold(R::ONE, |most, x| most.or_larger(x.magnitude()));
     let off = found.iter().zip(cold);
     let off = off.fold(R::ZERO, |most, (&x, &cold)| most.or_larger((x - cold).magnitude()));

@@ -1,8 +1,8 @@
 //! A scene on a mesh, answered in one of the ways that there are: an error, or numbers.
 
+use signorini_bake::Bakes;
 use signorini_bake::{condensed, full};
 use signorini_condense::condense;
-use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::{Error, Result};
@@ -88,27 +88,22 @@ fn sane(tick: &TickRecord) {
     assert!(tick.bound.is_none_or(|bound| bound.total >= 0.0), "{tick:?}");
 }
 
-fn defaults<R: Scalar>(problem: &Problem) -> Vec<R> {
+fn defaults<R: Bakes>(problem: &Problem) -> Vec<R> {
     problem.scene.inputs.iter().map(|input| R::narrow(input.default)).collect()
 }
 
-fn baked_full<R: Scalar>(problem: &Problem) -> Result<()> {
+fn baked_full<R: Bakes>(problem: &Problem) -> Result<()> {
     let baked = full::Baked::<R>::new(problem)?;
     let inputs = defaults::<R>(problem);
     let limits = signorini_device::tick::Limits { sweeps: SWEEPS / 2, ..baked.limits() };
-    let found = if baked.has_quads() {
-        full::Controller::<R, QUADS>::new(&baked).tick_within(&inputs, limits)
-    } else {
-        full::Controller::<R, TRIANGLES>::new(&baked).tick_within(&inputs, limits)
-    };
-    if let Ok((values, report)) = found {
+    if let Ok((values, report)) = full::Controller::new(&baked).tick_within(&inputs, limits) {
         let finite = report.ended != signorini_device::tick::Ended::NotFinite;
         assert!(!finite || values.iter().all(no_nan), "{values:?} {report:?}");
     }
     Ok(())
 }
 
-fn baked_condensed<R: Scalar>(problem: &Problem) -> Result<()> {
+fn baked_condensed<R: Bakes>(problem: &Problem) -> Result<()> {
     let condensate = condense(problem)?;
     let work = condensed::Work { pivots: Some(40), sweeps: 10 };
     let baked = condensed::Baked::<R>::new(&condensate, work, true);

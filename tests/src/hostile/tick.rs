@@ -7,7 +7,7 @@ use signorini_device::tick::{
     CertifiedSweeps, Deadline, Ended, Limits, Report, Tick, UncertifiedSweeps,
 };
 use signorini_kernel::relaxation::Relaxation;
-use signorini_kernel::rows::{QUADS, TRIANGLES};
+use signorini_kernel::rows::QUADS;
 use signorini_kernel::stiffness::{self, Coefficient};
 use signorini_kernel::{Error, Libm, Tensor};
 
@@ -120,17 +120,13 @@ fn answered<R: Bits>(report: &Report<R>) {
 fn driven<R: Bits + Kept>(bytes: &mut Bytes) {
     let all = R::full();
     let baked = &all[bytes.below(all.len())];
-    if baked.has_quads() { on::<R, QUADS>(bytes, baked) } else { on::<R, TRIANGLES>(bytes, baked) }
-}
-
-/// A second controller is never asked for what the first refuses; in the end an ordinary tick follows.
-fn on<R: Bits, const WIDTH: usize>(bytes: &mut Bytes, baked: &Baked<R>) {
-    let mut controller = Controller::<R, WIDTH>::new(baked);
-    let mut spared = Controller::<R, WIDTH>::new(baked);
+    let mut controller = Controller::new(baked);
+    // Never asked for what the first refuses; in the end an ordinary tick follows.
+    let mut spared = Controller::new(baked);
     for _ in 0..1 + bytes.below(4) {
         let inputs = bytes.reals::<R>(scenes::INPUTS);
         let limits = limits(bytes);
-        let state = |of: &Controller<R, WIDTH>| [bits(of.u()), bits(of.tau()), bits(of.vertices())];
+        let state = |of: &Controller<R>| [bits(of.u()), bits(of.tau()), bits(of.vertices())];
         let before = state(&controller);
         let Ok((values, report)) = controller.tick_within(&inputs, limits) else {
             assert_eq!(state(&controller), before, "{inputs:?}: a refused tick has left a trace");
@@ -156,15 +152,11 @@ fn on<R: Bits, const WIDTH: usize>(bytes: &mut Bytes, baked: &Baked<R>) {
 }
 
 /// Inputs of ordinary size: the answer, or the refusal of gaps that exclude each other, is that of a cold start, whatever came before.
-fn ordinary<R: Bits, const WIDTH: usize>(
-    bytes: &mut Bytes,
-    baked: &Baked<R>,
-    controller: &mut Controller<R, WIDTH>,
-) {
+fn ordinary<R: Bits>(bytes: &mut Bytes, baked: &Baked<R>, controller: &mut Controller<R>) {
     let inputs: Vec<R> =
         (0..scenes::INPUTS).map(|_| R::narrow(f64::from(bytes.byte() as i8) / 16.0)).collect();
     let limits = Limits { error: R::ZERO, share: R::EPSILON, sweeps: 10_000 };
-    let mut cold = Controller::<R, WIDTH>::new(baked);
+    let mut cold = Controller::new(baked);
     let (expected, found) =
         (cold.tick_within(&inputs, limits), controller.tick_within(&inputs, limits));
     let excluded = matches!(expected, Err(Error::Excluded { .. }));

@@ -3,8 +3,8 @@
 //! [`signorini_condense::CondensedModel::bound`] is what tests of the host compare with exact solutions.
 //! The kernel's total without its rounding may miss it by that rounding; then the total is above it.
 
+use signorini_bake::Bakes;
 use signorini_bake::condensed::{Baked, Controller, Work};
-use signorini_problem::scalar::Scalar;
 use signorini_tests::random::Random;
 use signorini_tests::written::{SIDES, Side, Smooth, TwoMaterials, Units};
 use signorini_tolerances::some;
@@ -37,7 +37,7 @@ struct Found {
 }
 
 /// Ticks at inputs `draw`n for each of them.
-fn judge<R: Scalar>(model: &Model, mut draw: impl FnMut(usize) -> f64, found: &mut Found) {
+fn judge<R: Bakes>(model: &Model, mut draw: impl FnMut(usize) -> f64, found: &mut Found) {
     for work in WORKS {
         let baked: Baked<R> = model.baked(work);
         let mut controller = Controller::new(&baked);

@@ -9,11 +9,11 @@
 //! f32 holds S to 6e−8, which its smallest eigenvalue λ magnifies whatever solves the problem: 1e−4 of the
 //! terms is asked for as far as λ ≥ 1e−3, in proportion beyond.
 
+use signorini_bake::Bakes;
 use signorini_bake::condensed::{Baked, Controller};
 use signorini_bound::certificate::Verdict;
 use signorini_condense::{CondensedModel, Measure};
 use signorini_kernel::report::Ended;
-use signorini_problem::scalar::Scalar;
 use signorini_tests::cholesky::Envelope;
 use signorini_tests::random::Random;
 use signorini_tolerances::twins::{CONDENSED, CONDENSED_NARROW, SUM_OF_LENGTHS};
@@ -66,7 +66,7 @@ fn linear(of: &CondensedModel, measure: &Measure) -> (Vec<f64>, Vec<f64>) {
 }
 
 /// The outputs that are linear in the solution, over some ticks from one answer to the next.
-fn linear_outputs<R: Scalar>(model: &Model, amount: f64, random: &mut Random) -> Vec<Output> {
+fn linear_outputs<R: Bakes>(model: &Model, amount: f64, random: &mut Random) -> Vec<Output> {
     let baked: Baked<R> = model.baked(EXACT);
     let mut controller = Controller::new(&baked);
     let measures = &model.condensate.outputs;
@@ -115,7 +115,7 @@ fn linear_outputs<R: Scalar>(model: &Model, amount: f64, random: &mut Random) ->
 }
 
 /// Compares with the terms; returns the largest deviation over the values.
-fn check<R: Scalar>(model: &Model, allowed: Tolerance, amount: f64, seed: u64) -> f64 {
+fn check<R: Bakes>(model: &Model, allowed: Tolerance, amount: f64, seed: u64) -> f64 {
     let outputs = linear_outputs::<R>(model, amount, &mut Random::new(seed));
     let most = |of: fn(&Output) -> f64| outputs.iter().map(of).fold(0.0, f64::max);
     let of_terms = most(|output| output.off / output.terms);

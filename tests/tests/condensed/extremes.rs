@@ -1,10 +1,10 @@
 //! Any number of contact edges, inputs at their worst, very many ticks.
 
+use signorini_bake::Bakes;
 use signorini_bake::condensed::{Baked, Controller, Work};
 use signorini_kernel::Error;
 use signorini_kernel::error::Array;
 use signorini_kernel::report::Ended;
-use signorini_problem::scalar::Scalar;
 use signorini_scene::mesh::structured::Cells;
 use signorini_scene::mesh::{Curve, Mesh};
 use signorini_tests::random::Random;
@@ -64,13 +64,13 @@ const WORKS: [Work; 4] = [
     Work { pivots: None, sweeps: 3 },
 ];
 
-fn no_nan<R: Scalar>(outputs: &[R]) -> bool {
+fn no_nan<R: Bakes>(outputs: &[R]) -> bool {
     // The last one is the bound, which may be infinite.
     let [values @ .., bound] = outputs else { return false };
     values.iter().all(|value| value.finite()) && *bound >= R::ZERO
 }
 
-fn any_number_of_edges<R: Scalar>() {
+fn any_number_of_edges<R: Bakes>() {
     for contact in [0, 1, 2, 7, 8, 9, 16, 33] {
         let model = plate(contact);
         for work in WORKS {
@@ -162,7 +162,7 @@ fn ten_thousand_ticks() {
     assert!(unfinished <= 10, "{unfinished}");
 }
 
-fn pulled_off<R: Scalar>() {
+fn pulled_off<R: Bakes>() {
     let text = FLOATING;
     let model = Model::of_text("floating".to_owned(), text, with_contact(16)).expect("a model");
     for work in WORKS {

@@ -1,11 +1,11 @@
 //! Random scenes with inputs on every field and outputs of every kind.
 
+use signorini_bake::Bakes;
 use std::path::Path;
 
 use signorini_bake::condensed::{Baked, Work};
 use signorini_condense::{CondensedModel, condense};
 use signorini_problem::Problem;
-use signorini_problem::scalar::Scalar;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::Scene;
 use signorini_solve::Solution;
@@ -54,7 +54,7 @@ impl Model {
         Self::new(what, scene, problem)
     }
 
-    pub fn baked<R: Scalar>(&self, work: Work) -> Baked<R> {
+    pub fn baked<R: Bakes>(&self, work: Work) -> Baked<R> {
         let baked = Baked::new(&self.condensate, work, true);
         baked.unwrap_or_else(|error| panic!("{}: {error}", self.what))
     }

@@ -1,6 +1,7 @@
 //! What to do where no model fits.
 
 use super::{Candidate, Model};
+use crate::Bakes;
 use crate::budget::Shortfall;
 use crate::costs::Footprint;
 use signorini_problem::scalar::Scalar;
@@ -8,7 +9,7 @@ use signorini_scene::error::InputError;
 use signorini_scene::scene::{Quantity, Scene};
 
 /// That nothing fits: the candidate that misses by least, and what would fit.
-pub(super) fn too_large<R: Scalar>(scene: &Scene, candidates: &[Candidate<R>]) -> InputError {
+pub(super) fn too_large<R: Bakes>(scene: &Scene, candidates: &[Candidate<R>]) -> InputError {
     let factor = |candidate: &Candidate<R>| {
         let factors = candidate.shortfalls.iter().map(|short| short.needed / short.declared);
         factors.fold(1.0, f64::max)
@@ -53,7 +54,7 @@ fn growth<R: Scalar>(candidate: &Candidate<R>, footprint: &Footprint) -> f64 {
 }
 
 /// The nearest mesh that would fit.
-fn nearest<R: Scalar>(candidate: &Candidate<R>) -> String {
+fn nearest<R: Bakes>(candidate: &Candidate<R>) -> String {
     let hopeless = "no mesh is coarse enough: the code and its stack alone need more than that";
     match &candidate.model {
         // Bytes and instructions of dense blocks grow like n².

@@ -3,6 +3,7 @@
 use signorini_contact::dense::blocks::padded;
 
 use super::{Candidate, Model, Origin};
+use crate::Bakes;
 use crate::budget::{Budget, Needs};
 use crate::condensed::{self, Modes, Work};
 use crate::costs::Costs;
@@ -26,7 +27,7 @@ const MOST_SWEEPS: u32 = 1000;
 
 /// The variants of the condensed model: with the bound first, and of two the one that takes less time. Those that leave
 /// out a bound that is asked for are no choice.
-pub(super) fn of_condensed<R: Scalar>(
+pub(super) fn of_condensed<R: Bakes>(
     scene: &Scene,
     origin: &Origin,
     budget: &Budget,
@@ -69,7 +70,7 @@ pub(super) fn of_condensed<R: Scalar>(
 }
 
 /// A matrix that the scalar type cannot tell from a singular one has no use there.
-fn refuse_singular<R: Scalar>(scene: &Scene, condensate: &CondensedModel) -> Result<()> {
+fn refuse_singular<R: Bakes>(scene: &Scene, condensate: &CondensedModel) -> Result<()> {
     /// Part of an answer that rounding of the matrix may take.
     const MOST: f64 = 1e-2;
     // The square of the bound's stability is 1/λ_min of the scaled matrix, or near to it.
@@ -93,7 +94,7 @@ pub(super) fn time(needs: &Needs) -> f64 {
     needs.instructions().unwrap_or(f64::INFINITY)
 }
 
-fn condensed_as<R: Scalar>(
+fn condensed_as<R: Bakes>(
     scene: &Scene,
     origin: &Origin,
     budget: &Budget,
@@ -147,7 +148,7 @@ fn condensed_as<R: Scalar>(
 }
 
 /// The model in the scalar of the target.
-fn narrowed<R: Scalar>(
+fn narrowed<R: Bakes>(
     scene: &Scene,
     origin: &Origin,
     all: Work,
@@ -165,7 +166,7 @@ fn narrowed<R: Scalar>(
 }
 
 /// A condensed model in a few words.
-fn name<R: Scalar>(baked: &condensed::Baked<R>, exact: bool) -> String {
+fn name<R: Bakes>(baked: &condensed::Baked<R>, exact: bool) -> String {
     let solver = match (baked.contact, exact) {
         (0, _) => "linear",
         (_, true) => "exact method",

@@ -3,6 +3,7 @@
 use super::candidates::{of_condensed, time};
 use super::meshes::of_full;
 use super::{Candidate, Model, Origin, Wanted};
+use crate::Bakes;
 use crate::budget::Budget;
 use crate::range::{refuse_inputs, refuse_loads, refuse_squares};
 use signorini_problem::scalar::Scalar;
@@ -38,13 +39,13 @@ impl Task<'_> {
 }
 
 /// Models that were worked out, and why others were not.
-pub(super) struct Considered<R: Scalar> {
+pub(super) struct Considered<R: Bakes> {
     pub candidates: Vec<Candidate<R>>,
     pub excluded: Vec<String>,
     pub origin: Option<Origin>,
 }
 
-impl<R: Scalar> Considered<R> {
+impl<R: Bakes> Considered<R> {
     /// Works out what may be chosen: condensed models, and the full one where it is asked for or may be better.
     pub fn of(task: &Task) -> Result<Self> {
         let mut all = Self { candidates: Vec::new(), excluded: Vec::new(), origin: None };

@@ -2,6 +2,7 @@
 
 use super::candidates::time;
 use super::{Candidate, Model};
+use crate::Bakes;
 use crate::budget::{Budget, Needs};
 use crate::costs::Costs;
 use crate::full;
@@ -9,14 +10,13 @@ use crate::trial::{self, Trial};
 use signorini_certify::NoBound;
 use signorini_problem::Problem;
 use signorini_problem::inputs::InputSpace;
-use signorini_problem::scalar::Scalar;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::units::Units;
 use signorini_solve::Scaled;
 
 /// The solver that the setting asks for, in `units`; where it leaves that open both, the quicker first: one that comes
 /// to its end before one that does not. `excluded` gets the reason why there is no factor.
-pub(super) fn of_full<R: Scalar>(
+pub(super) fn of_full<R: Bakes>(
     problem: &Problem,
     units: Units,
     budget: &Budget,
@@ -49,7 +49,7 @@ pub(super) fn of_full<R: Scalar>(
 }
 
 /// A full model, tried where there is room for it.
-fn candidate<R: Scalar>(problem: &Problem, budget: &Budget, baked: full::Baked<R>) -> Candidate<R> {
+fn candidate<R: Bakes>(problem: &Problem, budget: &Budget, baked: full::Baked<R>) -> Candidate<R> {
     let sizes = full::sizes(&baked);
     let memory = Needs::with_code(baked.code(), sizes, [None; 2]);
     let spaces = InputSpace::of(&problem.scene);
@@ -82,14 +82,14 @@ const IN_STEP: f64 = 3.2;
 const OF_EVOLUTION: f64 = 4.0;
 
 /// Ticks of a trial: the median one has number 0, the longest 1.
-struct TickCost<'a, R: Scalar> {
+struct TickCost<'a, R: Bakes> {
     costs: Costs,
     problem: &'a Problem,
     baked: &'a full::Baked<R>,
     trial: Trial,
 }
 
-impl<R: Scalar> TickCost<'_, R> {
+impl<R: Bakes> TickCost<'_, R> {
     /// Instructions: load and rows, the solve with its looks at residual and bound, and what comes last; nothing where
     /// there was no tick.
     fn count(&self, of: usize) -> Option<f64> {

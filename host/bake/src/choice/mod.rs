@@ -126,7 +126,7 @@ pub fn reduced(problem: &Problem) -> Result<CondensedModel> {
     Ok(Origin::new(problem, Wanted::default(), negligible::<f64>())?.model().clone())
 }
 
-impl<R: Scalar> Choice<R> {
+impl<R: Bakes> Choice<R> {
     /// Chooses for `problem`, as its setting asks where `wanted` does not.
     ///
     /// # Errors
@@ -159,7 +159,7 @@ impl<R: Scalar> Choice<R> {
     }
 }
 
-pub(crate) fn choose<R: Scalar>(problem: &Problem, wanted: Wanted) -> Result<Choice<R>> {
+pub(crate) fn choose<R: Bakes>(problem: &Problem, wanted: Wanted) -> Result<Choice<R>> {
     let scene = &problem.scene;
     let setting = scene.setting.unwrap_or_default();
     let asked = wanted.model.or(setting.model_kind());

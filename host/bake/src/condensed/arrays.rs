@@ -13,6 +13,7 @@ use super::bound::{Bound, Ends};
 use super::modes::Modes;
 use super::start::{InitialState, best_omega};
 use super::steps::Steps;
+use crate::Bakes;
 use crate::narrow::{filled_up, is_monotone, matrix, narrow, pairs, spans};
 use crate::room::Room;
 use signorini_condense::CondensedModel;
@@ -87,12 +88,20 @@ pub struct Baked<R: Scalar> {
     pub(super) bound: Result<Bound<R>, String>,
 }
 
-impl<R: Scalar> Baked<R> {
+impl<R: Bakes> Baked<R> {
     /// Narrows `condensate`; without `certified` the certificate is left out.
     ///
     /// # Errors
     /// Numbers that the scalar type cannot hold.
     pub fn new(condensate: &CondensedModel, work: Work, certified: bool) -> Result<Self, Error> {
+        R::bake_condensed(condensate, work, certified)
+    }
+
+    pub(crate) fn bake(
+        condensate: &CondensedModel,
+        work: Work,
+        certified: bool,
+    ) -> Result<Self, Error> {
         let n = condensate.contact;
         // Where the default inputs have no solution, everything touches.
         let x = condensate.solve(&condensate.defaults).unwrap_or_else(|_| vec![0.0; n]);

@@ -14,17 +14,16 @@ use super::arrays::Baked;
 use super::solver::DeskSolver;
 use super::visited::Visited;
 use crate::desk::{Terms, Values};
-use crate::state;
-use signorini_problem::scalar::Scalar;
+use crate::{Bakes, state};
 
 /// The controller of a condensed scene.
 #[derive(Debug)]
-pub struct Controller<'b, R: Scalar> {
+pub struct Controller<'b, R: Bakes> {
     baked: &'b Baked<R>,
     own: controller::Controller<Desk<'b, R>>,
 }
 
-impl<'b, R: Scalar> Controller<'b, R> {
+impl<'b, R: Bakes> Controller<'b, R> {
     /// Before the first tick.
     pub fn new(baked: &'b Baked<R>) -> Self {
         let storage = DeskStorage::new(baked);
@@ -36,6 +35,10 @@ impl<'b, R: Scalar> Controller<'b, R> {
     /// # Errors
     /// Inputs outside their ranges, that are not finite, or so large that the answer or an output may overflow: the last answer stays.
     pub fn tick(&mut self, inputs: &[R]) -> Result<(Vec<R>, Report<R>), Error> {
+        R::answer(self, inputs)
+    }
+
+    pub(crate) fn answer(&mut self, inputs: &[R]) -> Result<(Vec<R>, Report<R>), Error> {
         let Answer { outputs: Values(outputs), report } = self.own.tick(Terms::new(inputs))?;
         Ok((outputs, report))
     }
@@ -117,9 +120,9 @@ impl<'b, R: Scalar> Controller<'b, R> {
 
 /// A baked scene, for its controller.
 #[derive(Debug)]
-struct Desk<'b, R: Scalar>(&'b Baked<R>);
+struct Desk<'b, R: Bakes>(&'b Baked<R>);
 
-impl<R: Scalar> Scene for Desk<'_, R> {
+impl<R: Bakes> Scene for Desk<'_, R> {
     type Scalar = R;
     type Inputs = Terms<R>;
     type Outputs = Values<R>;
@@ -159,13 +162,13 @@ type Modal<R> = ModalStorage<Vec<R>, Vec<u8>, Vec<R>, Vec<R>, Vec<Block<R>>, Vec
 
 /// The memory of each kind of model.
 #[derive(Debug)]
-enum DeskStorage<R: Scalar> {
+enum DeskStorage<R: Bakes> {
     Plain(ControllerStorage<Shared<R>, DeskSolver<R>>),
     Stepped(ControllerStorage<Step<R>, DeskSolver<R>>),
     Modal(ControllerStorage<Modal<R>, DeskSolver<R>>),
 }
 
-impl<R: Scalar> DeskStorage<R> {
+impl<R: Bakes> DeskStorage<R> {
     /// x is what the first tick begins with, even if that is refused.
     fn new(baked: &Baked<R>) -> Self {
         let zeros = |length| vec![R::ZERO; length];
@@ -199,7 +202,7 @@ impl<R: Scalar> DeskStorage<R> {
     }
 }
 
-impl<R: Scalar> controller::Storage<R> for DeskStorage<R> {
+impl<R: Bakes> controller::Storage<R> for DeskStorage<R> {
     type Model<'m> = Baked<R>;
     type Setup<'m> = ();
 

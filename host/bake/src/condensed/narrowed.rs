@@ -1,10 +1,10 @@
 //! A model with modes or steps becomes arrays of the target, as one without does by [`Baked::new`].
 
+use crate::Bakes;
 use signorini_condense::{ModalModel, SteppedModel};
 use signorini_contact::method::Sweeps;
 use signorini_kernel::Error;
 use signorini_problem::inputs::ranges;
-use signorini_problem::scalar::Scalar;
 
 use super::arrays::{Baked, Work};
 use super::bound::Bound;
@@ -12,7 +12,7 @@ use super::modes::Scaled;
 use super::start::{InitialState, best_omega};
 use super::steps::Steps;
 
-impl<R: Scalar> Baked<R> {
+impl<R: Bakes> Baked<R> {
     /// Narrows a model of modes, as [`Baked::new`] does one without.
     ///
     /// # Errors

@@ -1,5 +1,6 @@
 //! What a condensed model takes of a device, from its sizes alone.
 
+use crate::Bakes;
 use signorini_contact::dense::blocks::{count, padded};
 
 use super::arrays::{Baked, Solver};
@@ -7,12 +8,11 @@ use super::statics::written;
 use super::steps::Steps;
 use crate::dense::Price;
 use crate::full::Sizes;
-use signorini_problem::scalar::Scalar;
 
 /// Bytes of a block of the matrix, in numbers.
 const BLOCK: usize = 64;
 
-impl<R: Scalar> Baked<R> {
+impl<R: Bakes> Baked<R> {
     /// The sizes by which its ticks are priced, with so many entries of loads and outputs, and the exact method or
     /// without.
     pub fn price(&self, entries: usize, exact: bool) -> Price {
@@ -126,7 +126,7 @@ impl<R: Scalar> Baked<R> {
 }
 
 /// RAM of the `Controller` and flash of its data, exact but for alignment and lengths of slices.
-pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
+pub fn sizes<R: Bakes>(baked: &Baked<R>) -> Sizes {
     let (n, scalar) = (padded(baked.contact), size_of::<R>());
     let columns = baked.columns();
     let tableau = match baked.solver() {

@@ -1,5 +1,6 @@
 //! The Rust text of the condensed model.
 
+use crate::Bakes;
 use std::fmt::Write as _;
 
 use signorini_contact::dense::blocks::{count, padded};
@@ -10,10 +11,9 @@ use super::statics::{self, written};
 use crate::controller::{self, Parts, state};
 use crate::module_api::ModuleApi;
 use crate::text::imports;
-use signorini_problem::scalar::Scalar;
 
 /// The module.
-pub fn source<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
+pub fn source<R: Bakes>(face: &ModuleApi, baked: &Baked<R>) -> String {
     let bytes = sizes(baked);
     let about = format!(
         "The condensed model in {}: {} contact edges, everything else eliminated exactly; {}. {} bytes of \
@@ -44,7 +44,7 @@ const NAMES: &str = "\
     contact::modes::ArrayModalStorage contact::steps::ArrayStepStorage contact::storage::ArrayStorage \
     contact::storage::ArrayTableauStorage";
 
-fn constants<R: Scalar>(baked: &Baked<R>) -> String {
+fn constants<R: Bakes>(baked: &Baked<R>) -> String {
     let (contact, sweeps) = (baked.contact, baked.sweeps);
     let mut text = format!(
         "
@@ -93,7 +93,7 @@ pub const SWEEPS: Sweeps<Scalar> =
     text
 }
 
-fn controller<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
+fn controller<R: Bakes>(face: &ModuleApi, baked: &Baked<R>) -> String {
     let solver = baked.solver();
     let ends = match solver {
         Solver::Linear => "with the solution, for nothing is in contact",
@@ -134,7 +134,7 @@ fn controller<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
 }
 
 /// The type of the memory, and what it is before the first tick.
-fn memory<R: Scalar>(baked: &Baked<R>) -> (String, String) {
+fn memory<R: Bakes>(baked: &Baked<R>) -> (String, String) {
     let (kind, sizes) = match (&baked.modes, &baked.steps) {
         (Some(_), _) => ("ArrayModalStorage", "PADDED, COLUMNS, BLOCKS, TERMS"),
         (None, Some(_)) => ("ArrayStepStorage", "PADDED, COLUMNS, TERMS"),

@@ -1,5 +1,6 @@
 //! The statics of the condensed model, written by the structs that borrow them.
 
+use crate::Bakes;
 use std::fmt::Write as _;
 
 use signorini_contact::certificate::{Corner, Form, Vertex};
@@ -26,7 +27,7 @@ pub(super) const NAMES: &str = "\
     kernel::evolution::Rates kernel::flux_range::Room contact::dense::tableau::InitialTableau";
 
 /// Everything in flash; `outputs` are their names.
-pub(super) fn written<'n, R: Scalar>(
+pub(super) fn written<'n, R: Bakes>(
     outputs: impl Iterator<Item = &'n str>,
     baked: &Baked<R>,
 ) -> Statics {
@@ -50,7 +51,7 @@ pub(super) fn written<'n, R: Scalar>(
 }
 
 #[rustfmt::skip] // A table; so below.
-fn condensed<'n, R: Scalar>(of: &Condensed<R>, names: impl Iterator<Item = &'n str>, baked: &Baked<R>, to: &mut Statics) -> String {
+fn condensed<'n, R: Bakes>(of: &Condensed<R>, names: impl Iterator<Item = &'n str>, baked: &Baked<R>, to: &mut Statics) -> String {
     let matrix = to.array::<Block<R>>("MATRIX", "S, the lower triangle of its blocks.", "[[Scalar; 8]; 8]", of.matrix);
     let start = start(of, baked, to);
     tall_record("Condensed", 4, [
@@ -77,7 +78,7 @@ fn condensed<'n, R: Scalar>(of: &Condensed<R>, names: impl Iterator<Item = &'n s
 }
 
 /// The tableau in which exchanges begin; with modes they begin in S(t).
-fn start<R: Scalar>(of: &Condensed<R>, baked: &Baked<R>, to: &mut Statics) -> String {
+fn start<R: Bakes>(of: &Condensed<R>, baked: &Baked<R>, to: &mut Statics) -> String {
     let is_exact = matches!(baked.solver(), Solver::Exchanges(_) | Solver::TwoPhases);
     let (blocks, exchanged) = match is_exact && baked.modes.is_none() {
         true => (of.start.blocks, of.start.exchanged),
@@ -163,7 +164,7 @@ fn measure<R: Scalar>(of: &Measure<R>, output: &str, to: &mut Statics) -> String
 }
 
 #[rustfmt::skip]
-fn certificate<R: Scalar>(of: &Form<R>, baked: &Baked<R>, to: &mut Statics) -> String {
+fn certificate<R: Bakes>(of: &Form<R>, baked: &Baked<R>, to: &mut Statics) -> String {
     let factor = factor(&of.factor, "FACTOR", "F by columns: inputs, openings, corrections.", to);
     let jump = optional(of.jump.as_ref(), "JUMP", "J by columns: what u_h is off from s.", to);
     let vertices = to.array::<Vertex<R>>("VERTICES", "Contact vertices.", "Vertex<Scalar>", of.vertices);
@@ -196,7 +197,7 @@ fn corner<R: Scalar>(at: usize, of: &Corner<R>, to: &mut Statics) -> String {
 
 /// Where s − ψ comes from at the ends of contact edges.
 #[rustfmt::skip]
-fn sides<R: Scalar>(baked: &Baked<R>, to: &mut Statics) -> String {
+fn sides<R: Bakes>(baked: &Baked<R>, to: &mut Statics) -> String {
     let Some(sides::Baked { ends, scale, excess, largest }) = baked.sides() else { return "Sides::UNLIMITED".to_owned() };
     let sides = record("Baked", [
         ("ends", to.array::<[u16; 2]>("ENDS", "Vertices and corners at the ends of contact edges.", "[u16; 2]", ends)),

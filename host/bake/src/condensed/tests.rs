@@ -1,6 +1,7 @@
 //! The generated text: no warnings, and the bits of the same arrays on this machine.
 
 use super::{Baked, Controller, Work, source};
+use crate::Bakes;
 use crate::choice::{Choice, Model, Wanted};
 use crate::compiled::printed;
 use crate::module_api::ModuleApi;
@@ -8,7 +9,6 @@ use crate::tests::{self, FIRMWARE};
 use signorini_condense::condense;
 use signorini_problem::Problem;
 use signorini_problem::fixtures::{changed, on_grid};
-use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::units::Units;
@@ -69,7 +69,7 @@ output.short = { kind = "saturated", of = "contact" }
 output.bound = { kind = "bound" }
 "#;
 
-fn same_bits<R: Scalar>(text: &str, work: Work, certified: bool) -> Result<()> {
+fn same_bits<R: Bakes>(text: &str, work: Work, certified: bool) -> Result<()> {
     let (_, problem) = on_grid(text, grid(3, Cells::Mixed))?;
     let condensate = condense(&problem)?;
     let baked = Baked::<R>::new(&condensate, work, certified).expect("numbers in range");
@@ -79,7 +79,7 @@ fn same_bits<R: Scalar>(text: &str, work: Work, certified: bool) -> Result<()> {
 }
 
 /// In a cold and two warm ticks.
-fn same_bits_of<R: Scalar>(problem: &Problem, baked: &Baked<R>) {
+fn same_bits_of<R: Bakes>(problem: &Problem, baked: &Baked<R>) {
     let inputs = &problem.scene.inputs;
     let times = |factor: f64| inputs.iter().map(|input| factor * input.default).collect();
     let mut controller = Controller::new(baked);
@@ -192,7 +192,7 @@ fn problem_in(units: Units) -> Result<Problem> {
 }
 
 /// Flux, force, length, probe and bound, in the units that NAMES has.
-fn outputs_in<R: Scalar>(units: Units) -> Result<Vec<f64>> {
+fn outputs_in<R: Bakes>(units: Units) -> Result<Vec<f64>> {
     let problem = problem_in(units)?;
     let baked = Baked::<R>::new(&condense(&problem)?, PIVOTS, true).expect("in range");
     let inputs = [0.3, -0.7, 0.5, 0.0].map(R::narrow);

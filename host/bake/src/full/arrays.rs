@@ -15,6 +15,7 @@ use super::factored::Factored;
 use super::options::{Scale, TickOptions};
 use super::output::{Output, output};
 use super::storing::Stored;
+use crate::Bakes;
 use crate::module_api::ModuleApi;
 use crate::setting::checked;
 use signorini_certify::reach::Reach;
@@ -68,7 +69,7 @@ pub struct Baked<R: Scalar> {
     pub(super) stored: Option<Stored<R>>,
 }
 
-impl<R: Scalar> Baked<R> {
+impl<R: Bakes> Baked<R> {
     /// Whether a cell has four sides.
     pub fn has_quads(&self) -> bool {
         !self.of_quads.is_empty()

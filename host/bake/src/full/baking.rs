@@ -1,18 +1,16 @@
 //! A scene baked: where its numbers are far from 1 in other units, and with a factor where one is asked for.
 
-use signorini_kernel::rows::{QUADS, TRIANGLES};
-
 use super::arrays::Baked;
 use super::controller::Controller;
 use super::factored::Factored;
 use super::options::Scale;
 use super::storing::short;
+use crate::Bakes;
 use crate::module_api::ModuleApi;
 use crate::narrow::exclusions;
 use signorini_certify::evolution::Evolution;
 use signorini_kernel::relaxation::Relaxation;
 use signorini_problem::functional::wanted;
-use signorini_problem::scalar::Scalar;
 use signorini_problem::{Approach, Problem};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
@@ -20,13 +18,17 @@ use signorini_scene::scene::units::Units;
 use signorini_scene::setting::Omega;
 use signorini_solve::{Scaled, choose_for_inputs};
 
-impl<R: Scalar> Baked<R> {
+impl<R: Bakes> Baked<R> {
     /// Bakes `problem`, whose inputs stand at their defaults, as its setting says.
     ///
     /// # Errors
     /// A setting that no module can have. What [`Approach::FullModel`] cannot treat. Ranges of inputs that leave a contact edge
     /// no flux. Numbers or answers that the scalar type cannot hold.
     pub fn new(problem: &Problem) -> Result<Self> {
+        R::bake_full(problem)
+    }
+
+    pub(crate) fn bake(problem: &Problem) -> Result<Self> {
         Self::of_scaled(&Scaled::new(problem, choose_for_inputs(problem)?)?)
     }
 
@@ -97,9 +99,6 @@ impl<R: Scalar> Baked<R> {
     /// Whether its first tick needs no sweeps.
     fn solves(&self, scene: &Scene) -> bool {
         let inputs: Vec<R> = scene.inputs.iter().map(|input| R::narrow(input.default)).collect();
-        match self.has_quads() {
-            true => Controller::<R, QUADS>::new(self).solves(&inputs),
-            false => Controller::<R, TRIANGLES>::new(self).solves(&inputs),
-        }
+        Controller::new(self).solves(&inputs)
     }
 }

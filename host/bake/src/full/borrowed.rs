@@ -12,10 +12,11 @@ use super::data::Data;
 use super::output::Output;
 use super::pattern::Pattern;
 use super::storing::Stored;
+use crate::Bakes;
 use signorini_certify::transfer_forms::Forms;
 use signorini_problem::scalar::Scalar;
 
-impl<R: Scalar> Baked<R> {
+impl<R: Bakes> Baked<R> {
     /// How long the memory is.
     pub(super) fn lengths(&self) -> Lengths {
         self.with(Lengths::of)

@@ -16,6 +16,7 @@ use signorini_kernel::{Index, Tensor};
 
 use super::arrays::Baked;
 use super::linear::{outputs, patterns};
+use crate::Bakes;
 use crate::module_api::ModuleApi;
 use crate::room;
 use crate::statics::{Statics, lines, record, tall_record};
@@ -38,14 +39,14 @@ pub(super) const NAMES: &str = "\
     sparse::Factored kernel::flux_range::Spans kernel::stiffness::Stiffness kernel::Tensor";
 
 /// Everything in flash.
-pub(super) fn listed<R: Scalar>(baked: &Baked<R>) -> Statics {
+pub(super) fn listed<R: Bakes>(baked: &Baked<R>) -> Statics {
     match baked.index() {
         "u16" => written::<R, u16>(baked),
         _ => written::<R, u32>(baked),
     }
 }
 
-fn written<R: Scalar, I: Index>(baked: &Baked<R>) -> Statics {
+fn written<R: Bakes, I: Index>(baked: &Baked<R>) -> Statics {
     let mut to = Statics::default();
     baked.with(|of| full::<R, I>(of, &baked.face, &mut to));
     if let Some(factored) = &baked.factored {

@@ -21,10 +21,12 @@ mod data;
 mod factored;
 mod linear;
 mod listing;
+mod on_rows;
 mod options;
 mod output;
 mod pattern;
 mod sizes;
+mod solver;
 mod source;
 mod storing;
 #[cfg(test)]
@@ -32,6 +34,7 @@ mod tests;
 
 pub use arrays::Baked;
 pub use controller::Controller;
+pub(crate) use on_rows::{OnRows, on_rows};
 pub use sizes::{Sizes, sizes};
 pub use source::source;
 pub use storing::Posed;

@@ -6,6 +6,7 @@ use signorini_kernel::rows::{QUADS, TRIANGLES};
 
 use super::arrays::Baked;
 use super::listing::listed;
+use crate::Bakes;
 use signorini_problem::scalar::Scalar;
 
 /// What the model takes of a device, code and stack aside.
@@ -18,7 +19,7 @@ pub struct Sizes {
 }
 
 /// The sizes, exact but for alignment.
-pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
+pub fn sizes<R: Bakes>(baked: &Baked<R>) -> Sizes {
     let ram = match baked.index() {
         "u16" => memory::<R, u16>(baked),
         _ => memory::<R, u32>(baked),
@@ -27,7 +28,7 @@ pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
 }
 
 /// Bytes of the controller, in the index type `I`.
-fn memory<R: Scalar, I: Index>(baked: &Baked<R>) -> usize {
+fn memory<R: Bakes, I: Index>(baked: &Baked<R>) -> usize {
     let lengths = baked.lengths();
     let own = match baked.width() {
         TRIANGLES => lengths.bytes::<R, I, TRIANGLES>(),

@@ -8,12 +8,13 @@ use super::arrays::Baked;
 use super::listing::{self, listed};
 use super::options::TickOptions;
 use super::sizes::sizes;
+use crate::Bakes;
 use crate::controller::{self, Parts, state};
 use crate::text::imports;
 use signorini_problem::scalar::Scalar;
 
 /// The module.
-pub fn source<R: Scalar>(baked: &Baked<R>) -> String {
+pub fn source<R: Bakes>(baked: &Baked<R>) -> String {
     let index = baked.index();
     let (features, sizes, counts) = (baked.features(), sizes(baked), baked.counts);
     let about = format!(

@@ -1,16 +1,16 @@
 //! How many contact edges are on which side and how large the error bound is, for programs and in the module.
 
+use crate::Bakes;
 use signorini_image::chosen::Ranges;
 
 use crate::choice::Origin;
 use crate::condensed::Baked;
 use signorini_condense::ranges::largest::LargestBound;
 use signorini_condense::ranges::sides::EdgeSide;
-use signorini_problem::scalar::Scalar;
 use signorini_scene::scene::Scene;
 
 /// What is proved of a condensed model for all inputs within their ranges.
-pub fn found<R: Scalar>(baked: &Baked<R>, origin: &Origin) -> Ranges {
+pub fn found<R: Bakes>(baked: &Baked<R>, origin: &Origin) -> Ranges {
     let sides = &origin.sides;
     Ranges {
         contact: sides.of.len(),
@@ -23,7 +23,7 @@ pub fn found<R: Scalar>(baked: &Baked<R>, origin: &Origin) -> Ranges {
 }
 
 /// Where it is proved, and not much larger than what some inputs reach.
-pub(super) fn largest_bound<R: Scalar>(baked: &Baked<R>, origin: &Origin) -> Option<LargestBound> {
+pub(super) fn largest_bound<R: Bakes>(baked: &Baked<R>, origin: &Origin) -> Option<LargestBound> {
     // What a step begins from has no range.
     if baked.without_bound().is_some() || baked.steps.is_some() {
         return None;

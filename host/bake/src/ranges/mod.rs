@@ -19,6 +19,7 @@ mod why;
 
 use std::fmt::Write as _;
 
+use crate::Bakes;
 use crate::choice::{Choice, Origin};
 use crate::text::{short, table};
 use reach::Reach;
@@ -29,7 +30,6 @@ use signorini_condense::ranges::outputs::intervals;
 use signorini_condense::ranges::sides::EdgeSide;
 use signorini_problem::Problem;
 use signorini_problem::functional::wanted;
-use signorini_problem::scalar::Scalar;
 use signorini_scene::scene::Scene;
 use why::{coefficient, nothing_proved};
 
@@ -37,7 +37,7 @@ use counts::largest_bound;
 pub use counts::{constants, declared, found};
 
 /// The section on ranges; empty for a full model, whose ticks need none.
-pub fn section<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> String {
+pub fn section<R: Bakes>(problem: &Problem, choice: &Choice<R>) -> String {
     let Some((baked, origin)) = choice.condensed() else { return String::new() };
     let when = problem.scene.step().filter(|_| origin.steps.is_some());
     let when = when.map_or(String::new(), |step| format!(" for all times, at a step of {step} s"));

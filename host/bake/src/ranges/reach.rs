@@ -1,12 +1,12 @@
 //! What outputs and error bound reach for inputs drawn from their ranges, corners included.
 
+use crate::Bakes;
 use crate::choice::Origin;
 use crate::condensed::{Baked, Controller};
 use crate::narrow::narrow;
 use signorini_condense::ranges::interval::Interval;
 use signorini_problem::Problem;
 use signorini_problem::inputs::{InputSpace, corners, drawn};
-use signorini_problem::scalar::Scalar;
 
 /// Inputs drawn.
 const DRAWN: usize = 1000;
@@ -26,7 +26,7 @@ pub(super) struct Reach {
 
 impl Reach {
     /// What the exact solution reaches, and the controller's bound: it is ticked with the same inputs.
-    pub fn new<R: Scalar>(problem: &Problem, baked: &Baked<R>, origin: &Origin) -> Self {
+    pub fn new<R: Bakes>(problem: &Problem, baked: &Baked<R>, origin: &Origin) -> Self {
         let spaces = InputSpace::of(&problem.scene);
         // Without inputs there is one tick.
         let drawn = drawn(&spaces, if spaces.is_empty() { 0 } else { DRAWN - 1 });
@@ -56,7 +56,7 @@ fn exact(origin: &Origin, inputs: &[f64]) -> Vec<Option<f64>> {
 }
 
 /// The largest bound of a tick that had one.
-fn bound<R: Scalar>(baked: &Baked<R>, all: &[Vec<f64>]) -> Option<f64> {
+fn bound<R: Bakes>(baked: &Baked<R>, all: &[Vec<f64>]) -> Option<f64> {
     let mut controller = Controller::new(baked);
     let bounds = all.iter().filter_map(|inputs| {
         let (_, report) = controller.tick(&narrow(inputs)).ok()?;

@@ -2,13 +2,13 @@
 //! of the same numbers in f64.
 
 use super::direct::{HEATER, directly};
+use crate::Bakes;
 use crate::condensed::{Baked, Controller, Work};
 use crate::narrow::narrow;
 use signorini_condense::{CondensedModel, condense};
 use signorini_kernel::report::Ended;
 use signorini_problem::Problem;
 use signorini_problem::fixtures::{changed, on_grid};
-use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_tolerances::Tolerance;
@@ -50,7 +50,7 @@ const EXACT: Work = Work { pivots: Some(400), sweeps: 40 };
 const ALLOWED: [Tolerance; 2] = [LIMITED_TICK, LIMITED_BOUND];
 const ALLOWED_NARROW: [Tolerance; 2] = [LIMITED_TICK_NARROW, LIMITED_BOUND_NARROW];
 
-fn ticks<R: Scalar>(
+fn ticks<R: Bakes>(
     problem: &Problem,
     model: &CondensedModel,
     work: Work,

@@ -2,15 +2,14 @@
 //! everybody refuses the input by its name.
 
 use super::direct::{directly, played, to_the_end};
+use crate::Bakes;
 use crate::condensed;
 use crate::full;
 use crate::narrow::narrow;
 use signorini_condense::condense;
 use signorini_kernel::Error;
-use signorini_kernel::rows::TRIANGLES;
 use signorini_problem::Problem;
 use signorini_problem::fixtures::{on_grid, scene, wall};
-use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{Curve, Mesh};
@@ -34,12 +33,12 @@ fn cap(slacks: f64) -> f64 {
 
 /// Every controller, first with room, then with this cap, then with room again: its outputs for the cap, where it has any, and
 /// how it refuses.
-fn of_controllers<R: Scalar>(
+fn of_controllers<R: Bakes>(
     problem: &Problem,
     cap: f64,
 ) -> Result<Vec<std::result::Result<f64, Error>>> {
     let baked = full::Baked::<R>::new(problem)?;
-    let mut on_mesh = full::Controller::<R, TRIANGLES>::new(&baked);
+    let mut on_mesh = full::Controller::<R>::new(&baked);
     let model = condense(problem)?;
     let work = condensed::Work { pivots: Some(100), sweeps: 100 };
     let small = condensed::Baked::<R>::new(&model, work, true).expect("in range");
@@ -128,7 +127,7 @@ fn ends_that_cross_are_in_every_bound() -> Result<()> {
         let text = crossing(gap, INSULATED, input);
         let (_, problem) = on_grid(&text, grid(4, Cells::Triangles))?;
         let baked = full::Baked::<f64>::new(&problem)?;
-        let mut on_mesh = full::Controller::<f64, TRIANGLES>::new(&baked);
+        let mut on_mesh = full::Controller::<f64>::new(&baked);
         let model = condense(&problem)?;
         let work = condensed::Work { pivots: Some(100), sweeps: 100 };
         let small = condensed::Baked::<f64>::new(&model, work, true).expect("in range");
@@ -151,7 +150,7 @@ fn ends_cross_beside_an_input_of_another_limit() -> Result<()> {
     let cap = "input.cap = { of = \"left\", field = \"limit\", pattern = \"1\", range = [0, 1] }";
     let (_, problem) = on_grid(&crossing("-9", left, cap), grid(4, Cells::Triangles))?;
     let baked = full::Baked::<f64>::new(&problem)?;
-    let mut on_mesh = full::Controller::<f64, TRIANGLES>::new(&baked);
+    let mut on_mesh = full::Controller::<f64>::new(&baked);
     let verdict = on_mesh.tick_within(&[0.0], to_the_end()).expect("a tick").1.verdict;
     check_total("full", verdict.certificate().expect("a bound").total, 20.0);
     Ok(())

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::Bakes;
 use crate::full::{Baked, Controller};
 use crate::narrow::narrow;
 use signorini_certify::CertifiedFields;
@@ -10,7 +11,6 @@ use signorini_certify::exact::distance;
 use signorini_device::tick::{Limits, Report};
 use signorini_problem::Problem;
 use signorini_problem::fixtures::on_grid;
-use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
 use signorini_session::tick::{Budget, ScheduledTick, TickRecord, play};
@@ -39,7 +39,7 @@ output.skin = { kind = "mean", of = "contact" }
 "#;
 
 /// Limits of a tick that goes on until sweeps change nothing that counts.
-pub fn to_the_end<R: Scalar>() -> Limits<R> {
+pub fn to_the_end<R: Bakes>() -> Limits<R> {
     Limits { share: R::narrow(1e-9), ..Limits::default() }
 }
 
@@ -75,14 +75,14 @@ pub struct Beside<'p> {
 
 impl Beside<'_> {
     /// Compares outputs and duality gap of each warm tick; `see` is shown outputs, report and solution.
-    pub fn ticks<R: Scalar, const WIDTH: usize>(
+    pub fn ticks<R: Bakes>(
         &self,
         allowed: Tolerance,
         mut see: impl FnMut(&[R], &Report<R>, &Solution),
     ) -> Result<()> {
         let baked = Baked::<R>::new(self.problem)?;
         assert!(baked.has_bound() && baked.features().contains(&self.feature));
-        let mut controller = Controller::<R, WIDTH>::new(&baked);
+        let mut controller = Controller::<R>::new(&baked);
         for values in &self.steps {
             let tick = controller.tick_within(&narrow(values), to_the_end());
             let (found, report) = tick.expect("a tick");
@@ -106,7 +106,7 @@ impl Beside<'_> {
 }
 
 /// s and τ of the last tick.
-fn certified<R: Scalar, const WIDTH: usize>(controller: &Controller<R, WIDTH>) -> CertifiedFields {
+fn certified<R: Bakes>(controller: &Controller<R>) -> CertifiedFields {
     let wide = |numbers: &[R]| -> Vec<f64> { numbers.iter().map(|x| x.wide()).collect() };
     let tau = wide(controller.tau());
     let bubbles = match controller.bubbles() {
@@ -125,8 +125,8 @@ fn certified<R: Scalar, const WIDTH: usize>(controller: &Controller<R, WIDTH>) -
 }
 
 /// Ticks that are cut off after so many sweeps: a bound holds of any iterate, and is at most so many times the error.
-pub fn bounded<R: Scalar, const WIDTH: usize>(
-    controller: &mut Controller<R, WIDTH>,
+pub fn bounded<R: Bakes>(
+    controller: &mut Controller<R>,
     now: &Problem,
     inputs: &[f64],
     cut_offs: &[(u32, f64)],

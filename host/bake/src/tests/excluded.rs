@@ -5,7 +5,6 @@ use crate::choice::{Choice, Wanted};
 use crate::emit::emit;
 use crate::{condensed, full};
 use signorini_kernel::Error;
-use signorini_kernel::rows::TRIANGLES;
 use signorini_problem::Problem;
 use signorini_problem::fixtures::on_grid;
 use signorini_scene::mesh::structured::{Cells, grid};
@@ -59,7 +58,7 @@ fn by_both_models<R: Bakes>(problem: &Problem) {
     let [mut one, mut other] = [(); 2].map(|()| condensed::Controller::new(small));
     check::<R, _>(|p| one.tick(p), |p| other.tick(p));
     let large = full::Baked::<R>::new(problem).expect("a full model");
-    let [mut one, mut other] = [(); 2].map(|()| full::Controller::<R, TRIANGLES>::new(&large));
+    let [mut one, mut other] = [(); 2].map(|()| full::Controller::<R>::new(&large));
     check::<R, _>(|p| one.tick(p), |p| other.tick(p));
 }
 

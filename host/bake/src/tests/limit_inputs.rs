@@ -2,15 +2,14 @@
 //! an exact solution, and where inputs leave no flux.
 
 use super::direct::{Beside, HEATER, bounded, directly, played, refusal, to_the_end};
+use crate::Bakes;
 use crate::full::{Baked, Controller, source};
 use crate::narrow::narrow;
 use signorini_kernel::Error;
-use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::Problem;
 use signorini_problem::fixtures::limited::{crossing, fading};
 use signorini_problem::fixtures::{changed, on_grid};
 use signorini_problem::inputs::{InputSpace, drawn};
-use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_tolerances::Tolerance;
@@ -46,13 +45,13 @@ fn steps(problem: &Problem, ticks: usize) -> Vec<Vec<f64>> {
 }
 
 /// Ticks as solves, in which each of two lengths vanishes at times, and not always.
-fn against_the_direct_solver<R: Scalar, const WIDTH: usize>(
+fn against_the_direct_solver<R: Bakes>(
     beside: &Beside,
     lengths: [usize; 2],
     allowed: Tolerance,
 ) -> Result<()> {
     let mut seen = [[false; 2]; 2];
-    beside.ticks::<R, WIDTH>(allowed, |found, _, _| {
+    beside.ticks::<R>(allowed, |found, _, _| {
         for (seen, length) in seen.iter_mut().zip(lengths) {
             seen[usize::from(found[length] > R::ZERO)] = true;
         }
@@ -61,28 +60,24 @@ fn against_the_direct_solver<R: Scalar, const WIDTH: usize>(
     Ok(())
 }
 
-fn supplied<R: Scalar, const WIDTH: usize>(
-    problem: &Problem,
-    ticks: usize,
-    allowed: Tolerance,
-) -> Result<()> {
+fn supplied<R: Bakes>(problem: &Problem, ticks: usize, allowed: Tolerance) -> Result<()> {
     // Where both ends are equal u may pass through the gap, and no length is defined but by rounding.
     let is_undefined = |values: &[f64], name: &str| {
         values[0] == 0.0 && values[1] == -2.0 && ["short", "kept"].contains(&name)
     };
     let steps = steps(problem, ticks);
     let beside = Beside { problem, feature: "limited", steps, least: |_| 10.0, is_undefined };
-    against_the_direct_solver::<R, WIDTH>(&beside, [2, 3], allowed)
+    against_the_direct_solver::<R>(&beside, [2, 3], allowed)
 }
 
 #[test]
 fn a_tick_is_a_solve_with_these_ends() -> Result<()> {
     let (_, problem) = on_grid(SUPPLY, grid(6, Cells::Triangles))?;
-    supplied::<f64, TRIANGLES>(&problem, 30, LIMITED_INPUT_TICK)?;
-    supplied::<f32, TRIANGLES>(&problem, 30, LIMITED_INPUT_TICK_NARROW)?;
+    supplied::<f64>(&problem, 30, LIMITED_INPUT_TICK)?;
+    supplied::<f32>(&problem, 30, LIMITED_INPUT_TICK_NARROW)?;
     for cells in [Cells::Quads, Cells::Mixed] {
         let (_, problem) = on_grid(SUPPLY, grid(6, cells))?;
-        supplied::<f64, QUADS>(&problem, 10, LIMITED_INPUT_TICK)?;
+        supplied::<f64>(&problem, 10, LIMITED_INPUT_TICK)?;
     }
     Ok(())
 }
@@ -91,11 +86,11 @@ fn a_tick_is_a_solve_with_these_ends() -> Result<()> {
 fn a_factor_serves_every_range() -> Result<()> {
     let text = format!("{SUPPLY}[setting]\nsolver = \"factor\"\n");
     let (_, problem) = on_grid(&text, grid(6, Cells::Mixed))?;
-    supplied::<f64, QUADS>(&problem, 20, LIMITED_INPUT_TICK)
+    supplied::<f64>(&problem, 20, LIMITED_INPUT_TICK)
 }
 
 /// Inputs of [`HEATER`], among them some for each state alone, and back again.
-fn heated<R: Scalar, const WIDTH: usize>(problem: &Problem, allowed: Tolerance) -> Result<()> {
+fn heated<R: Bakes>(problem: &Problem, allowed: Tolerance) -> Result<()> {
     let steps = [
         [-3.0, 0.0, 0.0],
         [-40.0, 0.0, 0.0],
@@ -108,17 +103,17 @@ fn heated<R: Scalar, const WIDTH: usize>(problem: &Problem, allowed: Tolerance) 
     let steps = steps.map(Vec::from).into();
     let beside =
         Beside { problem, feature: "limited", steps, least: |_| 2.0, is_undefined: |_, _| false };
-    against_the_direct_solver::<R, WIDTH>(&beside, [1, 2], allowed)
+    against_the_direct_solver::<R>(&beside, [1, 2], allowed)
 }
 
 #[test]
 fn a_heater_with_a_limit_is_ticked() -> Result<()> {
     let (_, problem) = on_grid(HEATER, grid(6, Cells::Triangles))?;
-    heated::<f64, TRIANGLES>(&problem, LIMITED_TICK)?;
-    heated::<f32, TRIANGLES>(&problem, LIMITED_TICK_NARROW)?;
+    heated::<f64>(&problem, LIMITED_TICK)?;
+    heated::<f32>(&problem, LIMITED_TICK_NARROW)?;
     for cells in [Cells::Quads, Cells::Mixed] {
         let (_, problem) = on_grid(HEATER, grid(6, cells))?;
-        heated::<f64, QUADS>(&problem, LIMITED_TICK)?;
+        heated::<f64>(&problem, LIMITED_TICK)?;
     }
     Ok(())
 }
@@ -175,10 +170,10 @@ fn cut_offs(most: f64) -> [(u32, f64); 4] {
     [(0, any), (3, any), (30, any), (u32::MAX, most)]
 }
 
-fn bounds<R: Scalar, const WIDTH: usize>(cells: Cells) -> Result<()> {
+fn bounds<R: Bakes>(cells: Cells) -> Result<()> {
     let (_, problem) = on_grid(&transitions(1.0), grid(6, cells))?;
     let baked = Baked::<R>::new(&problem)?;
-    let mut controller = Controller::<R, WIDTH>::new(&baked);
+    let mut controller = Controller::<R>::new(&baked);
     for p in [1.0, 0.02, 300.0, 0.7] {
         let (_, now) = on_grid(&transitions(p), grid(6, cells))?;
         bounded(&mut controller, &now, &[p, p], &cut_offs(1.05))?;
@@ -188,9 +183,9 @@ fn bounds<R: Scalar, const WIDTH: usize>(cells: Cells) -> Result<()> {
 
 #[test]
 fn the_bound_holds_for_every_supply() -> Result<()> {
-    bounds::<f64, TRIANGLES>(Cells::Triangles)?;
-    bounds::<f32, TRIANGLES>(Cells::Triangles)?;
-    bounds::<f64, QUADS>(Cells::Mixed)
+    bounds::<f64>(Cells::Triangles)?;
+    bounds::<f32>(Cells::Triangles)?;
+    bounds::<f64>(Cells::Mixed)
 }
 
 /// Without its ranges.
@@ -198,10 +193,10 @@ fn unranged() -> String {
     changed(SUPPLY, &[(", range = [0.0, 1.5]", ""), (", range = [-2.0, 4.0]", "")])
 }
 
-fn refused_and_kept<R: Scalar>() -> Result<()> {
+fn refused_and_kept<R: Bakes>() -> Result<()> {
     let (_, problem) = on_grid(&unranged(), grid(4, Cells::Triangles))?;
     let baked = Baked::<R>::new(&problem)?;
-    let mut controller = Controller::<R, TRIANGLES>::new(&baked);
+    let mut controller = Controller::<R>::new(&baked);
     let inputs = [1.0, 0.0, 0.0, -3.0];
     let (first, _) = controller.tick_within(&narrow(&inputs), to_the_end()).expect("a tick");
     let u = controller.u().to_vec();
@@ -247,10 +242,10 @@ fn ranges_that_leave_no_flux_are_refused_with_the_corner() -> Result<()> {
     Ok(())
 }
 
-fn fades<R: Scalar, const WIDTH: usize>(cells: Cells) -> Result<()> {
+fn fades<R: Bakes>(cells: Cells) -> Result<()> {
     let (_, problem) = on_grid(&fading(), grid(8, cells))?;
     let baked = Baked::<R>::new(&problem)?;
-    let mut controller = Controller::<R, WIDTH>::new(&baked);
+    let mut controller = Controller::<R>::new(&baked);
     for supply in [1.0, 0.05, 3.0] {
         let now = problem.with_inputs(&[supply])?;
         bounded(&mut controller, &now, &[supply], &cut_offs(3.0))?;
@@ -261,9 +256,9 @@ fn fades<R: Scalar, const WIDTH: usize>(cells: Cells) -> Result<()> {
 /// Ends that meet at both corners for every supply within its range.
 #[test]
 fn a_span_that_fades_has_a_bound_within_ranges() -> Result<()> {
-    fades::<f64, TRIANGLES>(Cells::Triangles)?;
-    fades::<f32, TRIANGLES>(Cells::Triangles)?;
-    fades::<f64, QUADS>(Cells::Mixed)
+    fades::<f64>(Cells::Triangles)?;
+    fades::<f32>(Cells::Triangles)?;
+    fades::<f64>(Cells::Mixed)
 }
 
 #[test]
@@ -272,7 +267,7 @@ fn a_span_that_varies_along_edges_has_no_bound_without_ranges() -> Result<()> {
     let (_, problem) = on_grid(&bent, grid(3, Cells::Triangles))?;
     let baked = Baked::<f64>::new(&problem)?;
     assert!(!baked.has_bound());
-    let mut controller = Controller::<f64, TRIANGLES>::new(&baked);
+    let mut controller = Controller::<f64>::new(&baked);
     let values = [0.8, 0.5, 0.0, -9.0];
     let (found, report) = controller.tick_within(&values, to_the_end()).expect("a tick");
     assert!(report.verdict.certificate().is_none());

@@ -1,12 +1,11 @@
 //! Means of u over boundaries: of an affine u they are known, in every model and scalar.
 
+use crate::Bakes;
 use crate::{condensed, full};
 use signorini_condense::condense;
 use signorini_device::tick::Limits;
-use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::Problem;
 use signorini_problem::fixtures::{distorted, on_grid};
-use signorini_problem::scalar::Scalar;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_solve::outputs::outputs;
 use signorini_solve::{Options, ScalarKind, SolverKind, solve};
@@ -60,7 +59,7 @@ fn solved(what: &str, problem: &Problem, level: f64) {
     }
 }
 
-fn baked<R: Scalar>(what: &str, problem: &Problem, level: f64, allowed: Tolerance) {
+fn baked<R: Bakes>(what: &str, problem: &Problem, level: f64, allowed: Tolerance) {
     let model = condense(problem).expect("a condensed model");
     let work = condensed::Work { pivots: Some(1000), sweeps: 10_000 };
     let small = condensed::Baked::<R>::new(&model, work, true).expect("in range");
@@ -70,11 +69,8 @@ fn baked<R: Scalar>(what: &str, problem: &Problem, level: f64, allowed: Toleranc
     check(&format!("{what}, condensed, {}", R::NAME), &values, level, allowed);
     let large = full::Baked::<R>::new(problem).expect("a full model");
     let limits = Limits { sweeps: 20_000, share: R::ZERO, error: R::ZERO };
-    let values = match problem.mesh.quads.is_empty() {
-        true => full::Controller::<R, TRIANGLES>::new(&large).tick_within(&inputs, limits),
-        false => full::Controller::<R, QUADS>::new(&large).tick_within(&inputs, limits),
-    };
-    let values: Vec<_> = values.expect("a tick").0.iter().map(|value| value.wide()).collect();
+    let (values, _) = full::Controller::new(&large).tick_within(&inputs, limits).expect("a tick");
+    let values: Vec<_> = values.iter().map(|value| value.wide()).collect();
     check(&format!("{what}, full, {}", R::NAME), &values, level, allowed);
 }
 

@@ -1,13 +1,13 @@
 //! Inputs whose loads contact cannot hold, or holds at no one place, in ticks of a condensed model: against loads added up by hand and what the host
 //! says of the same problem, and the ticks that follow against a controller that was never asked.
 
+use crate::Bakes;
 use crate::condensed::{Baked, Controller, Work};
 use signorini_condense::condense;
 use signorini_kernel::Error;
 use signorini_kernel::error::CellId;
 use signorini_problem::fixtures::{changed, on_grid};
 use signorini_problem::inputs::{InputSpace, drawn};
-use signorini_problem::scalar::Scalar;
 use signorini_problem::{Parts, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
@@ -72,7 +72,7 @@ fn of_host(problem: &Problem, inputs: &[f64]) -> Result<End> {
 }
 
 /// Ticks of one controller, and those among them that it answers of another one, which has the same answers.
-fn ticked<R: Scalar>(problem: &Problem, baked: &Baked<R>, inputs: &[Vec<f64>]) -> Result<Vec<End>> {
+fn ticked<R: Bakes>(problem: &Problem, baked: &Baked<R>, inputs: &[Vec<f64>]) -> Result<Vec<End>> {
     let (mut controller, mut spared) = (Controller::new(baked), Controller::new(baked));
     let mut ends = Vec::new();
     for p in inputs {

@@ -1,5 +1,6 @@
 //! The kernel's exact method on the condensed problem.
 
+use signorini_bake::Bakes;
 use signorini_contact::dense::Iterate;
 use signorini_contact::dense::blocks::{Block, SIDE, count, padded};
 use signorini_contact::dense::ranges::Given;
@@ -14,14 +15,13 @@ use super::quadratic::QuadraticLoads;
 use super::series::{InitialGuess, Run, TimedSolver, counted};
 use signorini_bake::condensed::{Baked, Work};
 use signorini_condense::CondensedModel;
-use signorini_problem::scalar::Scalar;
 use signorini_scene::Result;
 
 /// Exchanges of a solve, and sweeps where these do not suffice: no limit that is reached.
 const WORK: Work = Work { pivots: Some(100_000), sweeps: 100_000 };
 
 /// The model, the loads of the ticks, and the memory of a controller.
-pub(super) struct Pivots<R: Scalar> {
+pub(super) struct Pivots<R: Bakes> {
     baked: Baked<R>,
     loads: Vec<Vec<R>>,
     /// Nothing in a tick without limits.
@@ -35,7 +35,7 @@ pub(super) struct Pivots<R: Scalar> {
     columns: [Vec<R>; 2],
 }
 
-impl<R: Scalar> Pivots<R> {
+impl<R: Bakes> Pivots<R> {
     pub fn new(condensate: &CondensedModel, ticks: &[QuadraticLoads]) -> Result<Self> {
         let baked = Baked::new(condensate, WORK, false).map_err(failed)?;
         let n = padded(condensate.contact);
@@ -89,7 +89,7 @@ impl<R: Scalar> Pivots<R> {
     }
 }
 
-impl<R: Scalar> TimedSolver for Pivots<R> {
+impl<R: Bakes> TimedSolver for Pivots<R> {
     /// Exact: the tolerance has no say.
     fn run(&mut self, tick: usize, start: InitialGuess, _: f64) -> Result<Run> {
         let (cycles, progress) = self.solve(tick, start).map_err(failed)?;

@@ -5,10 +5,8 @@ use signorini_bake::Bakes;
 use signorini_bake::choice::{Choice, Model, Wanted};
 use signorini_bake::compiled::printed;
 use signorini_bake::full::{Baked, Controller, source};
-use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::Problem;
 use signorini_problem::fixtures::on_grid;
-use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_solve::ScalarKind;
@@ -103,10 +101,7 @@ fn a_controller_steps_as_this_machine_does() -> Result<()> {
 }
 
 /// Outputs, total and window of ticks from `first` on.
-fn played<R: Scalar, const WIDTH: usize>(
-    controller: &mut Controller<R, WIDTH>,
-    ticks: std::ops::Range<u32>,
-) -> Vec<Vec<R>> {
+fn played<R: Bakes>(controller: &mut Controller<R>, ticks: std::ops::Range<u32>) -> Vec<Vec<R>> {
     let tick = |at| {
         let (mut numbers, report) = controller.tick(&inputs(at).map(R::narrow)).expect("a tick");
         numbers.push(report.verdict.certificate().expect("a bound").total);
@@ -127,7 +122,7 @@ fn stepping<R: Bakes>(problem: &Problem) -> Result<Baked<R>> {
 #[test]
 fn a_refused_tick_advances_nothing_and_a_reset_all() -> Result<()> {
     let baked = stepping::<f32>(&heated(Cells::Mixed, "")?)?;
-    let mut controller = Controller::<f32, QUADS>::new(&baked);
+    let mut controller = Controller::<f32>::new(&baked);
     let whole = played(&mut controller, 1..9);
     controller.reset();
     let start = controller.window();
@@ -143,7 +138,7 @@ fn a_refused_tick_advances_nothing_and_a_reset_all() -> Result<()> {
     assert_eq!([first, then].concat(), whole);
     controller.reset();
     assert_eq!(controller.window(), start);
-    assert_eq!(Controller::<f32, QUADS>::new(&baked).window(), start);
+    assert_eq!(Controller::<f32>::new(&baked).window(), start);
     Ok(())
 }
 
@@ -171,7 +166,7 @@ fn main() {{
         |numbers: &[f64], total: f64, window: f64| format!("{numbers:?} {total:?} {window:?}\n");
     let problem = heated(Cells::Triangles, "")?;
     let baked = stepping::<f64>(&problem)?;
-    let mut controller = Controller::<f64, TRIANGLES>::new(&baked);
+    let mut controller = Controller::<f64>::new(&baked);
     let expected: String = played(&mut controller, 1..9)
         .iter()
         .map(|numbers| match &numbers[..] {
@@ -277,7 +272,7 @@ fn main() {{
     let problem = heated(Cells::Triangles, "")?;
     let baked = stepping::<f32>(&problem)?;
     let told = printed(&(source(&baked) + &program));
-    let [mut one, mut other] = [(); 2].map(|()| Controller::<f32, TRIANGLES>::new(&baked));
+    let [mut one, mut other] = [(); 2].map(|()| Controller::<f32>::new(&baked));
     played(&mut one, 1..5);
     let state = one.state().expect("a state");
     assert_eq!(told.trim(), format!("{:?}", &state[..state.len() - 4]));

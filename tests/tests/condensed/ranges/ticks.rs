@@ -1,11 +1,11 @@
 //! Controllers baked from reduced models: solved to the end, and cut off in every way; and the worst case that is proved, which
 //! no tick exceeds.
 
+use signorini_bake::Bakes;
 use signorini_bake::condensed::{Baked, Controller, Work};
 use signorini_condense::{CondensedModel, Measure};
 use signorini_kernel::report::{Ended, Report};
 use signorini_problem::inputs::{self, InputSpace};
-use signorini_problem::scalar::Scalar;
 use signorini_tests::random::Random;
 use signorini_tolerances::Tolerance;
 use signorini_tolerances::cases;
@@ -32,7 +32,7 @@ const CUT_OFF: [Work; 7] = [
 ];
 
 /// One answer of a controller in f64, with the inputs that its scalar had.
-struct Tick<R: Scalar> {
+struct Tick<R: Bakes> {
     p: Vec<f64>,
     /// Of the reduced model.
     own: Vec<f64>,
@@ -42,7 +42,7 @@ struct Tick<R: Scalar> {
     report: Report<R>,
 }
 
-impl<R: Scalar> Tick<R> {
+impl<R: Bakes> Tick<R> {
     fn new(pair: &Pair, controller: &mut Controller<R>, random: &mut Random) -> Self {
         let p = drawn(&pair.whole, random);
         let narrow: Vec<R> = p.iter().map(|&p| R::narrow(p)).collect();
@@ -98,7 +98,7 @@ fn is_force(measure: &Measure) -> bool {
 
 /// Ticks solved to the end, against the solution of the whole model in f64; the largest deviation of outputs over their
 /// terms, and over their largest values.
-fn solved<R: Scalar>(pair: &Pair, ticks: usize, allowed: Tolerance) -> [f64; 2] {
+fn solved<R: Bakes>(pair: &Pair, ticks: usize, allowed: Tolerance) -> [f64; 2] {
     let Pair { what, whole, reduced, .. } = pair;
     let baked = Baked::<R>::new(&reduced.model, EXACT, true).expect("in range");
     let (mut controller, random) = (Controller::new(&baked), &mut Random::new(5));
@@ -126,7 +126,7 @@ fn solved<R: Scalar>(pair: &Pair, ticks: usize, allowed: Tolerance) -> [f64; 2] 
 }
 
 /// Ticks cut off, from one corner of the box to another.
-fn cut_off<R: Scalar>(pair: &Pair, ticks: usize) -> usize {
+fn cut_off<R: Bakes>(pair: &Pair, ticks: usize) -> usize {
     let (mut unfinished, mut solutions) = (0, Vec::new());
     for work in CUT_OFF {
         let baked = Baked::<R>::new(&pair.reduced.model, work, true).expect("in range");
@@ -213,7 +213,7 @@ fn nothing_is_told_of_inputs_outside_their_ranges() {
 const MANY: usize = 1_000_000;
 
 /// The most exchanges of so many ticks, half of them at corners of the box; all end with the solution.
-fn most<R: Scalar>(pair: &Pair, ticks: usize) -> [u32; 2] {
+fn most<R: Bakes>(pair: &Pair, ticks: usize) -> [u32; 2] {
     let model = &pair.reduced.model;
     let baked = Baked::<R>::new(model, EXACT, false).expect("in range");
     let proved = baked.worst_exchanges().expect("all signs are right");

@@ -7,7 +7,6 @@ use signorini_condense::{condense, modal};
 use signorini_kernel::Error;
 use signorini_problem::Problem;
 use signorini_problem::fixtures::{SMOOTH, distorted, on_grid, scatter, scene};
-use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh;
 use signorini_scene::mesh::structured::{Cells, grid};
@@ -18,6 +17,7 @@ use signorini_solve::{Options, ScalarKind, solve};
 use signorini_tolerances::bake::{GUARANTEE, MODAL, MODAL_BEST, MODAL_BOUND, MODAL_NARROW};
 
 use super::super::{Baked, Controller, Work, source};
+use crate::Bakes;
 use crate::choice::{Choice, Model, Wanted};
 use crate::explain::explanation;
 use crate::module_api::ModuleApi;
@@ -208,7 +208,7 @@ fn modes_that_are_left_out_are_paid_for() -> Result<()> {
     Ok(())
 }
 
-fn same_bits<R: Scalar>(text: &str, work: Work, certified: bool) -> Result<()> {
+fn same_bits<R: Bakes>(text: &str, work: Work, certified: bool) -> Result<()> {
     let (_, problem) = on_grid(text, grid(3, Cells::Mixed))?;
     let (modes, _) = modal(&problem, 0.0)?;
     let baked = Baked::<R>::modal(&modes, work, certified).expect("numbers in range");

@@ -1,12 +1,11 @@
 //! Inputs that take back nearly all of what the scene states: the bound still holds for what is left.
 
-use signorini_kernel::rows::TRIANGLES;
 use signorini_problem::fixtures;
-use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 
 use super::{Baked, Controller, to_the_end};
+use crate::Bakes;
 use crate::narrow::narrow;
 
 /// u = c (x + 1) on (−1, 1) × (0, 1), 2c on the right, with c in proportion to 1 + p: the law there, and the ratio.
@@ -48,7 +47,7 @@ const ACROSS: &str = "
     output.mean = { kind = \"mean\", of = \"contact\" }";
 
 /// How far u is off where its mean should be this, and how far it may be: ‖∇u‖ is the root of 2 times the slope.
-fn off<R: Scalar>(
+fn off<R: Bakes>(
     text: &str,
     inputs: &[f64],
     slope: f64,
@@ -58,7 +57,7 @@ fn off<R: Scalar>(
     let (_, problem) =
         fixtures::on_grid(&text, grid(if inputs.len() > 1 { 8 } else { 7 }, Cells::Triangles))?;
     let baked = Baked::<R>::new(&problem)?;
-    let mut controller = Controller::<R, TRIANGLES>::new(&baked);
+    let mut controller = Controller::<R>::new(&baked);
     let inputs: Vec<R> = narrow(inputs);
     let (outputs, report) = controller.tick_within(&inputs, to_the_end()).expect("a tick");
     let mean = mean(inputs[0].wide());

@@ -1,26 +1,24 @@
 //! The text as the compiler sees it: no warnings, and the bits of the same arrays on the host.
 
-use signorini_kernel::rows;
-
 use super::setting::{scene, unbounded};
 use super::{BENT, Baked, Controller, fixtures, source};
+use crate::Bakes;
 use crate::compiled::{printed, ran};
 use crate::tests::{self, FIRMWARE};
 use signorini_problem::Problem;
-use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::setting::{MathKind, Method, Omega, Setting, Start};
 
-fn same_bits<R: Scalar, const WIDTH: usize>(cells: Cells) -> Result<()> {
+fn same_bits<R: Bakes>(cells: Cells) -> Result<()> {
     let (_, problem) = fixtures::on_grid(BENT, grid(3, cells))?;
-    same_bits_of::<R, WIDTH>(&problem)
+    same_bits_of::<R>(&problem)
 }
 
 /// Of the module and of the host's controller, in a cold and a warm tick.
-pub(super) fn same_bits_of<R: Scalar, const WIDTH: usize>(problem: &Problem) -> Result<()> {
+pub(super) fn same_bits_of<R: Bakes>(problem: &Problem) -> Result<()> {
     let baked = Baked::<R>::new(problem)?;
-    let mut controller = Controller::<R, WIDTH>::new(&baked);
+    let mut controller = Controller::<R>::new(&baked);
     let defaults = || problem.scene.inputs.iter().skip(1).map(|input| input.default);
     let log = [0.3, -0.2].map(|lift| std::iter::once(lift).chain(defaults()).collect());
     let tick = |inputs: &[R]| controller.tick(inputs).map(|(outputs, _)| outputs);
@@ -44,12 +42,12 @@ fn a_kernel_of_another_version_is_refused() -> Result<()> {
 
 #[test]
 fn triangles_in_f32() -> Result<()> {
-    same_bits::<f32, { rows::TRIANGLES }>(Cells::Triangles)
+    same_bits::<f32>(Cells::Triangles)
 }
 
 #[test]
 fn both_kinds_of_cells_in_f64() -> Result<()> {
-    same_bits::<f64, { rows::QUADS }>(Cells::Mixed)
+    same_bits::<f64>(Cells::Mixed)
 }
 
 #[test]
@@ -57,7 +55,7 @@ fn nonparametric_quads_in_f32() -> Result<()> {
     let text = format!("{BENT}[setting]\nelement = \"nonparametric\"\n");
     let mesh = fixtures::distorted(grid(3, Cells::Quads));
     let (_, problem) = fixtures::on_grid(&text, mesh)?;
-    same_bits_of::<f32, { rows::QUADS }>(&problem)
+    same_bits_of::<f32>(&problem)
 }
 
 #[test]
@@ -65,7 +63,7 @@ fn a_coefficient_that_an_input_changes() -> Result<()> {
     let wind = "[input.wind]\nof = \"left\"\nfield = \"coefficient\"\npattern = \"1 - y/3\"\n";
     let text = format!("{BENT}{wind}default = 0.5\nrange = [0, 3]\n");
     let (_, problem) = fixtures::on_grid(&text, grid(3, Cells::Triangles))?;
-    same_bits_of::<f32, { rows::TRIANGLES }>(&problem)
+    same_bits_of::<f32>(&problem)
 }
 
 #[test]
@@ -76,14 +74,14 @@ fn a_limit_that_an_input_changes() -> Result<()> {
     let text = format!("{limited}{supply}default = 0.5\nrange = [0, 2]\n")
         .replace("pattern = \"-1 - x\"", "pattern = \"-1\"");
     let (_, problem) = fixtures::on_grid(&text, grid(3, Cells::Triangles))?;
-    same_bits_of::<f32, { rows::TRIANGLES }>(&problem)
+    same_bits_of::<f32>(&problem)
 }
 
 #[test]
 fn with_a_setting() -> Result<()> {
     let fast = Setting { math: MathKind::Micromath, share: Some(0.3), ..Setting::default() };
     let problem = scene(BENT, Cells::Mixed, fast)?;
-    same_bits_of::<f32, { rows::QUADS }>(&problem)?;
+    same_bits_of::<f32>(&problem)?;
     let plain = Setting {
         start: Start::Cold,
         omega: Omega::Fixed(1.4),
@@ -92,7 +90,7 @@ fn with_a_setting() -> Result<()> {
         ..Setting::default()
     };
     let problem = scene(unbounded(), Cells::Mixed, plain)?;
-    same_bits_of::<f32, { rows::QUADS }>(&problem)
+    same_bits_of::<f32>(&problem)
 }
 
 #[test]

@@ -7,15 +7,14 @@ use signorini_tolerances::bake::{
 use std::path::Path;
 
 use signorini_device::tick::{Ended, Report};
-use signorini_kernel::rows::TRIANGLES;
 
 use super::compiled::same_bits_of;
 use super::setting::{scene, unbounded};
-use super::{BENT, Baked, Controller, STEPS, fixtures, rows, source, ticks};
+use super::{BENT, Baked, Controller, STEPS, fixtures, source, ticks};
+use crate::Bakes;
 use crate::choice::{Candidate, Choice, Model, Wanted};
 use crate::full::sizes;
 use signorini_problem::Problem;
-use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh;
 use signorini_scene::mesh::structured::{Cells, grid};
@@ -65,13 +64,13 @@ fn reference(problem: &Problem, lift: f64) -> Result<Solution> {
 
 fn swept(problem: &Problem) -> Result<Report<f64>> {
     let baked = Baked::<f64>::new(&problem.with_setting(None))?;
-    Ok(Controller::<f64, TRIANGLES>::new(&baked).tick(&[0.0]).expect("a tick").1)
+    Ok(Controller::<f64>::new(&baked).tick(&[0.0]).expect("a tick").1)
 }
 
 /// Ticks as the direct solver has them, u to `allowed` and the bound to a thousandth.
-fn as_directly_solved<R: Scalar>(problem: &Problem, allowed: Tolerance) -> Result<()> {
+fn as_directly_solved<R: Bakes>(problem: &Problem, allowed: Tolerance) -> Result<()> {
     let baked = Baked::<R>::new(problem)?;
-    let mut controller = Controller::<R, TRIANGLES>::new(&baked);
+    let mut controller = Controller::<R>::new(&baked);
     for lift in [0.0, 0.0, 1.0, -2.0, 0.5] {
         let (outputs, report) = controller.tick(&[R::narrow(lift)]).expect("a tick");
         let solved = controller.solved().expect("a factor");
@@ -120,20 +119,20 @@ fn every_kind_of_input_gives_what_sweeps_give() -> Result<()> {
     let text = format!("{BENT}[setting]\nsolver = \"factor\"\n");
     for cells in [Cells::Quads, Cells::Mixed] {
         let (_, problem) = fixtures::on_grid(&text, grid(5, cells))?;
-        ticks::<f64, { rows::QUADS }>(&problem, &STEPS, TICK)?;
+        ticks::<f64>(&problem, &STEPS, TICK)?;
     }
     let (_, problem) = fixtures::on_grid(&text, grid(5, Cells::Triangles))?;
-    ticks::<f64, TRIANGLES>(&problem, &STEPS, TICK)?;
-    ticks::<f32, TRIANGLES>(&problem, &STEPS, TICK_NARROW)
+    ticks::<f64>(&problem, &STEPS, TICK)?;
+    ticks::<f32>(&problem, &STEPS, TICK_NARROW)
 }
 
 #[test]
 fn the_module_has_the_bits_of_the_same_arrays() -> Result<()> {
     let problem = scene(BENT, Cells::Mixed, factor())?;
-    same_bits_of::<f32, { rows::QUADS }>(&problem)?;
+    same_bits_of::<f32>(&problem)?;
     let plain = Setting { certificate: false, start: Start::Cold, ..factor() };
     let problem = scene(unbounded(), Cells::Triangles, plain)?;
-    same_bits_of::<f64, TRIANGLES>(&problem)
+    same_bits_of::<f64>(&problem)
 }
 
 #[test]
@@ -146,7 +145,7 @@ fn a_module_without_contact() -> Result<()> {
     let text = fixtures::changed(unbounded(), &changes);
     let setting = Setting { certificate: false, ..factor() };
     let problem = scene(&text, Cells::Triangles, setting)?;
-    same_bits_of::<f32, TRIANGLES>(&problem)
+    same_bits_of::<f32>(&problem)
 }
 
 #[test]
@@ -167,7 +166,7 @@ fn the_factor_is_counted() -> Result<()> {
 }
 
 /// Entries of the factor of a candidate.
-fn entries<R: Scalar>(candidate: &Candidate<R>) -> Option<usize> {
+fn entries<R: Bakes>(candidate: &Candidate<R>) -> Option<usize> {
     match &candidate.model {
         Model::Full(baked) => baked.entries(),
         Model::Condensed(_) => None,

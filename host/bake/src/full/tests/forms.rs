@@ -1,7 +1,6 @@
 //! Transfer coefficients that points do not see: the bound of a tick is that of a solve, whatever inputs do to u_ext.
 
 use signorini_certify::ErrorBound;
-use signorini_kernel::rows;
 use signorini_tolerances::bake::TICK;
 
 use super::compiled::same_bits_of;
@@ -22,12 +21,12 @@ fn a_strip_has_the_bound_of_a_solve() -> Result<()> {
     let (_, problem) = fixtures::on_grid(&strip(), grid(4, Cells::Mixed))?;
     let steps: [&[f64]; 2] =
         [&[0.3, 0.7, 0.0, 0.0, 0.0, 0.0, 0.0], &[-0.5, 1.3, 0.4, -1.0, 0.7, 0.5, -2.0]];
-    ticks::<f64, { rows::QUADS }>(&problem, &steps, TICK)?;
+    ticks::<f64>(&problem, &steps, TICK)?;
     let baked = Baked::<f64>::new(&problem)?;
     assert_eq!((baked.data.forms.laws.len(), &baked.data.of_ambient[..]), (1, &[5, 6][..]));
     assert!(baked.features().contains(&"pieces"));
     for values in steps {
-        let mut controller = Controller::<f64, { rows::QUADS }>::new(&baked);
+        let mut controller = Controller::<f64>::new(&baked);
         let (_, report) = controller.tick_within(values, to_the_end()).expect("a tick");
         let found = ErrorBound::new(report.verdict.certificate().expect("a bound")).open();
         let options = Options { averages: true, ..Options::default() };
@@ -42,12 +41,12 @@ fn a_strip_has_the_bound_of_a_solve() -> Result<()> {
 #[test]
 fn the_text_has_the_same_bits() -> Result<()> {
     let (_, problem) = fixtures::on_grid(&strip(), grid(3, Cells::Triangles))?;
-    same_bits_of::<f32, { rows::TRIANGLES }>(&problem)?;
+    same_bits_of::<f32>(&problem)?;
     let air = ["of = \"left\", field = \"ambient\"", "of = \"source\", field = \"f\""];
     let sun = air.map(|of| of.replace(", ", "\n"));
     let still = strip().replace(air[0], air[1]).replace(&sun[0], &sun[1]);
     let (_, problem) = fixtures::on_grid(&still, grid(3, Cells::Triangles))?;
-    same_bits_of::<f64, { rows::TRIANGLES }>(&problem)
+    same_bits_of::<f64>(&problem)
 }
 
 #[test]

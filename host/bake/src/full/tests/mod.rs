@@ -10,16 +10,15 @@ mod setting;
 use signorini_device::tick::Limits;
 use signorini_kernel::Error;
 use signorini_kernel::error::Array;
-use signorini_kernel::rows;
 use signorini_tolerances::Tolerance;
 use signorini_tolerances::bake::{OSCILLATION, TICK, TICK_NARROW};
 
 use super::{Baked, Controller, source};
+use crate::Bakes;
 use crate::tests::standard;
 use signorini_problem::Problem;
 use signorini_problem::fixtures;
 use signorini_problem::functional::wanted;
-use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_solve::outputs::outputs;
@@ -55,21 +54,17 @@ const STEPS: [&[f64]; 3] = [
 ];
 
 /// Limits as far down as rounding lets the algebraic part go.
-fn to_the_end<R: Scalar>() -> Limits<R> {
+fn to_the_end<R: Bakes>() -> Limits<R> {
     Limits { error: R::ZERO, share: R::narrow(1e-9), sweeps: 200_000 }
 }
 
-fn ticks<R: Scalar, const WIDTH: usize>(
-    problem: &Problem,
-    steps: &[&[f64]],
-    allowed: Tolerance,
-) -> Result<()> {
+fn ticks<R: Bakes>(problem: &Problem, steps: &[&[f64]], allowed: Tolerance) -> Result<()> {
     let baked = Baked::<R>::new(problem)?;
-    let mut warm = Controller::<R, WIDTH>::new(&baked);
+    let mut warm = Controller::<R>::new(&baked);
     for values in steps {
         let inputs: Vec<R> = values.iter().map(|&value| R::narrow(value)).collect();
         let (found, report) = warm.tick_within(&inputs, to_the_end()).expect("a tick");
-        let cold = Controller::<R, WIDTH>::new(&baked).tick_within(&inputs, to_the_end());
+        let cold = Controller::<R>::new(&baked).tick_within(&inputs, to_the_end());
         let (cold, _) = cold.expect("a cold tick");
         let problem = problem.with_inputs(values)?;
         let solution = solve(&problem, &Options { averages: true, ..Options::default() })?;
@@ -98,10 +93,10 @@ fn ticks<R: Scalar, const WIDTH: usize>(
 #[test]
 fn every_kind_of_input_gives_what_the_solver_gives() -> Result<()> {
     let (_, problem) = fixtures::on_grid(BENT, grid(5, Cells::Triangles))?;
-    ticks::<f64, { rows::TRIANGLES }>(&problem, &STEPS, TICK)?;
+    ticks::<f64>(&problem, &STEPS, TICK)?;
     for cells in [Cells::Quads, Cells::Mixed] {
         let (_, problem) = fixtures::on_grid(BENT, grid(5, cells))?;
-        ticks::<f64, { rows::QUADS }>(&problem, &STEPS, TICK)?;
+        ticks::<f64>(&problem, &STEPS, TICK)?;
     }
     Ok(())
 }
@@ -112,7 +107,7 @@ fn nonparametric_quads() -> Result<()> {
     let text = format!("{BENT}[setting]\nelement = \"nonparametric\"\n");
     let mesh = fixtures::distorted(grid(5, Cells::Quads));
     let (_, problem) = fixtures::on_grid(&text, mesh)?;
-    ticks::<f64, { rows::QUADS }>(&problem, &STEPS[..2], TICK)?;
+    ticks::<f64>(&problem, &STEPS[..2], TICK)?;
     let baked = Baked::<f64>::new(&problem)?;
     assert_eq!(baked.distortions.len(), problem.mesh.quads.len());
     assert!(source(&baked).contains("distortions: &QUAD_DISTORTIONS"));
@@ -123,8 +118,8 @@ fn nonparametric_quads() -> Result<()> {
 fn standard_scenes_in_both_scalars() -> Result<()> {
     let problem = standard("strip", |_| ());
     let steps: [&[f64]; 2] = [&[0.0], &[0.1]];
-    ticks::<f64, { rows::QUADS }>(&problem, &steps, TICK)?;
-    ticks::<f32, { rows::QUADS }>(&problem, &steps, TICK_NARROW)
+    ticks::<f64>(&problem, &steps, TICK)?;
+    ticks::<f32>(&problem, &steps, TICK_NARROW)
 }
 
 #[test]
@@ -150,7 +145,7 @@ fn data_that_meet_wrongly_are_refused() -> Result<()> {
     let (_, problem) = fixtures::on_grid(&text, grid(3, Cells::Triangles))?;
     let baked = Baked::<f64>::new(&problem)?;
     assert_eq!(baked.corners.len(), 1);
-    let mut controller = Controller::<f64, { rows::TRIANGLES }>::new(&baked);
+    let mut controller = Controller::<f64>::new(&baked);
     let mut bound = |inputs: &[f64]| {
         controller.tick_within(inputs, to_the_end()).map(|(outputs, _)| outputs[4])
     };

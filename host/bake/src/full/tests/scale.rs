@@ -1,10 +1,11 @@
 //! Scenes far from 1: the module's answers are those of the same scene near 1, in other units.
 
 use signorini_device::tick::{Ended, Limits, Report};
-use signorini_kernel::{Real, rows};
+use signorini_kernel::Real;
 use signorini_tolerances::bake::WITHOUT_UNITS;
 
 use super::{BENT, Baked, Controller, fixtures, source, to_the_end};
+use crate::Bakes;
 use crate::compiled::printed;
 use crate::module_api::ModuleApi;
 use signorini_problem::Problem;
@@ -32,30 +33,30 @@ fn bent(units: Units) -> Result<Problem> {
 
 type Found<R> = (Vec<R>, Report<R>);
 
-fn tick<R: Scalar>(baked: &Baked<R>, limits: Limits<R>) -> Found<R> {
-    let mut controller = Controller::<R, { rows::QUADS }>::new(baked);
+fn tick<R: Bakes>(baked: &Baked<R>, limits: Limits<R>) -> Found<R> {
+    let mut controller = Controller::<R>::new(baked);
     controller.tick_within(&INPUTS.map(R::narrow), limits).expect("a tick")
 }
 
-fn baked<R: Scalar>(units: Units) -> Result<Baked<R>> {
+fn baked<R: Bakes>(units: Units) -> Result<Baked<R>> {
     Baked::new(&bent(units)?)
 }
 
 /// Flux, force, length, probe and bound, and what the report has of them.
-fn numbers<R: Scalar>((outputs, report): &Found<R>) -> Vec<f64> {
+fn numbers<R: Bakes>((outputs, report): &Found<R>) -> Vec<f64> {
     let of = report.verdict.certificate().expect("a bound");
     let of_report =
         [report.figures.residual, report.figures.force, of.duality_gap, of.rounding, of.total];
     outputs.iter().chain(&of_report).map(|number| number.wide()).collect()
 }
 
-fn factored<R: Scalar>(units: Units) -> Result<Baked<R>> {
+fn factored<R: Bakes>(units: Units) -> Result<Baked<R>> {
     let problem = bent(units)?;
     let scaled = Scaled::new(&problem, choose_for_inputs(&problem)?)?;
     Baked::of_scaled(&scaled)?.with_factor(scaled.problem())
 }
 
-fn change_nothing<R: Scalar>(baked: fn(Units) -> Result<Baked<R>>, all: &[Units]) -> Result<()> {
+fn change_nothing<R: Bakes>(baked: fn(Units) -> Result<Baked<R>>, all: &[Units]) -> Result<()> {
     let near = tick(&baked(NEAR)?, to_the_end());
     assert!(near.1.active > 0 && near.1.active < 8, "{near:?}");
     for units in all {
@@ -103,7 +104,7 @@ fn without_units_f32_is_lost() -> Result<()> {
 fn the_text_has_the_same_units() -> Result<()> {
     let baked = baked::<f32>(powers(-60, -41))?;
     let limits = Limits { error: 1e-20, ..baked.how.limits };
-    let mut controller = Controller::<f32, { rows::QUADS }>::new(&baked);
+    let mut controller = Controller::<f32>::new(&baked);
     let inputs = INPUTS.map(f32::narrow);
     let (outputs, report) = controller.tick_within(&inputs, limits).expect("a tick");
     let expected = (outputs, report.with(()));
@@ -205,7 +206,7 @@ fn a_large_input_after_defaults_of_zero_has_a_bound() -> Result<()> {
     let (_, problem) = fixtures::on_grid(text, grid(4, Cells::Triangles))?;
     let baked = Baked::<f32>::new(&problem)?;
     for heat in [1.0_f32, 1e6, -1e6, 1e10] {
-        let mut controller = Controller::<f32, { rows::TRIANGLES }>::new(&baked);
+        let mut controller = Controller::<f32>::new(&baked);
         let (_, report) = controller.tick_within(&[heat], to_the_end()).expect("a tick");
         let certificate = report.verdict.certificate();
         let total = certificate.unwrap_or_else(|| panic!("no bound of {heat}: {report:?}")).total;
@@ -219,7 +220,7 @@ fn a_large_input_after_defaults_of_zero_has_a_bound() -> Result<()> {
 fn an_output_beyond_the_scalar_is_no_answer() -> Result<()> {
     let baked = baked::<f32>(powers(42, 42))?;
     let ended = |times: f32| -> Ended {
-        let mut controller = Controller::<f32, { rows::QUADS }>::new(&baked);
+        let mut controller = Controller::<f32>::new(&baked);
         let inputs = INPUTS.map(|input| times * f32::narrow(input));
         let (outputs, report) = controller.tick_within(&inputs, to_the_end()).expect("a tick");
         let is_known = outputs.iter().all(|output| output.finite());

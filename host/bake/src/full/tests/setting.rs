@@ -2,13 +2,12 @@
 
 use signorini_bound::certificate::Verdict;
 use signorini_device::tick::{Ended, Limits, Report};
-use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_tolerances::bake::{SWEPT, SWEPT_NARROW};
 
 use super::{BENT, Baked, Controller, fixtures, to_the_end};
+use crate::Bakes;
 use crate::full::sizes;
 use signorini_problem::Problem;
-use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::setting::{MathKind, Omega, Setting, Start};
@@ -27,10 +26,10 @@ pub(super) fn scene(text: &str, cells: Cells, setting: Setting) -> Result<Proble
 type Told<R> = (Vec<R>, Vec<R>, Report<R>);
 
 /// Answers of ticks with these lifts of the gap.
-fn ticks<R: Scalar>(setting: Setting, lifts: &[f64]) -> Result<Vec<Told<R>>> {
+fn ticks<R: Bakes>(setting: Setting, lifts: &[f64]) -> Result<Vec<Told<R>>> {
     let problem = scene(unbounded(), Cells::Quads, setting)?;
     let baked = Baked::<R>::new(&problem)?;
-    let mut controller = Controller::<R, QUADS>::new(&baked);
+    let mut controller = Controller::<R>::new(&baked);
     let tick = |&lift: &f64| {
         let inputs = [lift, 0.7, 0.0, 0.0, 0.0, 0.0].map(R::narrow);
         let (_, report) = controller.tick(&inputs).expect("a tick");
@@ -139,7 +138,7 @@ fn what_no_module_can_have_is_refused_by_its_key() -> Result<()> {
     let refused = Baked::<f32>::new(&problem).expect_err("refused").to_string();
     assert!(refused.contains("is not inside (0, 2) in f32"), "{refused}");
     let baked = Baked::<f64>::new(&problem)?;
-    let mut controller = Controller::<f64, TRIANGLES>::new(&baked);
+    let mut controller = Controller::<f64>::new(&baked);
     assert!(controller.tick(&[0.3, 0.7, 0.0, 0.0, 0.0, 0.0]).is_ok());
     Ok(())
 }
@@ -156,7 +155,7 @@ fn nothing_is_accurate_without_a_bound() -> Result<()> {
     let baked = Baked::<f64>::new(&problem)?;
     let limits = Limits { error: 1e9, ..to_the_end() };
     let inputs = [0.3, 0.7, 0.0, 0.0, 0.0];
-    let ticked = Controller::<f64, QUADS>::new(&baked).tick_within(&inputs, limits);
+    let ticked = Controller::<f64>::new(&baked).tick_within(&inputs, limits);
     let (_, report) = ticked.expect("a tick");
     assert_eq!((report.verdict, report.ended), (Verdict::Unavailable, Ended::Settled));
     Ok(())
