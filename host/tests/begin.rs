@@ -144,6 +144,9 @@ fn check_asks_what_a_solution_would_ask() {
     let open = faults(&checked(&with(more)).1);
     let told = open.iter().filter(|fault| fault.ends_with("to be filled in")).count();
     assert_eq!(told, 6, "{open:#?}");
+    // What `tick` alone refuses is a warning.
+    let named = run(&["check", &with("[output.status]\nkind = \"force\"\n")]).succeeds();
+    says(&named.stderr, &["`signorini tick` refuses", "column"]);
 }
 
 #[test]
@@ -162,6 +165,7 @@ fn a_new_scene_finds_its_mesh_from_any_folder() {
     let odd = String::from_utf8_lossy(&std::fs::read(&mesh).expect("a mesh"))
         .replace("\"ends\"", "\"en\u{a0}ds\"");
     let odd = folder.write("odd.msh", odd);
+    says(&run(&["new", &folder.word("")]).refuses(), &["expected a mesh"]);
     run(&["new", &odd]).succeeds();
     assert_eq!(faults(&checked(&folder.word("odd.toml")).1).len(), 7);
 }

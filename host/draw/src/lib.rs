@@ -54,6 +54,7 @@ pub use pareto::{ParetoPlot, ParetoPoint, pareto_file};
 pub use plan::{Plan, PlanBoundary, PlanKind, plan_file};
 pub use scale::plain;
 pub use solution::solution_file;
+pub use svg::escape;
 pub use table::{Column, Heading, Mark, Table, TableRow};
 pub use tradeoff::{TradePanel, TradeStudy, TradeTarget, Tradeoff};
 

@@ -228,7 +228,7 @@ fn raised(text: &str) -> String {
     )
 }
 
-/// Text in which no character can be mistaken for markup.
+/// Text in which no character can be mistaken for markup, and none is left that XML 1.0 knows not at all (its section 2.2).
 pub fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {
@@ -239,6 +239,7 @@ pub fn escape(text: &str) -> String {
             '"' => escaped.push_str("&quot;"),
             '\'' => escaped.push_str("&#39;"),
             control if control.is_control() => escaped.push(' '),
+            '\u{fffe}' | '\u{ffff}' => escaped.push(' '),
             other => escaped.push(other),
         }
     }
@@ -248,6 +249,11 @@ pub fn escape(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_are_well_formed() {
+        assert_eq!(escape("<a&\u{1}\u{fffe}\"'"), "&lt;a&amp;  &quot;&#39;");
+    }
 
     #[test]
     fn numbers_are_short() {

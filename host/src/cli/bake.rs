@@ -38,7 +38,7 @@ a condensed one by exchanges to the exact solution, where they are proved to end
 or by sweeps to a tolerance: whichever takes fewer instructions for inputs drawn from their \
 ranges. setting.solver asks for one of them: sweeps, factor, exact.
 
-Where a material has a capacity, a tick is a step in time of length time.step: the full model alone does so.
+Where a material has a capacity, a tick is a step in time of length time.step, in both models.
 
 With error = \"5%\" in [setting] the mesh is refined first, until the error bound is that small for \
 the default inputs, all corners of their ranges and 1000 inputs drawn from them. An error without \

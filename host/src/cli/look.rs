@@ -12,6 +12,7 @@ use signorini_scene::mesh::{Mesh, adapted};
 use signorini_scene::scene::term::at_rest_warning;
 use signorini_scene::scene::{Draft, Scene};
 use signorini_scene::setting::{Precision, Setting};
+use signorini_session::tick::columns::check_names;
 use signorini_session::with_session;
 use signorini_solve::{check_stated, units};
 
@@ -32,6 +33,9 @@ impl Look {
         let has_mesh = !draft.open.iter().any(|key| key == "mesh");
         let mesh = has_mesh.then(|| faults.keep(adapted::of_scene(&draft.scene))).flatten();
         let mut warnings: Vec<String> = at_rest_warning(&draft.scene).into_iter().collect();
+        if let Err(error) = check_names(&draft.scene) {
+            warnings.push(format!("`signorini tick` refuses it: {}", error.reason()));
+        }
         let on_mesh = mesh.map(|mesh| {
             let mut outline = Outline::of_draft(&draft, &mesh);
             if !is_sound {

@@ -36,7 +36,8 @@ impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let to_output = self.out.as_deref() == Some(Path::new("-"));
         let scene = self.out.clone().unwrap_or_else(|| self.mesh.with_extension("toml"));
-        if !to_output {
+        let is_mesh = !self.mesh.is_dir();
+        if !to_output && is_mesh {
             check_free(&scene)?;
         }
         let mesh = mesh::read(&self.mesh)?;

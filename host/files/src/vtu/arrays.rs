@@ -2,6 +2,7 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use signorini_draw::escape;
 
 /// So many parts for each cell or vertex; nothing where there are not as many as expected.
 pub fn full<T: Binary, const N: usize>(
@@ -72,14 +73,9 @@ fn written<T: Binary>(name: &str, shape: &str, values: impl Iterator<Item = T>) 
     values.for_each(|value| bytes.extend_from_slice(value.bytes().as_ref()));
     let count = (bytes.len() - COUNT) as u64;
     bytes[..COUNT].copy_from_slice(&count.to_le_bytes());
-    let (kind, name) = (T::KIND, escaped(name));
+    let (kind, name) = (T::KIND, escape(name));
     let mut text =
         format!("<DataArray type=\"{kind}\" Name=\"{name}\"{shape} format=\"binary\">\n");
     STANDARD.encode_string(bytes, &mut text);
     text + "\n</DataArray>\n"
-}
-
-/// A name as the value of an attribute.
-fn escaped(name: &str) -> String {
-    name.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

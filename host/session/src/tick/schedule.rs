@@ -101,7 +101,7 @@ fn up_to(scene: &Scene, [step, end]: [f64; 2], first: u32) -> Result<u32> {
     if ticks <= f64::from(MOST) {
         return Ok(ticks as u32);
     }
-    let message = format!("time: {end} s in steps of {step} s are more than {MOST} ticks");
+    let message = format!("time: {end:?} s in steps of {step:?} s are more than {MOST} ticks");
     Err(InputError::new(message).file(&scene.path).hint("give fewer with --ticks N").into())
 }
 
@@ -142,6 +142,8 @@ mod tests {
         assert_eq!(of(0.0, 0.5).unwrap(), [0.0, 0.5, 1.0]);
         assert_eq!(of(2.0, 0.5).unwrap(), [0.5, 1.0]);
         assert!(of(2.0, 3.0).unwrap_err().to_string().contains("time.end: 1 comes before"));
+        let many = of(2.0, 1e-320).unwrap_err().to_string();
+        assert!(many.contains("1.0 s in steps of 1e-320 s are more than 1000000 ticks"), "{many}");
     }
 
     /// Ticks after a saved one are those of a schedule without a break; after one of a log they count from it.
