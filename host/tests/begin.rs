@@ -146,7 +146,7 @@ fn check_asks_what_a_solution_would_ask() {
     assert_eq!(told, 6, "{open:#?}");
     // What `tick` alone refuses is a warning.
     let named = run(&["check", &with("[output.status]\nkind = \"force\"\n")]).succeeds();
-    says(&named.stderr, &["`signorini tick` refuses", "column"]);
+    says(&named.stderr, &["`signorini tick` refuses an output's name", "column"]);
 }
 
 #[test]

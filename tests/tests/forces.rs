@@ -7,8 +7,7 @@
 //! The plain sum of σ·n − q, which a force is for the solution, is negative at some of these stops: a test in which
 //! it never is tests nothing.
 
-use signorini_bake::Bakes;
-use signorini_bake::{condensed, full};
+use signorini_bake::{Bakes, condensed, full};
 use signorini_condense::{CondensedModel, Recovery, recoverable};
 use signorini_device::tick::Limits;
 use signorini_problem::Problem;

@@ -4,10 +4,9 @@
 
 use std::cell::Cell;
 
-use crate::Bakes;
 use crate::choice::{Choice, Model, Wanted};
 use crate::narrow::narrow;
-use crate::{condensed, full};
+use crate::{Bakes, condensed, full};
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::{InputError, Result};

@@ -34,7 +34,7 @@ impl Look {
         let mesh = has_mesh.then(|| faults.keep(adapted::of_scene(&draft.scene))).flatten();
         let mut warnings: Vec<String> = at_rest_warning(&draft.scene).into_iter().collect();
         if let Err(error) = check_names(&draft.scene) {
-            warnings.push(format!("`signorini tick` refuses it: {}", error.reason()));
+            warnings.push(format!("`signorini tick` refuses an output's name: {}", error.reason()));
         }
         let on_mesh = mesh.map(|mesh| {
             let mut outline = Outline::of_draft(&draft, &mesh);

@@ -36,8 +36,7 @@ impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let to_output = self.out.as_deref() == Some(Path::new("-"));
         let scene = self.out.clone().unwrap_or_else(|| self.mesh.with_extension("toml"));
-        let is_mesh = !self.mesh.is_dir();
-        if !to_output && is_mesh {
+        if !to_output && !self.mesh.is_dir() {
             check_free(&scene)?;
         }
         let mesh = mesh::read(&self.mesh)?;

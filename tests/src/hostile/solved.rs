@@ -1,7 +1,6 @@
 //! A scene on a mesh, answered in one of the ways that there are: an error, or numbers.
 
-use signorini_bake::Bakes;
-use signorini_bake::{condensed, full};
+use signorini_bake::{Bakes, condensed, full};
 use signorini_condense::condense;
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;

@@ -121,7 +121,7 @@ fn driven<R: Bits + Kept>(bytes: &mut Bytes) {
     let all = R::full();
     let baked = &all[bytes.below(all.len())];
     let mut controller = Controller::new(baked);
-    // Never asked for what the first refuses; in the end an ordinary tick follows.
+    // It is never asked for what the first refuses.
     let mut spared = Controller::new(baked);
     for _ in 0..1 + bytes.below(4) {
         let inputs = bytes.reals::<R>(scenes::INPUTS);

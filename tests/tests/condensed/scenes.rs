@@ -1,8 +1,8 @@
 //! Random scenes with inputs on every field and outputs of every kind.
 
-use signorini_bake::Bakes;
 use std::path::Path;
 
+use signorini_bake::Bakes;
 use signorini_bake::condensed::{Baked, Work};
 use signorini_condense::{CondensedModel, condense};
 use signorini_problem::Problem;

@@ -132,10 +132,7 @@ impl<R: Bakes> Choice<R> {
     /// # Errors
     /// No model fits what the scene declares: by how much the smallest one does not. What keeps a model that
     /// was asked for from existing, or a key of the setting from meaning anything to it.
-    pub fn new(problem: &Problem, wanted: Wanted) -> Result<Self>
-    where
-        R: Bakes,
-    {
+    pub fn new(problem: &Problem, wanted: Wanted) -> Result<Self> {
         R::choose(problem, wanted)
     }
 

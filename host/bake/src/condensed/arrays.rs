@@ -89,26 +89,7 @@ pub struct Baked<R: Scalar> {
 }
 
 impl<R: Bakes> Baked<R> {
-    /// Narrows `condensate`; without `certified` the certificate is left out.
-    ///
-    /// # Errors
-    /// Numbers that the scalar type cannot hold.
-    pub fn new(condensate: &CondensedModel, work: Work, certified: bool) -> Result<Self, Error> {
-        R::bake_condensed(condensate, work, certified)
-    }
-
-    pub(crate) fn bake(
-        condensate: &CondensedModel,
-        work: Work,
-        certified: bool,
-    ) -> Result<Self, Error> {
-        let n = condensate.contact;
-        // Where the default inputs have no solution, everything touches.
-        let x = condensate.solve(&condensate.defaults).unwrap_or_else(|_| vec![0.0; n]);
-        Self::beginning(condensate, &x, work, certified)
-    }
-
-    /// The same from `x`, in which the first tick begins.
+    /// [`Baked::new`] from `x`, in which the first tick begins.
     pub(super) fn beginning(
         condensate: &CondensedModel,
         x: &[f64],

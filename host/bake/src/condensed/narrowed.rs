@@ -1,7 +1,6 @@
-//! A model with modes or steps becomes arrays of the target, as one without does by [`Baked::new`].
+//! Condensed models, with modes or steps and without, become arrays of the target.
 
-use crate::Bakes;
-use signorini_condense::{ModalModel, SteppedModel};
+use signorini_condense::{CondensedModel, ModalModel, SteppedModel};
 use signorini_contact::method::Sweeps;
 use signorini_kernel::Error;
 use signorini_problem::inputs::ranges;
@@ -11,8 +10,28 @@ use super::bound::Bound;
 use super::modes::Scaled;
 use super::start::{InitialState, best_omega};
 use super::steps::Steps;
+use crate::Bakes;
 
 impl<R: Bakes> Baked<R> {
+    /// Narrows `condensate`; without `certified` the certificate is left out.
+    ///
+    /// # Errors
+    /// Numbers that the scalar type cannot hold.
+    pub fn new(condensate: &CondensedModel, work: Work, certified: bool) -> Result<Self, Error> {
+        R::bake_condensed(condensate, work, certified)
+    }
+
+    pub(crate) fn bake(
+        condensate: &CondensedModel,
+        work: Work,
+        certified: bool,
+    ) -> Result<Self, Error> {
+        let n = condensate.contact;
+        // Where the default inputs have no solution, everything touches.
+        let x = condensate.solve(&condensate.defaults).unwrap_or_else(|_| vec![0.0; n]);
+        Self::beginning(condensate, &x, work, certified)
+    }
+
     /// Narrows a model of modes, as [`Baked::new`] does one without.
     ///
     /// # Errors

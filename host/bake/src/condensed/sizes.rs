@@ -1,11 +1,11 @@
 //! What a condensed model takes of a device, from its sizes alone.
 
-use crate::Bakes;
 use signorini_contact::dense::blocks::{count, padded};
 
 use super::arrays::{Baked, Solver};
 use super::statics::written;
 use super::steps::Steps;
+use crate::Bakes;
 use crate::dense::Price;
 use crate::full::Sizes;
 

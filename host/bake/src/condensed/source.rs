@@ -1,6 +1,5 @@
 //! The Rust text of the condensed model.
 
-use crate::Bakes;
 use std::fmt::Write as _;
 
 use signorini_contact::dense::blocks::{count, padded};
@@ -8,6 +7,7 @@ use signorini_contact::dense::blocks::{count, padded};
 use super::arrays::{Baked, Solver};
 use super::sizes::sizes;
 use super::statics::{self, written};
+use crate::Bakes;
 use crate::controller::{self, Parts, state};
 use crate::module_api::ModuleApi;
 use crate::text::imports;

@@ -1,6 +1,5 @@
 //! The statics of the condensed model, written by the structs that borrow them.
 
-use crate::Bakes;
 use std::fmt::Write as _;
 
 use signorini_contact::certificate::{Corner, Form, Vertex};
@@ -14,6 +13,7 @@ use signorini_contact::{Condensed, sides};
 
 use super::arrays::{Baked, Solver};
 use super::balance;
+use crate::Bakes;
 use crate::room::{self, Room};
 use crate::statics::{Statics, lines, named, record, tall_record};
 use signorini_problem::scalar::Scalar;

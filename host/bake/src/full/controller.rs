@@ -1,9 +1,9 @@
 //! The controller of a baked module, on this machine and on the same numbers.
 
 use signorini_device::controller::Window;
-use signorini_device::full::Numbers;
+use signorini_device::full::{Lengths, Numbers};
 use signorini_device::sparse::Solved;
-use signorini_device::tick::{Deadline, Limits, Report};
+use signorini_device::tick::{Limits, Report};
 use signorini_kernel::Error;
 
 use super::arrays::Baked;
@@ -14,6 +14,7 @@ use crate::{Bakes, state};
 #[derive(Debug)]
 pub struct Controller<'b, R: Bakes> {
     baked: &'b Baked<R>,
+    lengths: Lengths,
     own: Box<dyn OnRows<R> + 'b>,
     certificates: u32,
 }
@@ -21,7 +22,7 @@ pub struct Controller<'b, R: Bakes> {
 impl<'b, R: Bakes> Controller<'b, R> {
     /// Before the first tick.
     pub fn new(baked: &'b Baked<R>) -> Self {
-        Self { baked, own: R::on_rows(baked), certificates: 0 }
+        Self { baked, lengths: baked.lengths(), own: R::on_rows(baked), certificates: 0 }
     }
 
     /// Outputs and report for these inputs, within the limits of the baked module.
@@ -42,19 +43,11 @@ impl<'b, R: Bakes> Controller<'b, R> {
         inputs: &[R],
         limits: Limits<R>,
     ) -> Result<(Vec<R>, Report<R>), Error> {
-        let mut looks: u32 = 0;
-        let mut clock = || {
-            looks += 1;
-            u32::MAX
-        };
-        let never =
-            Deadline { remaining: &mut clock as &mut dyn FnMut() -> u32, sweep: 0, certificate: 0 };
-        let (outputs, report) = self.own.tick(inputs, limits, never)?;
+        let mut looks = 0;
+        let answer = self.own.tick(inputs, limits, &mut looks)?;
         // The clock is asked before every sweep and once more at the end, at every certificate, and after each but the last.
-        self.certificates = (looks.saturating_sub(report.sweeps) / 2).max(1);
-        let units = self.baked.scale.map(|scale| scale.kernel);
-        let figures = units.map_or(report.figures, |units| units.figures(report.figures));
-        Ok((outputs, report.with(figures)))
+        self.certificates = (looks.saturating_sub(answer.1.sweeps) / 2).max(1);
+        Ok(answer)
     }
 
     /// The bound of the evolution until the end of the last tick, of steps in time that have one.
@@ -65,9 +58,8 @@ impl<'b, R: Bakes> Controller<'b, R> {
     /// The bytes of the `State` that firmware has after the last tick; nothing where ticks are no steps in time.
     pub fn state(&self) -> Option<Vec<u8>> {
         self.baked.stored.as_ref()?;
-        let lengths = self.baked.lengths();
-        let mut numbers = vec![R::ZERO; lengths.handed_on()];
-        self.own.hand_on(&lengths, &mut numbers);
+        let mut numbers = vec![R::ZERO; self.lengths.handed_on()];
+        self.own.hand_on(&self.lengths, &mut numbers);
         Some(state::bytes(self.baked.face.hash, &numbers))
     }
 
@@ -77,7 +69,7 @@ impl<'b, R: Bakes> Controller<'b, R> {
     /// The bytes of a state of another scene, or damaged ones: nothing has changed then.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), Error> {
         let numbers = state::numbers(self.baked.face.hash, bytes)?;
-        self.own.take_over(&self.baked.lengths(), &numbers)
+        self.own.take_over(&self.lengths, &numbers)
     }
 
     /// Goes back to before the first tick.
@@ -92,7 +84,7 @@ impl<'b, R: Bakes> Controller<'b, R> {
 
     /// Work of the factor in the last tick; `None` without one, or where sweeps had to help.
     pub fn solved(&self) -> Option<Solved<R>> {
-        self.own.solver().solved
+        self.own.solved()
     }
 
     /// Whether the factor alone answers for these inputs.
@@ -128,7 +120,6 @@ impl<'b, R: Bakes> Controller<'b, R> {
     }
 
     fn numbers(&self) -> Numbers<&[R]> {
-        let lengths = self.baked.lengths();
-        self.own.numbers(&lengths)
+        self.own.numbers(&self.lengths)
     }
 }

@@ -6,7 +6,8 @@ use signorini_bound::certificate::Curved;
 use signorini_device::controller::{self, Answer, Scene, Window};
 use signorini_device::full::controller::{ControllerStorage, Setup};
 use signorini_device::full::{Full, Lengths, Numbers, Storage};
-use signorini_device::tick::{Deadline, Limits, Report};
+use signorini_device::sparse::Solved;
+use signorini_device::tick::{Deadline, Figures, Limits, Report};
 use signorini_kernel::Error;
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::rows::{QUADS, Row, TRIANGLES};
@@ -30,15 +31,15 @@ type Arrays<R, const WIDTH: usize> = Storage<
 
 /// The kernel's controller, whatever the width of its rows: 4 entries on triangles alone and else 6.
 pub trait OnRows<R: Bakes>: Debug {
-    /// Outputs and report.
+    /// Outputs and report, both in the scene's units; how often the clock was asked is added to `looks`.
     ///
     /// # Errors
-    /// Those of [`Controller::tick`].
+    /// Those of [`super::Controller::tick`].
     fn tick(
         &mut self,
         inputs: &[R],
         limits: Limits<R>,
-        deadline: Deadline<&mut dyn FnMut() -> u32>,
+        looks: &mut u32,
     ) -> Result<(Vec<R>, Report<R>), Error>;
 
     /// [`controller::Controller::window`]
@@ -47,8 +48,8 @@ pub trait OnRows<R: Bakes>: Debug {
     /// [`controller::Controller::reset`]
     fn reset(&mut self);
 
-    /// The method, and what it did last.
-    fn solver(&self) -> &DeskSolver<R>;
+    /// Work of the factor in the last tick, where no sweeps had to help.
+    fn solved(&self) -> Option<Solved<R>>;
 
     /// The arrays of the last tick.
     fn numbers(&self, lengths: &Lengths) -> Numbers<&[R]>;
@@ -88,7 +89,7 @@ fn of_width<R: Bakes, const WIDTH: usize>(
         is_certified: baked.how.certified,
         exchanges: baked.factored.as_ref().map(|_| exchanges(lengths.active)),
         solved: None,
-        figures: None,
+        figures: Figures::default(),
     };
     let storage = ControllerStorage::of(arrays, solver, vec![R::ZERO; baked.outputs.len()]);
     controller::Controller::of(Desk { baked, lengths, ranges: baked.face.ranges() }, storage)
@@ -99,23 +100,28 @@ impl<R: Bakes, const WIDTH: usize> OnRows<R> for controller::Controller<Desk<'_,
         &mut self,
         inputs: &[R],
         limits: Limits<R>,
-        mut deadline: Deadline<&mut dyn FnMut() -> u32>,
+        looks: &mut u32,
     ) -> Result<(Vec<R>, Report<R>), Error> {
-        let answer = self.tick_within(Terms::new(inputs), limits, &mut deadline)?;
+        let clock = || {
+            *looks += 1;
+            u32::MAX
+        };
+        let never = &mut Deadline { remaining: clock, sweep: 0, certificate: 0 };
+        let answer = self.tick_within(Terms::new(inputs), limits, never)?;
         let Answer { outputs: Values(outputs), report } = answer;
-        Ok((outputs, report.with(self.solver().figures.unwrap_or_default())))
+        Ok((outputs, report.with(self.storage().solver.figures)))
     }
 
     fn window(&self) -> Option<Window<R>> {
-        self.window()
+        controller::Controller::window(self)
     }
 
     fn reset(&mut self) {
-        self.reset();
+        controller::Controller::reset(self);
     }
 
-    fn solver(&self) -> &DeskSolver<R> {
-        &self.storage().solver
+    fn solved(&self) -> Option<Solved<R>> {
+        self.storage().solver.solved
     }
 
     fn numbers(&self, lengths: &Lengths) -> Numbers<&[R]> {

@@ -18,7 +18,8 @@ pub struct DeskSolver<R: Scalar> {
     pub(super) is_certified: bool,
     pub(super) exchanges: Option<Exchanges<R>>,
     pub(super) solved: Option<Solved<R>>,
-    pub(super) figures: Option<Figures<R>>,
+    /// Of the last tick, in the scene's units.
+    pub(super) figures: Figures<R>,
 }
 
 impl<R: Scalar> Solver<R, u32> for DeskSolver<R> {
@@ -30,12 +31,10 @@ impl<R: Scalar> Solver<R, u32> for DeskSolver<R> {
         memory: Memory<R, u32, WIDTH>,
         outputs: &mut [R],
     ) -> Result<Report<R>, Error> {
-        let mut exact = match setup.factored.zip(self.exchanges.as_mut()) {
-            Some((factored, own)) => {
-                Some(Exact::new(*factored, own.memory(setup.lengths.active)?)?)
-            }
-            None => None,
-        };
+        let factored = setup.factored.zip(self.exchanges.as_mut());
+        let mut exact = factored
+            .map(|(factored, own)| Exact::new(*factored, own.memory(setup.lengths.active)?))
+            .transpose()?;
         let (limits, is_fast) = ((setup.units, limits), self.is_fast);
         let report = if self.is_certified {
             let roots = (CertifiedSweeps(R::FAST), CertifiedSweeps(Libm));
@@ -47,7 +46,7 @@ impl<R: Scalar> Solver<R, u32> for DeskSolver<R> {
             full.tick(inputs, method, limits, deadline, memory, outputs)?
         };
         self.solved = exact.and_then(|exact| exact.solved()).filter(|_| report.sweeps == 0);
-        self.figures = Some(report.figures);
+        self.figures = setup.units.map_or(report.figures, |units| units.figures(report.figures));
         Ok(report)
     }
 }
@@ -69,8 +68,7 @@ where
     const CERTIFIES: bool = T::CERTIFIES;
 
     fn restart(&mut self) -> Result<(), Error> {
-        let Some(exact) = self.exact.as_deref_mut() else { return Ok(()) };
-        Substitutions { exact, sweeps: self.roots.1 }.restart()
+        self.exact.as_deref_mut().map_or(Ok(()), Exact::restart)
     }
 
     fn advance<F: FnMut() -> u32, const WIDTH: usize>(
@@ -79,14 +77,14 @@ where
         limits: Limits<R>,
         deadline: &mut Deadline<F>,
     ) -> Result<Report<R>, Error> {
-        let ((mut fast, mut accurate), is_fast) = (self.roots, self.is_fast);
-        match self.exact.as_deref_mut() {
-            None if is_fast => fast.advance(running, limits, deadline),
-            None => accurate.advance(running, limits, deadline),
-            Some(exact) if is_fast => {
+        let (mut fast, mut accurate) = self.roots;
+        match (self.exact.as_deref_mut(), self.is_fast) {
+            (None, true) => fast.advance(running, limits, deadline),
+            (None, false) => accurate.advance(running, limits, deadline),
+            (Some(exact), true) => {
                 Substitutions { exact, sweeps: fast }.advance(running, limits, deadline)
             }
-            Some(exact) => {
+            (Some(exact), false) => {
                 Substitutions { exact, sweeps: accurate }.advance(running, limits, deadline)
             }
         }

@@ -1,8 +1,8 @@
 //! How many contact edges are on which side and how large the error bound is, for programs and in the module.
 
-use crate::Bakes;
 use signorini_image::chosen::Ranges;
 
+use crate::Bakes;
 use crate::choice::Origin;
 use crate::condensed::Baked;
 use signorini_condense::ranges::largest::LargestBound;

@@ -2,10 +2,8 @@
 //! everybody refuses the input by its name.
 
 use super::direct::{directly, played, to_the_end};
-use crate::Bakes;
-use crate::condensed;
-use crate::full;
 use crate::narrow::narrow;
+use crate::{Bakes, condensed, full};
 use signorini_condense::condense;
 use signorini_kernel::Error;
 use signorini_problem::Problem;

@@ -1,9 +1,8 @@
 //! Inputs without a range that make boundaries exclude each other: every model refuses them, and goes on as if it had not seen them.
 
-use crate::Bakes;
 use crate::choice::{Choice, Wanted};
 use crate::emit::emit;
-use crate::{condensed, full};
+use crate::{Bakes, condensed, full};
 use signorini_kernel::Error;
 use signorini_problem::Problem;
 use signorini_problem::fixtures::on_grid;

@@ -1,7 +1,6 @@
 //! Means of u over boundaries: of an affine u they are known, in every model and scalar.
 
-use crate::Bakes;
-use crate::{condensed, full};
+use crate::{Bakes, condensed, full};
 use signorini_condense::condense;
 use signorini_device::tick::Limits;
 use signorini_problem::Problem;

@@ -1,6 +1,5 @@
 //! The kernel's exact method on the condensed problem.
 
-use signorini_bake::Bakes;
 use signorini_contact::dense::Iterate;
 use signorini_contact::dense::blocks::{Block, SIDE, count, padded};
 use signorini_contact::dense::ranges::Given;
@@ -13,6 +12,7 @@ use signorini_kernel::limits::Deadline;
 use super::failed;
 use super::quadratic::QuadraticLoads;
 use super::series::{InitialGuess, Run, TimedSolver, counted};
+use signorini_bake::Bakes;
 use signorini_bake::condensed::{Baked, Work};
 use signorini_condense::CondensedModel;
 use signorini_scene::Result;
