@@ -1,9 +1,9 @@
 //! The bound is a bound, for any x ≥ 0, and sharp at convergence.
 
-use signorini_tolerances::Tolerance;
 use signorini_tolerances::bake::{
     CORNER, GUARANTEE, IDENTITY, IDENTITY_BOUNDED, IDENTITY_KINKED, JUMP, SAME_BOUND, WAVES,
 };
+use signorini_tolerances::{Tolerance, some};
 use std::path::Path;
 
 use crate::choice::{Choice, Wanted};
@@ -122,16 +122,15 @@ impl Model {
 
 #[test]
 fn sharp_at_convergence() -> Result<()> {
-    for file in ["h-tri", "j100-tri", "a-tri", "hg-tri", "t-h-tri"] {
-        for cells in [Cells::Triangles, Cells::Quads] {
-            for n in [8, 16] {
-                let model = Model::catalogue(file, grid(n, cells))?;
-                let [energy, combined, _, bound] = model.at_solution()?;
-                GUARANTEE.check_at_most(format_args!("{file} {cells:?} {n}"), combined, bound);
-                assert!(bound <= 1.05 * combined || file == "a-tri", "{file} {cells:?} {n}");
-                assert!(bound <= 2.2 * energy || file == "t-h-tri", "{file} {cells:?} {n}");
-            }
-        }
+    let meshes = [Cells::Triangles, Cells::Quads].map(|cells| [8, 16].map(|n| (cells, n)));
+    let files = ["h-tri", "j100-tri", "a-tri", "hg-tri", "t-h-tri"].into_iter();
+    let all = files.flat_map(|file| meshes.into_iter().flatten().map(move |on| (file, on)));
+    for (file, (cells, n)) in some(3, all) {
+        let model = Model::catalogue(file, grid(n, cells))?;
+        let [energy, combined, _, bound] = model.at_solution()?;
+        GUARANTEE.check_at_most(format_args!("{file} {cells:?} {n}"), combined, bound);
+        assert!(bound <= 1.05 * combined || file == "a-tri", "{file} {cells:?} {n}");
+        assert!(bound <= 2.2 * energy || file == "t-h-tri", "{file} {cells:?} {n}");
     }
     Ok(())
 }
