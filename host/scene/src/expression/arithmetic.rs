@@ -171,18 +171,25 @@ impl Numbers for Duals {
     }
 
     fn unary(&self, operation: Unary, a: Dual) -> Dual {
-        let slope = operation.derivative(a.value);
-        Dual {
-            value: operation.apply(a.value),
-            gradient: a.gradient.map(|change| along(slope, change)),
-        }
+        let gradient = change(a.gradient, || operation.derivative(a.value));
+        Dual { value: operation.apply(a.value), gradient }
     }
 
     fn binary(&self, operation: Binary, a: Dual, b: Dual) -> Dual {
-        let [left, right] = operation.partials(a.value, b.value);
-        let total = |axis: usize| along(left, a.gradient[axis]) + along(right, b.gradient[axis]);
-        Dual { value: operation.apply(a.value, b.value), gradient: [total(0), total(1)] }
+        let left = change(a.gradient, || operation.by_first(a.value, b.value));
+        let right = change(b.gradient, || operation.by_second(a.value, b.value));
+        let gradient = [0, 1].map(|axis| left[axis] + right[axis]);
+        Dual { value: operation.apply(a.value, b.value), gradient }
     }
+}
+
+/// slope · gradient, whose slope nobody asks for where the operand is a constant.
+fn change(gradient: [f64; 2], slope: impl Fn() -> f64) -> [f64; 2] {
+    if gradient == [0.0; 2] {
+        return [0.0; 2];
+    }
+    let slope = slope();
+    gradient.map(|change| along(slope, change))
 }
 
 /// slope · change, where what does not change contributes nothing: the exponent's share of x^2,

@@ -172,23 +172,41 @@ impl Binary {
         }
     }
 
-    /// The derivatives with respect to `a` and to `b`.
-    pub fn partials(self, a: f64, b: f64) -> [f64; 2] {
+    /// The derivative with respect to `a`.
+    pub fn by_first(self, a: f64, b: f64) -> f64 {
         match self {
-            Self::Add => [1.0, 1.0],
-            Self::Subtract => [1.0, -1.0],
-            Self::Multiply => [b, a],
-            Self::Divide => [1.0 / b, -a / b / b],
-            Self::Power if b == 0.0 => [0.0, a.ln()],
-            Self::Power if a == 0.0 => [b * a.powf(b - 1.0), 0.0],
-            Self::Power => [b * a.powf(b - 1.0), a.powf(b) * a.ln()],
+            Self::Add | Self::Subtract => 1.0,
+            Self::Multiply => b,
+            Self::Divide => 1.0 / b,
+            Self::Power if b == 0.0 => 0.0,
+            // What a¹ rounds to.
+            Self::Power if b == 2.0 => b * a,
+            Self::Power => b * a.powf(b - 1.0),
             Self::Atan2 => {
                 let radius = a.hypot(b);
-                [b / radius / radius, -a / radius / radius]
+                b / radius / radius
             }
-            Self::Min if a <= b => [1.0, 0.0],
-            Self::Max if a >= b => [1.0, 0.0],
-            Self::Min | Self::Max => [0.0, 1.0],
+            Self::Min => f64::from(a <= b),
+            Self::Max => f64::from(a >= b),
+        }
+    }
+
+    /// The derivative with respect to `b`.
+    pub fn by_second(self, a: f64, b: f64) -> f64 {
+        match self {
+            Self::Add => 1.0,
+            Self::Subtract => -1.0,
+            Self::Multiply => a,
+            Self::Divide => -a / b / b,
+            Self::Power if b == 0.0 => a.ln(),
+            Self::Power if a == 0.0 => 0.0,
+            Self::Power => a.powf(b) * a.ln(),
+            Self::Atan2 => {
+                let radius = a.hypot(b);
+                -a / radius / radius
+            }
+            Self::Min => 1.0 - f64::from(a <= b),
+            Self::Max => 1.0 - f64::from(a >= b),
         }
     }
 }

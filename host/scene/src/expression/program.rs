@@ -22,13 +22,16 @@ pub(super) struct Program {
     pub(super) steps: Vec<Step>,
     /// What the machine does for them.
     orders: Vec<Order>,
+    /// Places of the stack that it needs for them.
+    depth: usize,
     /// How far a constant may be off that was computed from others, at most.
     folded: f64,
 }
 
 impl Program {
     fn new(steps: Vec<Step>, folded: f64) -> Self {
-        Self { orders: orders(&steps), steps, folded }
+        let (orders, depth) = orders(&steps);
+        Self { orders, depth, steps, folded }
     }
 
     pub fn constant(value: f64) -> Self {
@@ -119,7 +122,20 @@ impl Program {
 
     /// The result at the point (x, y, t).
     pub fn run<N: Numbers>(&self, numbers: &N, at: [N::Number; 3]) -> N::Number {
-        let mut stack = [numbers.constant(0.0); STACK];
+        // Few programs need all of the stack, and to clear it would take longer than they.
+        match self.depth {
+            ..=SHALLOW => self.run_on(&mut [numbers.constant(0.0); SHALLOW], numbers, at),
+            _ => self.run_on(&mut [numbers.constant(0.0); STACK], numbers, at),
+        }
+    }
+
+    /// The result at the point (x, y, t), by a stack with room for it.
+    fn run_on<N: Numbers>(
+        &self,
+        stack: &mut [N::Number],
+        numbers: &N,
+        at: [N::Number; 3],
+    ) -> N::Number {
         let mut height = 0;
         for order in &self.orders {
             match *order {
@@ -155,18 +171,22 @@ impl Program {
         points: &[[f64; 2]],
         t: f64,
     ) -> Vec<f64> {
-        let t = [numbers.constant(t); LANES];
+        let several = Several(numbers);
+        let (mut stack, t) = (vec![several.constant(0.0); self.depth], several.constant(t));
         let mut values = Vec::with_capacity(points.len());
         for points in points.chunks(LANES) {
             // The last lanes may have no point of their own.
             let of = |lane: usize, k: usize| points[lane.min(points.len() - 1)][k] + 0.0;
             let [x, y] = [0, 1].map(|k| from_fn(|lane| numbers.constant(of(lane, k))));
-            let found = self.run(&Several(numbers), [x, y, t]);
+            let found = self.run_on(&mut stack, &several, [x, y, t]);
             values.extend(found.into_iter().take(points.len()));
         }
         values
     }
 }
+
+/// Places of a stack that most programs have enough of.
+const SHALLOW: usize = 8;
 
 /// Points at once.
 const LANES: usize = 16;

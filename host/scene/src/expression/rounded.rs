@@ -38,7 +38,8 @@ impl Numbers for Roundings {
     fn binary(&self, operation: Binary, a: Rounded, b: Rounded) -> Rounded {
         let value = operation.apply(a.value, b.value);
         if operation == Binary::Atan2 {
-            let [left, right] = operation.partials(a.value, b.value);
+            let left = operation.by_first(a.value, b.value);
+            let right = operation.by_second(a.value, b.value);
             let off = left.abs() * a.off + right.abs() * b.off;
             return Rounded {
                 value,

@@ -72,12 +72,12 @@ impl Nodes {
     }
 }
 
-/// The orders that leave what `steps` do.
-pub(super) fn orders(steps: &[Step]) -> Vec<Order> {
+/// The orders that leave what `steps` do, and the places of the stack that they need.
+pub(super) fn orders(steps: &[Step]) -> (Vec<Order>, usize) {
     let mut nodes = Nodes::default();
     let numbers: Vec<usize> = steps.iter().map(|&step| nodes.after(step)).collect();
     // An operation needs its operands, and what it leaves.
-    let mut room = STACK - nodes.highest.min(STACK);
+    let mut depth = nodes.highest;
     let mut kept = vec![None; nodes.uses.len()];
     let (mut orders, mut begins) = (Vec::with_capacity(steps.len()), Vec::new());
     for (&step, number) in steps.iter().zip(numbers) {
@@ -98,14 +98,13 @@ pub(super) fn orders(steps: &[Step]) -> Vec<Order> {
             continue;
         }
         orders.push(Order::Step(step));
-        if nodes.uses[number] > 1 && room > 0 {
-            room -= 1;
-            let place = nodes.highest + room;
-            kept[number] = Some(place);
-            orders.push(Order::Keep(place));
+        if nodes.uses[number] > 1 && depth < STACK {
+            kept[number] = Some(depth);
+            orders.push(Order::Keep(depth));
+            depth += 1;
         }
     }
-    orders
+    (orders, depth)
 }
 
 #[cfg(test)]
@@ -116,7 +115,7 @@ mod tests {
 
     fn count(text: &str) -> [usize; 3] {
         let program = parse(text, Variables::SpaceTime).expect("an expression");
-        let orders = orders(&program.steps);
+        let (orders, _) = orders(&program.steps);
         let of = |is: fn(&Order) -> bool| orders.iter().filter(|order| is(order)).count();
         [
             of(|order| matches!(order, Order::Step(_))),

@@ -52,7 +52,7 @@ pub(super) fn series(operation: Unary, a: Interval) -> Option<Series> {
         Unary::Erfc => bell(a, of(Unary::Erfc), -1.0),
         Unary::Ln => [of(Unary::Ln), to(a, -1.0), -0.5 * to(a, -2.0), third_part() * to(a, -3.0)],
         Unary::Sqrt => {
-            let [_, slope, second, third] = of_power(a, 0.5);
+            let [slope, second, third] = [1, 2, 3].map(|k| of_power(a, 0.5, k));
             [of(Unary::Sqrt), slope, second, third]
         }
     };
@@ -93,11 +93,15 @@ pub(super) fn two_by_root_pi() -> Interval {
     Interval { low: FRAC_2_SQRT_PI.next_down(), high: FRAC_2_SQRT_PI.next_up() }
 }
 
-/// aᵖ: binomials times aᵖ⁻ᵏ.
-pub(super) fn of_power(a: Interval, p: f64) -> Series {
+/// The coefficient of degree k of aᵖ: a binomial times aᵖ⁻ᵏ.
+pub(super) fn of_power(a: Interval, p: f64, k: i32) -> Interval {
     let exact = |k: f64| number(p) - number(k);
-    let second = 0.5 * (number(p) * exact(1.0));
-    let third = second * exact(2.0) * third_part();
-    let power = |factor: Interval, k: f64| factor * to(a, p - k);
-    [to(a, p), power(number(p), 1.0), power(second, 2.0), power(third, 3.0)]
+    let second = || 0.5 * (number(p) * exact(1.0));
+    let binomial = match k {
+        0 => return to(a, p),
+        1 => number(p),
+        2 => second(),
+        _ => second() * exact(2.0) * third_part(),
+    };
+    binomial * to(a, p - f64::from(k))
 }

@@ -85,7 +85,8 @@ fn widened(a: f64, value: f64, way: f64) -> f64 {
 
 /// The range of an increasing function of libm.
 fn increasing(a: Interval, function: impl Fn(f64) -> f64) -> Interval {
-    let [low, high] = [function(a.low), function(a.high)];
+    let low = function(a.low);
+    let high = if a.high == a.low { low } else { function(a.high) };
     Interval::new(widened(a.low, low, -1.0), widened(a.high, high, 1.0))
 }
 
@@ -169,14 +170,14 @@ pub(super) fn power(a: Interval, p: f64) -> Range {
 
 /// aᵖ for a ≥ 0.
 fn of_positive(a: Interval, p: f64) -> Interval {
-    let ends = [a.low, a.high].map(|a| {
-        [-1.0, 1.0].map(|way| {
-            // A zero below the axis is none.
-            let value = (a + 0.0).powf(p);
-            let is_exact = a == 0.0 || a == 1.0 || a.is_infinite();
-            if is_exact { value } else { widened(a, value, way).max(0.0) }
-        })
-    });
+    let at = |a: f64| {
+        // A zero below the axis is none.
+        let value = (a + 0.0).powf(p);
+        let is_exact = a == 0.0 || a == 1.0 || a.is_infinite();
+        [-1.0, 1.0].map(|way| if is_exact { value } else { widened(a, value, way).max(0.0) })
+    };
+    let low = at(a.low);
+    let ends = [low, if a.high == a.low { low } else { at(a.high) }];
     let [least, most] = if p > 0.0 { ends } else { [ends[1], ends[0]] };
     Interval::new(least[0], most[1])
 }

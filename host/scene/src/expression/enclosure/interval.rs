@@ -152,21 +152,26 @@ impl std::ops::Sub for Interval {
 impl std::ops::Mul for Interval {
     type Output = Self;
 
+    /// By the signs of the factors: two products are the least and the greatest, but where both factors have both signs.
     fn mul(self, other: Self) -> Self {
-        if self == Self::ZERO || other == Self::ZERO {
-            return Self::ZERO;
-        }
-        let ends = [
-            [self.low, other.low],
-            [self.low, other.high],
-            [self.high, other.low],
-            [self.high, other.high],
-        ];
-        let by_product =
-            |a: &&[f64; 2], b: &&[f64; 2]| product(a[0], a[1]).total_cmp(&product(b[0], b[1]));
-        let least = ends.iter().min_by(by_product).unwrap_or(&ends[0]);
-        let most = ends.iter().max_by(by_product).unwrap_or(&ends[0]);
-        Self::new(product_down(least[0], least[1]), product_up(most[0], most[1]))
+        let (a, b) = (self, other);
+        let ([least, lower], [most, upper]) = if a.low >= 0.0 {
+            let low = if b.low < 0.0 { a.high } else { a.low };
+            let high = if b.high > 0.0 { a.high } else { a.low };
+            ([low, b.low], [high, b.high])
+        } else if a.high <= 0.0 {
+            let low = if b.high > 0.0 { a.low } else { a.high };
+            let high = if b.low < 0.0 { a.low } else { a.high };
+            ([low, b.high], [high, b.low])
+        } else if b.low >= 0.0 {
+            ([a.low, b.high], [a.high, b.high])
+        } else if b.high <= 0.0 {
+            ([a.high, b.low], [a.low, b.low])
+        } else {
+            let low = product_down(a.low, b.high).min(product_down(a.high, b.low));
+            return Self::new(low, product_up(a.low, b.low).max(product_up(a.high, b.high)));
+        };
+        Self::new(product_down(least, lower), product_up(most, upper))
     }
 }
 

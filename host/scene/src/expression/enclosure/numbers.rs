@@ -2,7 +2,7 @@
 
 use super::super::operation::{Binary, Unary};
 use super::super::program::Numbers;
-use super::derivatives::{Series, of_power, series};
+use super::derivatives::{of_power, series};
 use super::form::Form;
 use super::function::{ULP, binary, unary};
 use super::interval::Interval;
@@ -29,7 +29,11 @@ impl Numbers for Forms {
             Unary::Sign if a.has_thin_levels() && a.range().low >= 0.0 => self.constant(1.0),
             Unary::Sign if a.has_thin_levels() && a.range().high <= 0.0 => self.constant(-1.0),
             Unary::Sign => Form::flat(self.0, range, natural.1),
-            smooth => composed(&a, |at| series(smooth, at), natural),
+            smooth => {
+                let lower =
+                    |at| series(smooth, at).map(|[value, slope, second, _]| [value, slope, second]);
+                composed(&a, lower, |at| series(smooth, at).map(|[.., third]| third), natural)
+            }
         }
     }
 
@@ -101,13 +105,16 @@ fn to(a: &Form, p: f64) -> Form {
     if p == 2.0 {
         return a.times_within(a, natural);
     }
-    composed(a, |at| Some(of_power(at, p)), natural)
+    let lower = |at| Some([0, 1, 2].map(|k| of_power(at, p, k)));
+    composed(a, lower, |at| Some(of_power(at, p, 3)), natural)
 }
 
-/// f(a) = f(m) + f′(m)u + ½f″(m)u² + ⅙f‴(ξ)u³ with u = a − m, m the middle of the range of a and ξ somewhere in it.
+/// f(a) = f(m) + f′(m)u + ½f″(m)u² + ⅙f‴(ξ)u³ with u = a − m, m the middle of the range of a and ξ somewhere in it: `lower` has the
+/// coefficients of degree 0 to 2, and `third` that of degree 3.
 fn composed(
     a: &Form,
-    series: impl Fn(Interval) -> Option<Series>,
+    lower: impl Fn(Interval) -> Option<[Interval; 3]>,
+    third: impl Fn(Interval) -> Option<Interval>,
     natural: (Interval, bool),
 ) -> Form {
     let flat = Form::flat(a.shape(), natural.0, natural.1);
@@ -116,8 +123,8 @@ fn composed(
         return flat;
     }
     let middle = range.middle();
-    let (Some([value, slope, second, _]), Some([.., third])) =
-        (series(Interval::point(middle)), series(range))
+    let (Some([value, slope, second]), Some(third)) =
+        (lower(Interval::point(middle)), third(range))
     else {
         return flat;
     };

@@ -25,6 +25,16 @@ fn remainders_fall_with_the_third_power() {
     }
 }
 
+/// −1·1 is exact, and −0.2·5 below it is rounded to the same number: 0.2 is less than it is stored as.
+#[test]
+fn a_product_holds_what_rounds_to_another_exact_one() {
+    let [a, b] = [[-1.0, 0.2], [-5.0, 1.0]].map(|[low, high]| Interval { low, high });
+    for (a, b) in [(a, b), (b, a), (-a, -b)] {
+        assert!((a * b).low < -1.0, "{:?}", a * b);
+        assert!((-a * b).high > 1.0, "{:?}", -a * b);
+    }
+}
+
 /// Integrals over parts sum up to the exact one, and enclose it.
 #[test]
 fn integrals_hold_the_exact_ones() {
