@@ -34,6 +34,24 @@ fn kinks_and_jumps_are_cut_off() -> Result<()> {
     Ok(())
 }
 
+/// Of what is smooth over some cells, the rule's own bits stay, and no part is cut.
+#[test]
+fn the_rule_is_proved_for_waves_that_it_resolves() -> Result<()> {
+    let h = 1.0 / 16.0;
+    let cells = [
+        Cell::Triangle([[0.5, 0.25], [0.5 + h, 0.25], [0.5 + h, 0.25 + h]]),
+        Cell::Quad([[0.5, 0.25], [0.5 + h, 0.25], [0.5 + h, 0.25 + h], [0.5, 0.25 + h]]),
+    ];
+    for text in ["6*sin(1.2 + 4*x)", "exp(3*x - y)*cos(8*y)", "1/(2 + x)"] {
+        let (all, rule) = on(text, |f| {
+            (over_cells(f, &cells), cells.each_ref().map(|cell| by_rule(f, &rule_of(cell))[0]))
+        })?;
+        let expected = rule.map(|value| Integral { value, missed: 0.0 });
+        assert_eq!(all, expected, "{text}");
+    }
+    Ok(())
+}
+
 #[test]
 fn a_narrow_bump_is_found_and_integrated() -> Result<()> {
     for width in [0.3, 0.01, 1e-3] {
