@@ -19,6 +19,7 @@ use signorini_tests::problem::{Boundary, Kind, Problem};
 use signorini_tests::targets::{
     ACTIVE, BENCHMARK, CATALOGUE, FLUX_OF_A, JUMPS, MOVED, TRANSFORMED, TabledCase, Target,
 };
+use signorini_tolerances::some;
 use signorini_tolerances::twins::{CATALOGUE as WITHIN, RATE, TOTAL_FORCE, TRAPEZOID_RATE};
 
 /// A problem of the tables.
@@ -277,7 +278,7 @@ fn slope(errors: [f64; 4]) -> f64 {
 
 #[test]
 fn errors_forces_and_rates_by_the_kernel() {
-    for row in CATALOGUE {
+    for row in some(3, CATALOGUE) {
         let found = row.map(|target| check(by_kernel, &target));
         let what = format!("{:?} on {:?}", row[0].case, row[0].cells);
         for (quantity, pick, rate) in [

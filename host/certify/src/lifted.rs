@@ -127,7 +127,7 @@ pub(crate) fn share(problem: &Problem, at: usize) -> f64 {
     if cell.corners().len() == 3 {
         return 0.5;
     }
-    let element = |[x, y]: [f64; 2]| cell.local([x, y, 0.0]).determinant;
+    let element = |[x, y]: [f64; 2]| cell.determinant([x, y, 0.0]);
     let most = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(element);
     most.into_iter().fold(0.0, f64::max) / (3.0 * element([0.5, 0.5]))
 }

@@ -82,10 +82,10 @@ fn stiffness(problem: &Problem, at: usize, (cell, is_affine): (&Cell, bool)) -> 
 /// The area, [spread, skew] and tilt of a cell.
 fn shape(cell: &Cell) -> (f64, [f64; 2], [f64; 2]) {
     let Cell::Quad(_) = cell else {
-        let twice = cell.local([1.0 / 3.0; 3]).determinant;
+        let twice = cell.determinant([1.0 / 3.0; 3]);
         return (0.5 * twice, [1.0, 0.0], [0.0; 2]);
     };
-    let element = |x: f64, y: f64| cell.local([x, y, 0.0]).determinant;
+    let element = |x: f64, y: f64| cell.determinant([x, y, 0.0]);
     // It is affine in x̂ and ŷ.
     let area = element(0.5, 0.5);
     let tilt = [element(1.0, 0.5) - element(0.0, 0.5), element(0.5, 1.0) - element(0.5, 0.0)]

@@ -16,8 +16,8 @@ pub fn is_even(problem: &Problem, at: usize) -> bool {
     let cell = Cell::of(problem, at);
     let a = Conductivity::of(problem, at).at(cell.middle());
     let (determinant, even) = match cell {
-        Cell::Triangle(_) => (cell.local([1.0 / 3.0; 3]).determinant, EVEN[0]),
-        Cell::Quad(_) => (cell.local([0.5, 0.5, 0.0]).determinant, EVEN[1]),
+        Cell::Triangle(_) => (cell.determinant([1.0 / 3.0; 3]), EVEN[0]),
+        Cell::Quad(_) => (cell.determinant([0.5, 0.5, 0.0]), EVEN[1]),
     };
     let [least, most] = eigenvalues(&a);
     let ratio = cell.diameter().powi(2) / determinant * (most / least).sqrt();

@@ -216,6 +216,16 @@ impl Cell {
         }
     }
 
+    /// The area element of the reference coordinates there: 2|T| or det DF.
+    pub fn determinant(&self, reference: [f64; 3]) -> f64 {
+        match *self {
+            Self::Triangle([a, b, c]) => doubled_area(a, b, c),
+            Self::Quad(corners) => {
+                rannacher_turek::place(corners, [reference[0], reference[1]]).determinant
+            }
+        }
+    }
+
     /// All local functions at a point given by its reference coordinates.
     pub fn local(&self, reference: [f64; 3]) -> Local {
         match *self {

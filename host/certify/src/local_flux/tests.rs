@@ -24,12 +24,12 @@ fn fit(
     });
     let value = |point: &Point| match cell {
         Cell::Triangle(_) => f(point.x) - load / area,
-        Cell::Quad(_) => f(point.x) - load / cell.local(point.reference).determinant,
+        Cell::Quad(_) => f(point.x) - load / cell.determinant(point.reference),
     };
     let values: Vec<_> = points.iter().map(value).collect();
     let flux = LocalFlux::fitted(cell, a, &rule, (&points, &values), sides);
     let rest = |point: &Point, value: &f64| {
-        let determinant = cell.local(point.reference).determinant;
+        let determinant = cell.determinant(point.reference);
         point.weight * (value - flux.divergence(point.reference, determinant)).powi(2)
     };
     let rest: f64 = points.iter().zip(&values).map(|(point, value)| rest(point, value)).sum();

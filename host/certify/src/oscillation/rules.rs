@@ -22,7 +22,7 @@ pub fn differences(cell: &Cell, f: &Sum, load: f64) -> (f64, Vec<(Point, f64)>) 
     let points = cell.points(&gauss(POINTS));
     let values = f.at_all(&points.iter().map(|point| point.x).collect::<Vec<_>>());
     let difference = |(point, value): (Point, f64)| {
-        let mean = cell.spread(load, cell.local(point.reference).determinant);
+        let mean = cell.spread(load, cell.determinant(point.reference));
         (point, unit * (value - mean))
     };
     (unit, points.into_iter().zip(values).map(difference).collect())

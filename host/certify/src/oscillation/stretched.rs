@@ -35,7 +35,7 @@ pub fn in_cell(problem: &Problem, at: usize, f: &Sum) -> (f64, Inside) {
     let flux = LocalFlux::fitted(&cell, &a, &rule, (&points, &values), &NO_SIDES);
     let [mut square, mut rest] = [0.0; 2];
     for (point, value) in points.iter().zip(&values) {
-        let determinant = cell.local(point.reference).determinant;
+        let determinant = cell.determinant(point.reference);
         square += point.weight * value.powi(2);
         rest += point.weight * (value - flux.divergence(point.reference, determinant)).powi(2);
     }

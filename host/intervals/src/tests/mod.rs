@@ -18,6 +18,7 @@ use signorini_scene::scene::{Output, Scene};
 use signorini_solve::outputs::outputs;
 use signorini_solve::{MOST_FACTORED, Options, SolverKind, solve};
 use signorini_tolerances::solve::SHARED_SOLVER;
+use signorini_tolerances::some;
 
 fn options() -> Options {
     Options { solver: SolverKind::Factor, ..Options::default() }
@@ -182,7 +183,7 @@ fn they_hold_the_values_of_the_catalogue_and_are_not_huge() -> Result<()> {
     // An error that is rounding has no ratio: linear u, and u that a symmetry makes exact.
     const ROUNDING: f64 = 1e-7;
     let mut ratios = Vec::new();
-    for (name, scene) in known_scenes()? {
+    for (name, scene) in some(2, known_scenes()?) {
         for times in [0, 1] {
             let (problem, solution) = solved(&scene, times)?;
             for (output, found) in of_outputs(&problem, &solution, Coverage::Usual) {
@@ -198,6 +199,6 @@ fn they_hold_the_values_of_the_catalogue_and_are_not_huge() -> Result<()> {
     }
     ratios.sort_by(f64::total_cmp);
     let median = ratios[ratios.len() / 2];
-    assert!(ratios.len() > 80 && median <= MEDIAN, "{median}: {ratios:?}");
+    assert!(ratios.len() > 35 && median <= MEDIAN, "{median}: {ratios:?}");
     Ok(())
 }

@@ -15,6 +15,7 @@ use signorini_scene::setting::ModelKind;
 use signorini_scene::{Mesh, Scene};
 use signorini_session::tick::{ScheduledTick, TickInterval, replay};
 use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
+use signorini_tolerances::some;
 
 use super::super::{finer, judge};
 use super::{PLAIN, ROBIN, materials, second_step};
@@ -151,7 +152,8 @@ fn intervals_of_steps_hold_with_limits_layers_and_few_sweeps() {
             trapezoids(4, Trapezoids::Everywhere),
         ];
         for (number, mesh) in meshes.into_iter().enumerate() {
-            for (dt, sweeps) in [(1e-4, Some(1)), (1e-2, None), (1e-2, Some(3)), (1.0, Some(10))] {
+            let ends = [(1e-4, Some(1)), (1e-2, None), (1e-2, Some(3)), (1.0, Some(10))];
+            for (dt, sweeps) in some(2, ends) {
                 let scene = scene(dt, material, contact, left);
                 let of = format!("{name} {number} dt {dt:e} {sweeps:?}");
                 ratios.extend(check(&scene, mesh.clone(), ScalarKind::F64, sweeps, &of));
@@ -160,7 +162,7 @@ fn intervals_of_steps_hold_with_limits_layers_and_few_sweeps() {
     }
     ratios.sort_by(f64::total_cmp);
     println!("{} intervals, median {}", ratios.len(), ratios[ratios.len() / 2]);
-    assert!(ratios.len() > 250 && ratios[ratios.len() / 2] < 60.0, "{ratios:?}");
+    assert!(ratios.len() > 125 && ratios[ratios.len() / 2] < 60.0, "{ratios:?}");
 }
 
 /// The second tick of the controller that `bake` writes: the step that it is about, its answer, and the ends of each output's interval.
