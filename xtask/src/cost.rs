@@ -90,10 +90,13 @@ const FLOOR: f64 = 21.5;
 pub fn run(steps: &mut Steps) {
     setup::run(steps);
     let bless = steps.blesses();
-    let boards = if steps.is_whole() { BOARDS.len() } else { 1 };
+    // Images with features of their own, and other boards, are built for a whole run alone.
+    let is_whole = steps.is_whole();
+    let boards = if is_whole { BOARDS.len() } else { 1 };
+    let images = IMAGES.iter().filter(|image| is_whole || image.features.is_empty());
     steps.check("instructions of every stage", || {
         let (mut table, mut counts) = (String::new(), Counts::default());
-        for image in &IMAGES {
+        for image in images {
             for board in &BOARDS[..boards] {
                 table += &measure(board, image, &mut counts)?;
             }

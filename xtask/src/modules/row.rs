@@ -17,7 +17,7 @@ pub struct Row {
     pub scalar: &'static str,
     /// `--condensed` or `--full`.
     pub model: &'static str,
-    /// Boards that its image is linked for, beside those that play it.
+    /// Boards that its image is linked for, beside those that play it: the first in every run, all in a whole one.
     pub linked: &'static [Board],
     /// Whether the board with 192 KiB plays it, bit for bit as the desk.
     pub is_played: bool,
