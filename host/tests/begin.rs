@@ -60,6 +60,8 @@ fn a_new_scene_can_be_solved_once_it_is_filled_in() {
             && first.contains("mesh = \"bar.msh\"")
     );
     says(&first, &["[boundary.\"rib foot\"]", "length 0.02, 6 edges", "area 0.0008, 72 cells"]);
+    // What each kind may have is said once for all boundaries.
+    assert_eq!(first.matches("# contact: u ≥ gap").count(), 1, "{first}");
 
     for verb in ["solve", "tick", "trade"] {
         let message = run(&[verb, &scene]).refuses();

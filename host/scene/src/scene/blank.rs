@@ -97,6 +97,7 @@ fn boundaries(text: &mut String, mesh: &Mesh, outer: &[[u32; 2]]) {
         mesh.curves.iter().map(|Curve { name, edges }| (name.as_str(), &edges[..])).collect();
     let mut left: BTreeSet<[u32; 2]> = outer.iter().copied().collect();
     let chosen = chosen(&groups, Some(&left));
+    let mut is_first = true;
     for (&(name, edges), is_chosen) in groups.iter().zip(chosen) {
         let size =
             format!("length {}, {}", shown(mesh.length(edges)), counted(edges.len(), "edge"));
@@ -107,19 +108,26 @@ fn boundaries(text: &mut String, mesh: &Mesh, outer: &[[u32; 2]]) {
             continue;
         }
         left.retain(|edge| edges.binary_search(edge).is_err());
-        boundary(text, name, &size);
+        boundary(text, name, &size, is_first);
+        is_first = false;
     }
     if !left.is_empty() {
         let left: Vec<_> = left.into_iter().collect();
         let size = format!("length {}, {}", shown(mesh.length(&left)), counted(left.len(), "edge"));
-        boundary(text, "default", &format!("all that is left: {size}"));
+        boundary(text, "default", &format!("all that is left: {size}"), is_first);
     }
 }
 
-fn boundary(text: &mut String, name: &str, size: &str) {
+/// A condition to choose; the keys of each kind stand in the first table alone.
+fn boundary(text: &mut String, name: &str, size: &str, is_first: bool) {
     head(text, "", &header("boundary", name), size);
-    let kinds: Vec<_> = Section::kinds("boundary.NAME").collect();
-    let _ = writeln!(text, "kind = \"?\"{}", comment(10, &kinds.join(", ")));
+    let kinds = Section::kinds("boundary.NAME").collect::<Vec<_>>().join(", ");
+    if !is_first {
+        let words = format!("{kinds}: the keys of each stand above");
+        let _ = writeln!(text, "kind = \"?\"{}", comment(10, &words));
+        return;
+    }
+    let _ = writeln!(text, "kind = \"?\"{}", comment(10, &kinds));
     for section in SECTIONS.iter().filter(|section| section.header == "boundary.NAME") {
         section.keys.iter().for_each(|key| line(text, section.kind, key, None));
     }
