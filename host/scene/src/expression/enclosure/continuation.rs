@@ -6,12 +6,16 @@
 //!   |∫F − Q| ≤ (64/15) M ρ⁻²ⁿ/(1 − ρ⁻²).
 //! ```
 //! The ellipse lies in the disc of radius ½(ρ + 1/ρ). Discs with real centres run through the expression: c ± r holds f(z) where the operand's
-//! disc holds z. Where a disc meets a pole, a cut or a kink the radius is infinite.
+//! disc holds z. Where a disc meets a pole, a cut or a kink the radius is infinite. What underflows is not 0: a number that later factors may
+//! enlarge stays in the radius.
 
 use super::super::operation::{Binary, Unary};
 use super::super::program::Numbers;
 use super::function::ULP;
 use std::f64::consts::FRAC_2_SQRT_PI;
+
+/// Below this a value has lost digits, and tells nothing of values around it.
+const FADED: f64 = 1e-290;
 
 /// All complex numbers within `radius` of a real one; all of them where it is infinite. What is linear in the reference coordinates is
 /// kept beside: along a thin cell that lies aslant, x and y vary by much, and their combination across it by little.
@@ -56,7 +60,9 @@ impl Disc {
         let rest = (a * self.rest).abs() + (b * other.rest).abs();
         // What cancels in the sum was rounded before.
         let sizes = a.abs() * self.modulus() + b.abs() * other.modulus();
-        let rest = rest + 16.0 * ULP * sizes;
+        let is_zero = |a: f64, of: Self| a == 0.0 || of.modulus() == 0.0;
+        let faded = if is_zero(a, self) && is_zero(b, other) { 0.0 } else { f64::MIN_POSITIVE };
+        let rest = rest + 16.0 * ULP * sizes + faded;
         let centre = a * self.centre + b * other.centre;
         Self { along, rest, ..Self::new(centre, rest) }.bounded(reach)
     }
@@ -84,20 +90,30 @@ impl Disc {
     fn power(self, p: f64) -> Self {
         let is_whole = p >= 0.0 && p.fract() == 0.0;
         let (centre, q) = (self.centre.powf(p), self.share());
+        let faded = if self.modulus() == 0.0 { 0.0 } else { f64::MIN_POSITIVE };
         match is_whole {
             // (|c| + r)ᵖ − |c|ᵖ
             true => Self::new(
                 centre,
-                (self.modulus().powf(p) - centre.abs()).max(0.0) + ULP * self.modulus().powf(p),
+                (self.modulus().powf(p) - centre.abs()).max(0.0)
+                    + ULP * self.modulus().powf(p)
+                    + faded,
             ),
+            // At most the power of the largest or least modulus.
+            false if q < 1.0 && centre.abs() < FADED => {
+                let far = if p > 0.0 { self.modulus() } else { self.distance() };
+                Self::new(centre, far.powf(p) + faded)
+            }
             false if q < 1.0 => Self::new(centre, centre.abs() * ((1.0 - q).powf(-p.abs()) - 1.0)),
             false => Self::unknown(),
         }
     }
 
     fn times(self, other: Self) -> Self {
+        let is_zero = self.modulus() == 0.0 || other.modulus() == 0.0;
+        let faded = if is_zero { 0.0 } else { f64::MIN_POSITIVE };
         let radius = self.centre.abs() * other.radius + self.radius * other.modulus();
-        Self::new(self.centre * other.centre, radius)
+        Self::new(self.centre * other.centre, radius + faded)
     }
 
     /// erf or erfc around its value at c. Of |exp(−z²)| = exp(v² − u²), z = u + iv, with v² ≤ r² − (u − c)² the
@@ -144,6 +160,11 @@ impl Numbers for Discs {
             Unary::Cosh => Disc::new(value, 2.0 * (0.5 * r).sinh() * (c.abs() + 0.5 * r).cosh()),
             // No pole within ½π of the real axis.
             Unary::Tanh if r < 1.5 => a.steep(value, r.cos().powi(-2)),
+            Unary::Exp if value < FADED => {
+                // Beside the rounding of the exponent, which is no larger than |c| + r.
+                let most = (c + r).exp() * (1.0 + 4.0 * ULP * (c.abs() + r));
+                Disc::new(value, most + f64::MIN_POSITIVE)
+            }
             Unary::Exp => Disc::new(value, value * r.exp_m1()),
             Unary::Erf | Unary::Erfc => a.bell(value),
             Unary::Ln if c > r => Disc::new(value, -(-a.share()).ln_1p()),

@@ -41,7 +41,7 @@ fn rules_miss_no_more_than_continuations_allow() {
         let whole = on([0.0, 1.0], [0.0, 1.0]);
         let cut = |k: usize| [k as f64 / 8.0, (k + 1) as f64 / 8.0];
         let parts: f64 = (0..64).map(|k| on(cut(k / 8), cut(k % 8))).sum();
-        for rho in [2.0, 4.0, 16.0] {
+        for rho in [2.0, 4.0, 16.0, 64.0] {
             let modulus = expression.modulus(&region, rho, T);
             if !modulus.is_finite() {
                 continue;
@@ -61,6 +61,30 @@ fn rules_miss_no_more_than_continuations_allow() {
     let beside = square(0.25, 0.375, 0.125);
     assert!(beside.missed(8, 16.0, branch.modulus(&beside, 16.0, T)) < 1e-13 * beside.measure());
     assert_eq!(branch.modulus(&square(0.125, 0.375, 0.125), 16.0, T), f64::INFINITY);
+}
+
+/// What underflows in the middle of a cell is not 0 beside it.
+#[test]
+fn moduli_hold_what_the_middle_has_lost() {
+    let region = square(1.0, 0.0, 1.0);
+    for text in [
+        "exp(600 - 600*(x - 1))*exp(-600 - 520*(x - 1))*30",
+        "1e84*exp(-1120*(x - 1.5) - 750)",
+        "(0.5*x)^3000.5",
+        "(x - 0.25)^-3000.5*1e-300*1e-70",
+        "(0.5*x)^3000",
+        "(1e-200*exp(700*(x - 2)))*(1e-200*exp(300*(x - 1)))*1e200*1e70",
+    ] {
+        let expression = parse(text);
+        for rho in [2.0, 4.0, 16.0, 64.0] {
+            let most = [1.0, 1.2, 1.5, 2.0].map(|x| expression.eval(x, 0.5, T)).map(f64::abs);
+            let most = most.into_iter().filter(|value| value.is_finite()).fold(0.0, f64::max);
+            let modulus = expression.modulus(&region, rho, T);
+            assert!(most <= modulus, "{text}, ρ = {rho}: {most:e}, {modulus:e}");
+        }
+    }
+    // And nothing that is 0 is more.
+    assert_eq!(parse("max(x - 9, 0)^2*exp(y)").modulus(&region, 4.0, T), 0.0);
 }
 
 /// erf z = 2/√π Σ (−1)ⁿz²ⁿ⁺¹/(n!(2n + 1))
