@@ -40,8 +40,9 @@ pub struct Growth {
 
 /// Exponent of what bounds a logarithm.
 const FLAT: f64 = 1.0 / 16.0;
-/// Places that differ by less of the region are one.
-const SAME: f64 = 1e-9;
+/// Places that differ by less of the coordinates are one, which was rounded in two ways: between two poles that are near each other is a
+/// peak, however near they are.
+const SAME: f64 = 64.0 * ULP;
 
 impl Growth {
     fn plain(form: &Form) -> Option<Self> {
@@ -186,19 +187,23 @@ impl Grows<'_> {
 
     /// The one place of both, where it is one: a line is seen from a point on it with no lower bound.
     fn joint(&self, a: Growth, b: Growth) -> Option<(Growth, Growth, Option<Place>)> {
-        let size = self.0.measure().sqrt();
-        let near = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]) <= SAME * size;
+        let norm = |p: [f64; 2]| p[0].hypot(p[1]);
+        let corners = self.0.corners().iter().map(|corner| norm(*corner));
+        let size = SAME * corners.fold(0.0, f64::max);
+        let is_near = |p: [f64; 2], q: [f64; 2]| norm([p[0] - q[0], p[1] - q[1]]) <= size;
         let from = |line: Growth, place| Growth { low: 0.0, place: Some(place), ..line };
         match (a.place, b.place) {
             (place, None) | (None, place) => Some((a, b, place)),
-            (Some(Place::Point(p)), Some(Place::Point(q))) if near(p, q) => Some((a, b, a.place)),
+            (Some(Place::Point(p)), Some(Place::Point(q))) if is_near(p, q) => {
+                Some((a, b, a.place))
+            }
             (Some(Place::Line(n, c)), Some(Place::Line(m, d)))
-                if near(n, m) && (c - d).abs() <= SAME * size =>
+                if norm([n[0] - m[0], n[1] - m[1]]) <= SAME && (c - d).abs() <= size =>
             {
                 Some((a, b, a.place))
             }
             (Some(Place::Line(n, c)), Some(place @ Place::Point(p))) if a.exponent >= 0.0 => {
-                let is_on = (n[0] * p[0] + n[1] * p[1] - c).abs() <= SAME * size;
+                let is_on = (n[0] * p[0] + n[1] * p[1] - c).abs() <= size;
                 is_on.then(|| (from(a, place), b, Some(place)))
             }
             (Some(Place::Point(_)), Some(Place::Line(..))) => {

@@ -65,6 +65,19 @@ fn integrals_of_powers_hold_the_exact_ones() {
     }
 }
 
+/// Between two poles that are 1e−11 apart stands a peak with an integral of its own.
+#[test]
+fn poles_that_are_near_each_other_are_not_one() {
+    let edge = Region::segment([[-1.0, 0.0], [1.0, 0.0]]);
+    for text in ["abs(x)^0.9*abs(x - 1e-11)^-0.9", "abs(x)^-0.3*abs(x - 1e-11)^-0.3"] {
+        assert_eq!(parse(text).growth(&edge, T).and_then(|of| of.place), None, "{text}");
+    }
+    // The same place in other words.
+    for text in ["abs(x)^0.9*abs(3*x)^-0.3", "abs(0.7*x - 0.07)^-0.3*abs(x - 0.1)^-0.3"] {
+        assert!(parse(text).growth(&edge, T).is_some_and(|of| of.place.is_some()), "{text}");
+    }
+}
+
 #[test]
 fn what_is_not_integrable_is_proved() {
     let one = Region::triangle(ONE);
