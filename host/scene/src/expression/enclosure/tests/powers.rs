@@ -78,6 +78,16 @@ fn poles_that_are_near_each_other_are_not_one() {
     }
 }
 
+/// 1e−400 is not 0 where 1e390 follows.
+#[test]
+fn factors_that_underflow_leave_a_growth() {
+    let edge = Region::segment([[0.0, 0.0], [1.0, 0.0]]);
+    for text in ["1e-200*x^-0.5*1e-200*1e200*1e190", "(1e-200*x^-0.5)^2*1e200*1e190"] {
+        let found = growth(text, &edge);
+        assert!(found.low <= 1e-10 && found.high >= 1e-10, "{text}: {found:?}");
+    }
+}
+
 #[test]
 fn what_is_not_integrable_is_proved() {
     let one = Region::triangle(ONE);
