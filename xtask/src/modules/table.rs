@@ -25,6 +25,7 @@ const FULL: Row = Row { model: "--full", ..CONDENSED };
 const ON_M4: Machines = Machines::of(&["m4"]);
 /// One board, and the others in a whole run.
 const M4_FIRST: Machines = Machines::and(&["m4"], &["m4-soft", "m7"]);
+/// With every core in a whole run.
 const BOARDS: Machines = Machines::and(&["m4"], &["m4-soft", "m7", "m33"]);
 const M7_FIRST: Machines = Machines::and(&["m7"], &["m4", "m4-soft"]);
 /// Boards of a whole run alone.

@@ -3,8 +3,8 @@
 //! ```text
 //!   steps, postfix ─► nodes, equal ones being one ─► orders: steps, and beside them keep and recall
 //! ```
-//! The same operation on the same operands has the same value to the last bit, whatever the numbers are. Values are kept at the far
-//! end of the stack: those that there is no room for are computed anew.
+//! The same operation on the same operands has the same value to the last bit, whatever the numbers are. Values are kept above all
+//! operands that wait: those that there is no room for are computed anew.
 
 use std::collections::HashMap;
 

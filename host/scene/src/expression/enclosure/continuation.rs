@@ -11,7 +11,7 @@
 
 use super::super::operation::{Binary, Unary};
 use super::super::program::Numbers;
-use super::function::ULP;
+use super::function::{ULP, faded};
 use std::f64::consts::FRAC_2_SQRT_PI;
 
 /// Below this a value has lost digits, and tells nothing of values around it.
@@ -61,8 +61,7 @@ impl Disc {
         // What cancels in the sum was rounded before.
         let sizes = a.abs() * self.modulus() + b.abs() * other.modulus();
         let is_zero = |a: f64, of: Self| a == 0.0 || of.modulus() == 0.0;
-        let faded = if is_zero(a, self) && is_zero(b, other) { 0.0 } else { f64::MIN_POSITIVE };
-        let rest = rest + 16.0 * ULP * sizes + faded;
+        let rest = rest + 16.0 * ULP * sizes + faded(is_zero(a, self) && is_zero(b, other));
         let centre = a * self.centre + b * other.centre;
         Self { along, rest, ..Self::new(centre, rest) }.bounded(reach)
     }
@@ -90,7 +89,7 @@ impl Disc {
     fn power(self, p: f64) -> Self {
         let is_whole = p >= 0.0 && p.fract() == 0.0;
         let (centre, q) = (self.centre.powf(p), self.share());
-        let faded = if self.modulus() == 0.0 { 0.0 } else { f64::MIN_POSITIVE };
+        let faded = faded(self.modulus() == 0.0);
         match is_whole {
             // (|c| + r)ᵖ − |c|ᵖ
             true => Self::new(
@@ -111,9 +110,8 @@ impl Disc {
 
     fn times(self, other: Self) -> Self {
         let is_zero = self.modulus() == 0.0 || other.modulus() == 0.0;
-        let faded = if is_zero { 0.0 } else { f64::MIN_POSITIVE };
         let radius = self.centre.abs() * other.radius + self.radius * other.modulus();
-        Self::new(self.centre * other.centre, radius + faded)
+        Self::new(self.centre * other.centre, radius + faded(is_zero))
     }
 
     /// erf or erfc around its value at c. Of |exp(−z²)| = exp(v² − u²), z = u + iv, with v² ≤ r² − (u − c)² the

@@ -14,6 +14,11 @@ const LARGE: f64 = 1e12;
 /// A range, and whether every operand in the intervals has a value that is a number.
 pub(super) type Range = (Interval, bool);
 
+/// What underflow may hide of a result, which later factors may enlarge: nothing where an operand, and so the result, is 0.
+pub(super) fn faded(is_zero: bool) -> f64 {
+    if is_zero { 0.0 } else { f64::MIN_POSITIVE }
+}
+
 /// The values of `operation` on `a`.
 pub(super) fn unary(operation: Unary, a: Interval) -> Range {
     let whole = |range: Interval| (range, a.is_finite());

@@ -9,7 +9,7 @@
 use super::super::operation::{Binary, Unary};
 use super::super::program::Numbers;
 use super::form::Form;
-use super::function::ULP;
+use super::function::{ULP, faded};
 use super::interval::Interval;
 use super::numbers::Forms;
 use super::region::Region;
@@ -67,18 +67,16 @@ impl Growth {
         }
         let [a, b] = [self.low.powf(p), self.high.powf(p)];
         let slack = 8.0 * ULP;
-        let high = if self.high == 0.0 { 0.0 } else { f64::MIN_POSITIVE };
-        let [low, high] = [a.min(b) * (1.0 - slack), (a.max(b) * (1.0 + slack)).max(high)];
+        let [low, high] = [a.min(b) * (1.0 - slack), a.max(b) * (1.0 + slack)];
+        let high = high.max(faded(self.high == 0.0));
         Some(Self { low, high, sign, exponent: p * self.exponent, ..self })
     }
 
     fn times(self, other: Self, place: Option<Place>) -> Self {
-        // What underflows is not 0: later factors may enlarge it.
         let is_zero = self.high == 0.0 || other.high == 0.0;
-        let least = if is_zero { 0.0 } else { f64::MIN_POSITIVE };
         Self {
             low: self.low * other.low * (1.0 - 4.0 * ULP),
-            high: (self.high * other.high * (1.0 + 4.0 * ULP)).max(least),
+            high: (self.high * other.high * (1.0 + 4.0 * ULP)).max(faded(is_zero)),
             sign: self.sign * other.sign,
             exponent: self.exponent + other.exponent,
             place,
