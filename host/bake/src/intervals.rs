@@ -87,7 +87,7 @@ fn of_steps(problem: &Problem, step: f64, are_balanced: bool) -> OutputIntervals
 /// The columns of a model that has a bound, with its transfer coefficients at both ends of their range where an input changes them.
 fn columns(problem: &Problem, origin: &Origin) -> Result<Vec<Vec<Column>>> {
     let of_corner = |scene: Scene| origin.recovery.columns(&problem.with_loads_of(scene)?);
-    match origin.whole.certificate {
+    match origin.recovered().certificate {
         Ok(_) => corners(&problem.scene).map(of_corner).collect(),
         Err(_) => Ok(Vec::new()),
     }

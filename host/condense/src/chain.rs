@@ -14,7 +14,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::levels::{level, ranges};
-use super::{Corner, Form, Vertex};
+use super::{Corner, Form, Pieces, Vertex};
 use signorini_certify::TermData;
 use signorini_certify::ends::of_moved;
 use signorini_problem::Problem;
@@ -48,19 +48,25 @@ pub(super) fn is_left_out(ends: [u32; 2], released: &BTreeSet<u32>) -> bool {
 }
 
 impl Chain {
-    /// `edges` holds the contact edge of each unknown, `openings` d_i, the unit of its opening. At vertices that are `released` s
-    /// is as free as inside.
+    /// Of data whose unknowns have their openings in these units d_i. At vertices that are `released` s is as free as inside, and so it is
+    /// between edges that are settled as open.
     ///
     /// # Errors
     /// A sentence why s cannot be fixed beforehand.
     pub fn new(
-        problem: &Problem,
-        patterns: &[TermData],
-        edges: &[usize],
+        pieces: &Pieces,
         openings: &[f64],
         released: &BTreeSet<u32>,
     ) -> Result<Self, String> {
-        let given = given(problem, patterns);
+        let Pieces { problem, patterns, edges, settled, .. } = pieces;
+        let mut given = given(problem, patterns);
+        for &edge in &settled.touching {
+            let vertices = problem.ends[problem.topology.counts.free + edge].into_iter();
+            for (end, vertex) in vertices.enumerate() {
+                let psi = || patterns.iter().map(|pattern| pattern.ends.gap[edge][end]).collect();
+                given.entry(vertex).or_insert_with(psi);
+            }
+        }
         let meetings = meetings(problem, patterns, edges);
         let (ranges, is_limited) =
             (ranges(problem, patterns.len()), !problem.loads.spans.is_empty());
@@ -234,6 +240,8 @@ fn next_along(
 ) -> Option<usize> {
     let ends = problem.ends[problem.topology.counts.free + edges[end]];
     let far = ends.into_iter().find(|&other| other != vertex)?;
-    let mut unknowns = meetings.get(&far)?.iter().map(|&(at, _)| at);
-    unknowns.find(|&at| at != end)
+    // Beyond a vertex where gaps differ s − ψ is another function.
+    let there = meetings.get(&far)?;
+    let (_, psi) = there.iter().find(|(at, _)| *at == end)?;
+    there.iter().find(|(at, other)| *at != end && other == psi).map(|&(at, _)| at)
 }

@@ -7,6 +7,8 @@
 //! conservative ones (15); on a contact edge they are the residual of the condensed problem. Everything else is read off the
 //! fields of these columns.
 
+use std::iter::repeat;
+
 use signorini_certify::TermData;
 use signorini_kernel::mesh::geometry::{quad_area, triangle_area};
 use signorini_problem::{Assembled, Loads, Problem};
@@ -91,28 +93,70 @@ fn uniform_source(problem: &Problem, cells: &[bool], silent: Loads) -> Loads {
     Loads { triangles: share(triangles), quads: share(quads), ..silent }
 }
 
-/// The fields of all `given`, in their order.
+/// The rows that are eliminated: those of the free edges, then of the contact edges that are open whatever happens.
+pub(super) struct FreeRows {
+    /// The edge of each.
+    pub edges: Vec<usize>,
+}
+
+impl FreeRows {
+    /// With these contact edges, counted from the first one.
+    pub fn new(problem: &Problem, open: &[usize]) -> Self {
+        let free = problem.topology.counts.free;
+        // Rows of the matrix have their columns in order.
+        let mut edges: Vec<usize> = (0..free).chain(open.iter().map(|edge| free + edge)).collect();
+        edges.sort_unstable();
+        Self { edges }
+    }
+
+    pub fn count(&self) -> usize {
+        self.edges.len()
+    }
+
+    /// The number of each of so many rows among them.
+    fn numbers(&self, rows: usize) -> Vec<Option<u32>> {
+        let mut numbers = vec![None; rows];
+        self.edges.iter().zip(0..).for_each(|(&edge, number)| numbers[edge] = Some(number));
+        numbers
+    }
+}
+
+/// The fields of all `given`, in their order, with the contact edges `open` as free as those inside.
 ///
 /// # Errors
 /// Numbers out of range, a matrix that is singular to working precision.
-pub(super) fn fields(problem: &Problem, given: &[FieldLoads]) -> Result<Vec<Field>> {
+pub(super) fn fields(
+    problem: &Problem,
+    given: &[FieldLoads],
+    open: &[usize],
+) -> Result<Vec<Field>> {
     let unfit = unfit::<f64>(&problem.scene);
     let mut assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
-    let free = problem.topology.counts.free;
-    let mut right = Vec::with_capacity(free * given.len());
+    let (counts, rows) = (problem.topology.counts, FreeRows::new(problem, open));
+    let mut right = Vec::with_capacity(rows.count() * given.len());
     let mut fields = Vec::with_capacity(given.len());
     for FieldLoads { loads, contact } in given {
         assembled.set_loads(loads).map_err(&unfit)?;
         let system = assembled.system().map_err(&unfit)?;
-        let mut u = vec![0.0; free];
+        let mut u = vec![0.0; counts.free];
         u.extend(contact.iter().chain(&loads.dirichlet));
-        let rows = system.matrix().iter().zip(system.load()).take(free);
-        right.extend(rows.map(|(row, load)| load - row.dot(&u)));
+        rows.edges.iter().for_each(|&edge| u[edge] = 0.0);
+        let lacking: Vec<f64> = system
+            .matrix()
+            .iter()
+            .zip(system.load())
+            .map(|(row, load)| load - row.dot(&u))
+            .collect();
+        right.extend(rows.edges.iter().map(|&edge| lacking[edge]));
         fields.push(Field { flux: vec![0.0; u.len()], u });
     }
-    let solved = free_block(&assembled, free, &right).map_err(failed(&problem.scene))?;
-    for (at, (field, FieldLoads { loads, .. })) in fields.iter_mut().zip(given).enumerate() {
-        field.u[..free].copy_from_slice(&solved[at * free..][..free]);
+    // Of a column alone there may be no transfer laws, which the matrix has.
+    assembled.set_loads(&problem.loads).map_err(&unfit)?;
+    let solved = free_block(&assembled, &rows, &right).map_err(failed(&problem.scene))?;
+    let solved = solved.chunks(rows.count().max(1)).map(Some).chain(repeat(None));
+    for ((field, FieldLoads { loads, .. }), solved) in fields.iter_mut().zip(given).zip(solved) {
+        let solved = rows.edges.iter().zip(solved.unwrap_or_default());
+        solved.for_each(|(&edge, &u)| field.u[edge] = u);
         assembled.set_loads(loads).map_err(&unfit)?;
         assembled.recover(&field.u, &[], &mut field.flux).map_err(&unfit)?;
     }
@@ -122,15 +166,18 @@ pub(super) fn fields(problem: &Problem, given: &[FieldLoads]) -> Result<Vec<Fiel
 /// K_FF⁻¹ applied to the columns of `right`.
 pub(super) fn free_block(
     assembled: &Assembled<f64>,
-    free: usize,
+    rows: &FreeRows,
     right: &[f64],
 ) -> std::result::Result<Vec<f64>, ReferenceError> {
     let malformed = |_| ReferenceError::Malformed("the assembled matrix is not one");
     let system = assembled.system().map_err(malformed)?;
     let (mut row_ptr, mut col_idx, mut values) = (vec![0], Vec::new(), Vec::new());
-    for row in system.matrix().iter().take(free) {
-        for (column, value) in row.entries().filter(|&(column, _)| column < free) {
-            col_idx.push(column as u32);
+    let numbers = rows.numbers(assembled.edges().counts().edges());
+    let matrix: Vec<_> = system.matrix().iter().collect();
+    for row in rows.edges.iter().map(|&edge| &matrix[edge]) {
+        for (column, value) in row.entries() {
+            let Some(number) = numbers[column] else { continue };
+            col_idx.push(number);
             values.push(value);
         }
         row_ptr.push(values.len() as u32);

@@ -25,6 +25,8 @@ pub(super) struct FormData<'g> {
     pub matrix: &'g Mat<f64>,
     /// The field of a source that adds up to 1 on the one part that contact alone holds.
     pub source: Option<&'g Field>,
+    /// Fields of unit openings of the edges that always touch.
+    pub touching: &'g [Field],
     /// Contact vertices at which s is free.
     pub released: &'g BTreeSet<u32>,
 }
@@ -39,6 +41,8 @@ pub(super) struct Admissibles {
     pub contact: Vec<u32>,
     /// Contact vertices at which s is free, and ψ there for each pattern.
     pub released: Vec<(u32, Vec<f64>)>,
+    /// Fluxes by which a residual of 1 on each unknown is mended, where edges are settled; else they follow from those of x.
+    pub mending: Option<Table>,
 }
 
 /// A form, and the contact vertices of its corrections.
@@ -54,7 +58,7 @@ impl FormData<'_> {
     /// Data that are not finite, a normal matrix that is singular to working precision.
     pub fn form(&self) -> Result<Found> {
         let Columns { pieces, fields, openings } = self.columns;
-        let Pieces { problem, patterns, edges, laws, .. } = pieces;
+        let Pieces { problem, patterns, laws, .. } = pieces;
         let (laws, released) = (laws.as_ref(), self.released);
         if let Some(reason) = self.obstacle()? {
             return Ok(Err(reason));
@@ -62,7 +66,7 @@ impl FormData<'_> {
         if let Some(step) = &pieces.step {
             return self.of_step(step);
         }
-        let chain = match Chain::new(problem, patterns, edges, openings, released) {
+        let chain = match Chain::new(pieces, openings, released) {
             Ok(chain) => chain,
             Err(reason) => return Ok(Err(reason)),
         };
@@ -86,8 +90,10 @@ impl FormData<'_> {
         });
         let released = chain.released.clone();
         let found = self.assembled(chain, &blocks, &s, jump)?;
-        Ok(found
-            .map(|(form, contact)| (form, Admissibles { s, fluxes, functions, contact, released })))
+        Ok(found.map(|(form, contact)| {
+            let mending = None;
+            (form, Admissibles { s, fluxes, functions, contact, released, mending })
+        }))
     }
 
     /// The form of these rows and columns of s, and the vertices of its corrections.
@@ -192,6 +198,11 @@ impl FormData<'_> {
     }
 
     fn stability(&self, blocks: &[Block]) -> Option<f64> {
+        if self.columns.pieces.settled.count() > 0 {
+            let fluxes = self.mending()?;
+            let identity = Mat::identity(fluxes.columns, fluxes.columns);
+            return stability(&identity, &energies(blocks, &fluxes), None);
+        }
         let Columns { pieces, fields, openings } = self.columns;
         let mut columns = fields[pieces.patterns.len()..].to_vec();
         let source = self.source.map(|field| {

@@ -46,6 +46,7 @@ pub mod ranges;
 mod recovery;
 mod residual;
 mod rounding;
+mod settled;
 mod steps;
 #[cfg(test)]
 mod tests;
@@ -65,12 +66,13 @@ pub use model::{Balance, CondensedModel, Corner, Form, Measure, Vertex};
 pub use modes::{LawsForm, LeftOut, ModalModel, modal};
 pub use order::along_boundary;
 pub use recovery::{Recovery, recoverable};
+pub use settled::Settled;
 use signorini_certify::TermData;
 use signorini_certify::term::{condensed_terms, rooms_of};
 use signorini_problem::{Approach, Parts, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Input;
-pub use steps::{EvolutionForms, Memory, SteppedModel, stepped};
+pub use steps::{EvolutionForms, Memory, SteppedModel, settled, stepped};
 
 /// Condenses `problem` for all values of its inputs; its own loads only decide whether there is a solution.
 ///
@@ -98,6 +100,8 @@ struct Pieces<'p> {
     spans: Vec<Vec<f64>>,
     /// The contact edge of each unknown.
     edges: Vec<usize>,
+    /// Contact edges that are no unknowns.
+    settled: Settled,
     held_by_contact: Vec<Vec<usize>>,
     /// The cells of the one part that contact alone holds.
     alone: Option<Vec<bool>>,
@@ -111,11 +115,17 @@ struct Pieces<'p> {
 
 impl<'p> Pieces<'p> {
     fn new(problem: &'p Problem) -> Result<Self> {
+        Self::with(problem, Settled::default())
+    }
+
+    /// Without these edges among the unknowns.
+    fn with(problem: &'p Problem, settled: Settled) -> Result<Self> {
         let parts = Parts::examine(problem)?;
         problem.check_limits_within_ranges()?;
         let patterns = condensed_terms(problem)?;
         let spans = spans(&patterns);
-        let edges = along_boundary(problem);
+        let mut edges = along_boundary(problem);
+        edges.retain(|&edge| settled.keeps(edge));
         let held_by_contact = held_by_contact(problem, &parts, &edges);
         if held_by_contact.iter().any(|part| part.len() == 1) {
             return Err(held_by_one(&problem.scene));
@@ -128,6 +138,7 @@ impl<'p> Pieces<'p> {
             patterns,
             spans,
             edges,
+            settled,
             held_by_contact,
             alone,
             laws,
@@ -136,28 +147,31 @@ impl<'p> Pieces<'p> {
         })
     }
 
-    /// Fields of the patterns, of unit openings, of the source where there is one, and of `more` loads.
+    /// Fields of the patterns, of unit openings, of those of edges that always touch, of the source where there is one, and of `more` loads.
     fn fields(&self, more: Vec<FieldLoads>) -> Result<Fields> {
-        let Self { problem, patterns, edges, alone, .. } = self;
-        let mut columns = columns(problem, patterns, edges, alone.as_deref());
+        let Self { problem, patterns, edges, alone, settled, .. } = self;
+        let opened = [&edges[..], &settled.touching].concat();
+        let mut columns = columns(problem, patterns, &opened, alone.as_deref());
         let own = columns.len();
         columns.extend(more);
-        let mut inputs = fields(problem, &columns)?;
+        let mut inputs = fields(problem, &columns, &settled.open)?;
         let more = inputs.split_off(own);
         let mut openings = inputs.split_off(patterns.len());
-        let source = openings.split_off(edges.len()).pop();
-        Ok(Fields { inputs, openings, source, more })
+        let source = openings.split_off(opened.len()).pop();
+        let touching = openings.split_off(edges.len());
+        Ok(Fields { inputs, openings, touching, source, more })
     }
 
     fn model(&self, mut fields: Fields) -> Result<(CondensedModel, Recovery)> {
         let (mut model, matrix) = self.without_form(&mut fields)?;
-        let Fields { inputs: mut columns, mut openings, source, .. } = fields;
+        let Fields { inputs: mut columns, mut openings, touching, source, .. } = fields;
         columns.append(&mut openings);
         let (fields, opening) = (columns, model.opening.clone());
         let columns = Columns { pieces: self, fields: &fields, openings: &opening };
         model.outputs = columns.measures()?;
         let released = &BTreeSet::new();
-        let data = FormData { columns, matrix: &matrix, source: source.as_ref(), released };
+        let (matrix, touching) = (&matrix, &touching[..]);
+        let data = FormData { columns, matrix, source: source.as_ref(), touching, released };
         let (form, admissibles) = match data.form()? {
             Ok((form, admissibles)) => (Ok(form), Some(admissibles)),
             Err(reason) => (Err(reason), None),
@@ -240,6 +254,7 @@ impl<'p> Pieces<'p> {
 struct Fields {
     inputs: Vec<Field>,
     openings: Vec<Field>,
+    touching: Vec<Field>,
     source: Option<Field>,
     more: Vec<Field>,
 }

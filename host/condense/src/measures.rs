@@ -25,7 +25,9 @@ impl Columns<'_> {
                 parts.iter().fold(0.0, |sum, &(edge, part)| sum + part * u[edge])
             }),
             Functional::Length(lengths) => {
-                Measure::Length { always: 0.0, of_contact: self.by_unknown(lengths) }
+                let always = lengths.iter().filter(|(edge, _)| self.is_touching(*edge));
+                let always = always.map(|(_, length)| length).sum();
+                Measure::Length { always, of_contact: self.by_unknown(lengths) }
             }
             // Nothing is at its limit where there is none.
             Functional::Saturated(_) if self.pieces.spans.is_empty() => self.linear(|_| 0.0),
@@ -41,7 +43,8 @@ impl Columns<'_> {
     /// The flux (15) through edges that are not in contact, q and the reactions through those that are.
     fn flux(&self, edges: &[usize]) -> Measure {
         let Pieces { problem, patterns, .. } = self.pieces;
-        let is_contact = |edge: &usize| problem.kinds[*edge] == EdgeKind::Contact;
+        let is_contact =
+            |edge: &usize| problem.kinds[*edge] == EdgeKind::Contact && !self.is_touching(*edge);
         let (contact, rest): (Vec<usize>, Vec<usize>) = edges.iter().partition(|e| is_contact(e));
         let recovered = |field: &Field| rest.iter().fold(0.0, |sum, &edge| sum + field.flux[edge]);
         let elsewhere = self.linear(recovered);
@@ -84,14 +87,39 @@ impl Columns<'_> {
         }
         let sign = |edge: usize| if span(edge) == f64::NEG_INFINITY { -1.0 } else { 1.0 };
         let signs: Vec<_> = edges.iter().map(|&edge| (edge, sign(edge))).collect();
-        Measure::Flux { of_inputs, of_contact: Vec::new(), of_reaction: self.reactions(&signs) }
+        let of_reaction = self.reactions(&signs);
+        let touching: Vec<usize> =
+            edges.iter().copied().filter(|&edge| self.is_touching(edge)).collect();
+        if touching.is_empty() {
+            return Measure::Flux { of_inputs, of_contact: Vec::new(), of_reaction };
+        }
+        // Settled edges have no limits.
+        let pressing = |field: &Field| touching.iter().map(|&edge| field.flux[edge]).sum::<f64>();
+        let (mut of_inputs, of_contact) = self.factors(pressing);
+        for (factor, pattern) in of_inputs.iter_mut().zip(patterns) {
+            let q = |edge: &usize| pattern.loads().contact_flux[edge - free];
+            *factor -= touching.iter().map(q).sum::<f64>();
+        }
+        Measure::Flux { of_inputs, of_contact, of_reaction }
     }
 
     /// Σ Y_p p + Σ Y_x x
     fn linear(&self, value: impl Fn(&Field) -> f64) -> Measure {
+        let (of_inputs, of_contact) = self.factors(value);
+        Measure::Linear { of_inputs, of_contact }
+    }
+
+    /// Y_p and Y_x
+    fn factors(&self, value: impl Fn(&Field) -> f64) -> (Vec<f64>, Vec<f64>) {
         let mut of_inputs: Vec<f64> = self.fields.iter().map(value).collect();
         let of_contact = of_inputs.split_off(self.pieces.patterns.len());
-        Measure::Linear { of_inputs, of_contact }
+        (of_inputs, of_contact)
+    }
+
+    /// Whether an edge touches whatever happens.
+    fn is_touching(&self, edge: usize) -> bool {
+        let Pieces { problem, settled, .. } = self.pieces;
+        settled.touching.iter().any(|at| problem.topology.counts.free + at == edge)
     }
 
     /// ∫_E (τ·n − q) for r̂ = 1 on each of these contact edges, times the number beside it.

@@ -72,7 +72,7 @@ impl Recovery {
         let unit = of.energy_unit;
         let corrections = form.correction(&of.allowed(p), p.len(), x).into_iter().map(|d| unit * d);
         let z: Vec<f64> = columns(of, p, x).into_iter().chain(corrections).collect();
-        let mended = columns(of, p, &of.mended(form, p, x)?);
+        let (mended, by) = self.mended(of, form, p, x)?;
         let at = |row: &[f64], z: &[f64]| row.iter().zip(z).map(|(a, b)| a * b).sum::<f64>();
         let bubble =
             |edge| functions.bubble(edge).map_or(0.0, |place| at(s.row(place as usize), &z));
@@ -82,11 +82,32 @@ impl Recovery {
                 .map(|vertex| at(s.row(vertex), &z))
                 .collect(),
             bubbles: edges.clone().map(bubble).collect(),
-            tau: edges.map(|edge| at(fluxes.row(edge), &mended)).collect(),
+            tau: edges.map(|edge| at(fluxes.row(edge), &mended) + by(edge)).collect(),
             indicators: Vec::new(),
             following: Following::Except(self.left_out(problem)),
             ..CertifiedFields::default()
         })
+    }
+
+    /// Factors of columns, and fluxes beside them, whose sum is the mended τ.
+    fn mended<'r>(
+        &'r self,
+        of: &CondensedModel,
+        form: &Form,
+        p: &[f64],
+        x: &[f64],
+    ) -> Option<(Vec<f64>, impl Fn(usize) -> f64 + 'r)> {
+        let mending = self.admissibles.as_ref()?.mending.as_ref();
+        let (x, residuals) = match mending {
+            Some(_) => (x.to_vec(), of.lacking(form, p, x)?),
+            None => (of.mended(form, p, x)?, Vec::new()),
+        };
+        let residuals: Vec<f64> = residuals.iter().map(|r| of.energy_unit * r).collect();
+        let by = move |edge: usize| {
+            let row = mending.map_or(&[][..], |fluxes| fluxes.row(edge));
+            row.iter().zip(&residuals).map(|(flux, r)| flux * r).sum()
+        };
+        Some((columns(of, p, &x), by))
     }
 
     /// The columns that s and τ are sums of: a unit of every input, amplitude, opening and correction, in this order; nothing where
@@ -143,12 +164,17 @@ fn columns(of: &CondensedModel, p: &[f64], x: &[f64]) -> Vec<f64> {
 }
 
 impl CondensedModel {
-    /// x with which the residual is the mended one; the part that contact alone holds stays where it is.
-    pub(super) fn mended(&self, form: &Form, p: &[f64], x: &[f64]) -> Option<Vec<f64>> {
-        let n = self.contact;
+    /// By how much the residual changes where it is mended.
+    fn lacking(&self, form: &Form, p: &[f64], x: &[f64]) -> Option<Vec<f64>> {
         let before = self.residual(p, x);
         let mut after = before.clone();
         form.mend(&self.opening, &self.ends_of(p), &mut after, x)?;
+        Some(after.iter().zip(&before).map(|(after, before)| after - before).collect())
+    }
+
+    /// x with which the residual is the mended one; the part that contact alone holds stays where it is.
+    pub(super) fn mended(&self, form: &Form, p: &[f64], x: &[f64]) -> Option<Vec<f64>> {
+        let (n, lacking) = (self.contact, self.lacking(form, p, x)?);
         if n == 0 {
             return Some(Vec::new());
         }
@@ -156,7 +182,7 @@ impl CondensedModel {
         let first = form.floating.first().map_or(1.0, |&first| self.opening[first]);
         form.floating.iter().for_each(|&i| constant[i] = first / self.opening[i]);
         let matrix = Mat::from_fn(n, n, |i, j| self.matrix[n * i + j] + constant[i] * constant[j]);
-        let change = Mat::from_fn(n, 1, |i, _| after[i] - before[i]);
+        let change = Mat::from_fn(n, 1, |i, _| lacking[i]);
         let change = matrix.llt(Side::Lower).ok()?.solve(change);
         Some(x.iter().enumerate().map(|(i, x)| x + change[(i, 0)]).collect())
     }

@@ -72,7 +72,8 @@ impl FormData<'_> {
 
     /// Σ over the cells and Neumann edges of what `field` is out of balance, and may be by rounding.
     fn unbalanced(&self, field: &Field, loads: Option<&Loads>) -> f64 {
-        let Problem { topology, kinds, .. } = self.columns.pieces.problem;
+        let Pieces { problem, settled, .. } = self.columns.pieces;
+        let Problem { topology, kinds, .. } = *problem;
         let (triangles, quads) = (&topology.of_triangles, &topology.of_quads);
         let sides = triangles.iter().map(|of| &of[..]).chain(quads.iter().map(|of| &of[..]));
         let of_cells: f64 = sides
@@ -95,7 +96,11 @@ impl FormData<'_> {
         let neumann = loads.map_or(&[][..], |loads| &loads.neumann);
         neumann.iter().for_each(|of| given[of.edge as usize] = of.flux);
         let missed = (0..kinds.len()).filter(|&edge| kinds[edge].has_given_flux());
-        of_cells + missed.map(|edge| (field.flux[edge] - given[edge]).abs()).sum::<f64>()
+        let free = topology.counts.free;
+        let q = |edge: usize| loads.map_or(0.0, |loads| loads.contact_flux[edge]);
+        let open = settled.open.iter().map(|&edge| (field.flux[free + edge] - q(edge)).abs());
+        let missed = missed.map(|edge| (field.flux[edge] - given[edge]).abs());
+        of_cells + missed.chain(open).sum::<f64>()
     }
 
     /// Σ_i |Ŝ_ij − d_i ∫σ_j·n| of column j.

@@ -98,11 +98,11 @@ impl<R: Bakes> Session for Condensed<'_, R> {
         let p: Vec<f64> = std::iter::once(1.0)
             .chain(self.inputs.iter().chain(&self.past).map(|p| p.wide()))
             .collect();
-        let Origin { whole, recovery, .. } = self.origin;
+        let (whole, recovery) = (self.origin.recovered(), &self.origin.recovery);
         let x = self.origin.expand(&p, x);
         let p = self.origin.inputs(p, &x);
         let (mut u, flux) = recovery.field(whole, &p, &x);
-        let active: Vec<_> = whole.by_edge(&x).into_iter().map(|x| x == 0.0).collect();
+        let active = self.origin.touching(&x);
         // A sum of columns meets the gap but for rounding; a reader that asks for contact compares the two.
         let contact = u[at.topology.counts.free..].iter_mut().zip(&at.loads.gap).zip(&active);
         for ((u, &gap), _) in contact.filter(|(_, active)| **active) {
@@ -119,7 +119,7 @@ impl<R: Bakes> Session for Condensed<'_, R> {
             sweeps: report.sweeps,
             omega: self.baked.sweeps.omega.wide(),
             algebraic_residual: largest_violation(whole, &p, &x),
-            contact_force: whole.force(&p, &x),
+            contact_force: whole.force(&p, &x) + self.origin.pressing(at, &flux),
             bound: certificate.map(ErrorBound::new),
             no_bound: NoBound::of_verdict(&report.verdict, at, data),
             certified: certified.unwrap_or_default(),

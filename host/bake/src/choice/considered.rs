@@ -71,7 +71,7 @@ impl<R: Bakes> Considered<R> {
         // What modes refuse, a pattern of two signs say, the full model can treat, and so it can many cells that store something.
         let may_be_full = Approach::condensing(problem) != Approach::Condensation;
         let origin = match problem.scene.stores() {
-            true => Origin::stepped(problem, &task.setting),
+            true => Origin::stepped(problem, &task.setting, task.wanted.has_all_edges),
             false => Origin::new(problem, task.wanted, negligible::<R>()),
         };
         match origin {

@@ -9,7 +9,7 @@ use signorini_condense::ranges::reduced::Reduced;
 use signorini_condense::ranges::released::released;
 use signorini_condense::ranges::sides::Sides;
 use signorini_condense::{
-    CondensedModel, ModalModel, Recovery, SteppedModel, modal, recoverable, stepped,
+    CondensedModel, ModalModel, Recovery, SteppedModel, modal, recoverable, settled, stepped,
 };
 use signorini_problem::{Approach, Exclusion, Problem};
 use signorini_reference::ReferenceError;
@@ -25,7 +25,7 @@ const ROUNDINGS: f64 = 16.0;
 pub struct Origin {
     /// With all contact edges; where `reduced` is there, its error bound may hold for that alone.
     pub whole: CondensedModel,
-    /// From its answers to fields on the mesh.
+    /// From its answers to fields on the mesh; of steps in time from those of their model.
     pub recovery: Recovery,
     /// The sides that its edges are on for all inputs within their ranges; where ticks are steps in time, in all exact ones on the mesh.
     pub sides: Sides,
@@ -39,7 +39,8 @@ pub struct Origin {
     pub has_all_edges: bool,
     /// Where an input changes a transfer coefficient, the modes of that; `whole` is the model at its least value then.
     pub modes: Option<ModalModel>,
-    /// Where ticks are steps in time, what one hands on to the next; `whole` is the model of one step then.
+    /// Where ticks are steps in time, what one hands on to the next, without edges that are proved to stay on their side; `whole` is the
+    /// model of one step with all of them then.
     pub steps: Option<SteppedModel>,
     /// What is proved of those modes for all values of the coefficient.
     pub followed: Option<FollowedRanges>,
@@ -48,9 +49,14 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// Of steps in time with the states that `setting` asks for. All edges stay: few states may move answers beyond what is proved of all.
-    pub(super) fn stepped(problem: &Problem, setting: &Setting) -> Result<Self> {
-        let (of, recovery) = stepped(problem, setting.memory.map(|states| states as usize))?;
+    /// Of steps in time with the states that `setting` asks for, and all edges where that is wanted.
+    pub(super) fn stepped(
+        problem: &Problem,
+        setting: &Setting,
+        has_all_edges: bool,
+    ) -> Result<Self> {
+        let memory = setting.memory.map(|states| states as usize);
+        let (of, recovery) = stepped(problem, memory)?;
         if let Some(why) = of.model.certificate.as_ref().err().filter(|_| setting.certificate) {
             let error = InputError::new(format!("there is no error bound: {why}"));
             let hint = "certificate = false in [setting] leaves the bound out";
@@ -62,14 +68,20 @@ impl Origin {
                 Ok(sides) => (sides, None),
                 Err(why) => (Sides::unproved(&of.model), Some(why)),
             };
+        let whole = of.model.clone();
+        let fewer = match has_all_edges {
+            true => None,
+            false => settled(problem, &of, &sides, memory)?,
+        };
+        let (of, recovery) = fewer.unwrap_or((of, recovery));
         Ok(Self {
             sides,
             unproved,
-            whole: of.model.clone(),
+            whole,
             recovery,
             reduced: None,
             clear: BTreeMap::new(),
-            has_all_edges: true,
+            has_all_edges,
             modes: None,
             steps: Some(of),
             followed: None,
@@ -126,7 +138,12 @@ impl Origin {
 
     /// The model that is baked.
     pub fn model(&self) -> &CondensedModel {
-        self.reduced.as_ref().map_or(&self.whole, |reduced| &reduced.model)
+        self.reduced.as_ref().map_or_else(|| self.recovered(), |reduced| &reduced.model)
+    }
+
+    /// The model that `recovery` leads back from.
+    pub fn recovered(&self) -> &CondensedModel {
+        self.steps.as_ref().map_or(&self.whole, |steps| &steps.model)
     }
 
     /// The inputs of the whole model with these x: those of the scene, the constant first, and amplitudes where there are
@@ -137,11 +154,28 @@ impl Origin {
             // Without its bound a controller hands no corrections on.
             (None, Some(_)) => {
                 let mut p = p;
-                p.resize(self.whole.inputs, 0.0);
+                p.resize(self.recovered().inputs, 0.0);
                 p
             }
             (None, None) => p,
         }
+    }
+
+    /// Which contact edges touch with these x of the model that `recovery` leads back from.
+    pub fn touching(&self, x: &[f64]) -> Vec<bool> {
+        let mut touching = vec![true; self.whole.contact];
+        let edges = self.recovered().edges.iter().zip(x);
+        edges.for_each(|(&edge, &x)| touching[edge] = x == 0.0);
+        let open = self.steps.iter().flat_map(|steps| &steps.settled.open);
+        open.for_each(|&edge| touching[edge] = false);
+        touching
+    }
+
+    /// What presses the contact edges that touch in every step, of these fluxes through all edges.
+    pub fn pressing(&self, at: &Problem, flux: &[f64]) -> f64 {
+        let touching = self.steps.iter().flat_map(|steps| &steps.settled.touching);
+        let free = at.topology.counts.free;
+        touching.map(|&edge| flux[free + edge] - at.loads.contact_flux[edge]).sum()
     }
 
     /// x of the whole model, from that of the one that is baked.

@@ -75,8 +75,15 @@ fn summary(scene: &Scene, origin: &Origin) -> String {
     );
     if let Some(steps) = &origin.steps {
         let (own, all) = (steps.fading.len(), steps.modes);
+        let keeps = match (kept == contact, origin.has_all_edges) {
+            (true, true) => "--full-edges keeps all of them".to_owned(),
+            (true, false) => "The model keeps all".to_owned(),
+            (false, _) => format!(
+                "The model keeps {kept}: those that may change, and {beside} that its error bound needs"
+            ),
+        };
         return format!(
-            "{of_edges}\nThe model keeps all. That is of exact steps on the mesh with its {all} states, of which the model has {own}."
+            "{of_edges}\n{keeps}. That is of exact steps on the mesh with its {all} states, of which the model has {own}."
         );
     }
     if let Some(modes) = &origin.modes {

@@ -12,6 +12,13 @@ pub(super) const ROUNDINGS: f64 = 16.0;
 
 /// A sentence on them.
 pub(super) fn answers<R: Scalar>(of: &SteppedModel) -> String {
+    let left_out = of.settled.count();
+    if left_out > 0 {
+        // Where its own answers lie follows from the limits that a tick keeps them in.
+        return format!(
+            "The {left_out} edges that it leaves out do in it what its bound asks for, wherever ticks are cut off: s ≥ ψ where they are open, and the flux presses where they touch.\n"
+        );
+    }
     let of = narrowed::<R>(of);
     let rounding = ROUNDINGS * R::EPSILON.wide();
     let proved = match lasting(&of, &of.memory(), rounding) {

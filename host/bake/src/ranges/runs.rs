@@ -71,7 +71,10 @@ fn steps(problem: &Problem, origin: &Origin) -> Vec<Step> {
     let free = problem.topology.counts.free;
     let edges = &origin.whole.edges;
     let ends: Vec<[u32; 2]> = edges.iter().map(|edge| problem.ends[free + edge]).collect();
-    let keeps = |at: usize| origin.reduced.is_none() || origin.sides.kept[at];
+    let keeps = |at: usize| match &origin.steps {
+        Some(steps) => steps.settled.keeps(edges[at]),
+        None => origin.reduced.is_none() || origin.sides.kept[at],
+    };
     let enclosure = origin.sides.enclosure.as_ref().filter(|_| origin.steps.is_some());
     let opening = |at: usize| match origin.sides.of[at] {
         EdgeSide::Touching => enclosure.map(|_| 0.0),

@@ -218,13 +218,13 @@ impl SteppedModel {
 }
 
 /// −(total − Σ_j a_j b_j) at most: what the first lag is below 0.
-fn first(total: f64, [a, b]: [&[f64]; 2]) -> f64 {
+pub(crate) fn first(total: f64, [a, b]: [&[f64]; 2]) -> f64 {
     let (sum, noise) = product(a, b);
     sum - total + noise + 2.0 * f64::EPSILON * total.abs()
 }
 
 /// Σ_i max(−a_i, 0) of the later lags, a_i = Σ_j a_j b_j (1 − ω_j) ω_j^i.
-fn later(fading: &[f64], [a, b]: [&[f64]; 2]) -> f64 {
+pub(crate) fn later(fading: &[f64], [a, b]: [&[f64]; 2]) -> f64 {
     let weights = a.iter().zip(b).zip(fading).map(|((a, b), omega)| (1.0 - omega) * a * b);
     backward(&weights.collect::<Vec<f64>>(), fading)
 }

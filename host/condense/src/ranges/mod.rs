@@ -11,7 +11,7 @@ mod affine;
 mod change;
 pub mod enclosure;
 pub mod follow;
-mod history;
+pub(crate) mod history;
 pub mod interval;
 mod lags;
 pub mod largest;

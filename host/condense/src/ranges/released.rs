@@ -153,7 +153,7 @@ fn with_released(
     let openings: Vec<f64> = whole.opening.iter().map(|d| d / unit).collect();
     let matrix = Mat::from_fn(n, n, |i, j| whole.matrix[i * n + j]);
     let columns = Columns { pieces: &pieces, fields: &recovery.fields, openings: &openings };
-    let data = FormData { columns, matrix: &matrix, source: None, released };
+    let data = FormData { columns, matrix: &matrix, source: None, touching: &[], released };
     let Ok((mut form, admissibles)) = data.form()? else { return Ok(None) };
     form.rescale(unit, whole.inputs);
     let model = CondensedModel { certificate: Ok(form), ..whole.clone() };

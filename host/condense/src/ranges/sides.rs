@@ -220,7 +220,7 @@ fn there_is(model: &CondensedModel, at: usize, [lo, hi]: [f64; 2]) -> [f64; 2] {
 }
 
 /// The box that any scalar rounds `ranges` into.
-pub(super) fn widened(ranges: &[[f64; 2]]) -> Vec<[f64; 2]> {
+pub(crate) fn widened(ranges: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let noise = |end: f64| f64::from(f32::EPSILON) * end.abs() + f64::from(f32::MIN_POSITIVE);
     ranges.iter().map(|&[lo, hi]| [lo - noise(lo), hi + noise(hi)]).collect()
 }

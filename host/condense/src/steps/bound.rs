@@ -19,6 +19,8 @@ use super::super::form::{Admissibles, Assembly, FormData, Found, fix_unused, tab
 use super::super::residual::{blocks, of_means};
 use super::super::{Columns, Pieces};
 use super::rows::storage;
+use signorini_kernel::mesh::boundary::Robin;
+use signorini_problem::Problem;
 use signorini_scene::error::Result;
 
 /// What s of a step is a sum of.
@@ -49,14 +51,27 @@ fn obstacle(pieces: &Pieces) -> Option<&'static str> {
     }
 }
 
+/// Rows by which s has the means of u over Robin edges, as far as it can.
+fn of_robin(problem: &Problem) -> Vec<Block> {
+    let of_law = |law: &Robin<f64, u32>| {
+        let edge = law.edge as usize;
+        let factor = (law.coefficient * problem.lengths[edge]).sqrt();
+        Block {
+            functions: problem.ends[edge].to_vec(),
+            edges: vec![law.edge],
+            rows: vec![vec![0.5 * factor, 0.5 * factor, -factor]],
+        }
+    };
+    problem.loads.robin.iter().map(of_law).collect()
+}
+
 /// How many contact vertices s is corrected at, for openings in these units, and where s − ψ comes from at the ends of each unknown's edge;
 /// none where s cannot be fixed.
 pub(super) fn corrections(pieces: &Pieces, openings: &[f64]) -> (usize, Vec<[usize; 2]>) {
     if obstacle(pieces).is_some() || pieces.patterns.iter().any(|of| of.no_bound.is_some()) {
         return (0, Vec::new());
     }
-    let chain =
-        Chain::new(pieces.problem, &pieces.patterns, &pieces.edges, openings, &BTreeSet::new());
+    let chain = Chain::new(pieces, openings, &BTreeSet::new());
     chain.map_or((0, Vec::new()), |chain| (chain.contact.len(), chain.ends))
 }
 
@@ -107,12 +122,12 @@ impl FormData<'_> {
     /// As for [`FormData::form`].
     pub fn of_step(&self, of: &StepShapes) -> Result<Found> {
         let Columns { pieces, fields, openings } = self.columns;
-        let Pieces { problem, patterns, edges, .. } = pieces;
+        let Pieces { problem, patterns, .. } = pieces;
         let (none, edge_count) = (&BTreeSet::new(), problem.ends.len());
         if let Some(reason) = obstacle(pieces) {
             return Ok(Err(reason.to_owned()));
         }
-        let chain = match Chain::new(problem, patterns, edges, openings, none) {
+        let chain = match Chain::new(pieces, openings, none) {
             Ok(chain) => chain,
             Err(reason) => return Ok(Err(reason)),
         };
@@ -131,8 +146,12 @@ impl FormData<'_> {
         let mut fixed = vec![false; functions.count()];
         chain.fixed().iter().for_each(|&vertex| fixed[vertex as usize] = true);
         fix_unused(&by_means, &mut fixed);
-        complete(&by_means, &fixed, &table(edge_count, &all), &mut own)
-            .map_err(failed(&problem.scene))?;
+        let means = table(edge_count, &all);
+        // Nothing but a transfer law may hold a part: slopes leave a constant of s there.
+        if complete(&by_means, &fixed, &means, &mut own).is_err() {
+            let held = [&by_means[..], &of_robin(problem)].concat();
+            complete(&held, &fixed, &means, &mut own).map_err(failed(&problem.scene))?;
+        }
         let s = of.table(&own);
         let own = blocks(problem, patterns, &functions, None, none)?;
         let blocks: Vec<Block> =
@@ -140,9 +159,12 @@ impl FormData<'_> {
         let means: Vec<&[f64]> = fields.iter().map(|field| &field.u[..]).collect();
         let jump = Some((by_means, table(edge_count, &means)));
         let found = self.assembled(chain, &blocks, &s, jump)?;
+        let is_settled = pieces.settled.count() > 0;
+        let mending = if is_settled { self.mending() } else { None };
         let admissible = |(form, contact)| {
             let fluxes = self.fluxes(fields);
-            (form, Admissibles { s, fluxes, functions, contact, released: Vec::new() })
+            let released = Vec::new();
+            (form, Admissibles { s, fluxes, functions, contact, released, mending })
         };
         Ok(found.map(|found: Assembly| admissible(found)))
     }

@@ -20,8 +20,7 @@ impl Memory {
         [of_contact, of_inputs]: [&[Vec<f64>]; 2],
         begin: &[f64],
     ) -> Self {
-        let mut order: Vec<usize> = (0..fading.len()).collect();
-        order.sort_by(|&a, &b| fading[b].total_cmp(&fading[a]));
+        let order = by_fading(fading);
         let rows = |of: &[Vec<f64>]| order.iter().map(|&at| of[at].clone()).collect();
         let numbers = |of: &[f64]| order.iter().map(|&at| of[at]).collect();
         Self {
@@ -31,4 +30,11 @@ impl Memory {
             begin: numbers(begin),
         }
     }
+}
+
+/// The numbers of states, the slowest first.
+pub(super) fn by_fading(fading: &[f64]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..fading.len()).collect();
+    order.sort_by(|&a, &b| fading[b].total_cmp(&fading[a]));
+    order
 }

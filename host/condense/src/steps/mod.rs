@@ -18,20 +18,23 @@ mod gramian;
 mod memory;
 mod modes;
 mod motion;
+mod proof;
 mod rows;
+mod settled;
 mod shapes;
 
 use std::cell::LazyCell;
 
 use super::elimination::{columns, fields};
 use super::evaluate::dot;
-use super::{CondensedModel, Measure, Pieces, Recovery};
+use super::{CondensedModel, Measure, Pieces, Recovery, Settled};
 pub(super) use bound::StepShapes;
 pub use evolution::EvolutionForms;
 use gramian::Subspace;
 pub use memory::Memory;
 use modes::Deviations;
 use motion::Motion;
+pub use settled::settled;
 use shapes::Shapes;
 use signorini_certify::TermData;
 use signorini_problem::{Approach, Problem, State};
@@ -61,6 +64,8 @@ pub struct SteppedModel {
     pub gaps: Vec<Vec<f64>>,
     /// The memory of the full model: all of its modes.
     pub full: Memory,
+    /// Contact edges that are no unknowns.
+    pub settled: Settled,
 }
 
 impl SteppedModel {
@@ -111,15 +116,25 @@ impl SteppedModel {
 /// # Errors
 /// What [`Approach::Stepped`] cannot treat; a scene that does not say how long a step is; no steady state, where the start is one.
 pub fn stepped(problem: &Problem, memory: Option<usize>) -> Result<(SteppedModel, Recovery)> {
+    with_settled(problem, memory, Settled::default())
+}
+
+/// The same without these edges among the unknowns.
+fn with_settled(
+    problem: &Problem,
+    memory: Option<usize>,
+    settled: Settled,
+) -> Result<(SteppedModel, Recovery)> {
     Approach::Stepped.check(problem)?;
     let length = step_of(&problem.scene)?;
-    let statics = Pieces::new(problem)?;
+    let statics = Pieces::with(problem, settled)?;
     let shapes = Shapes::new(&statics)?;
     let in_step = &problem.stepping(length, State::zero(problem))?;
     let mut pieces = statics.in_step(in_step, length, &shapes.inputs[0])?;
     let openings = pieces.openings(in_step)?;
     let start = shapes.start(problem, length, &openings)?;
-    let motion = Motion::new(&shapes, &start, &openings, Deviations::new(in_step)?);
+    let deviations = Deviations::new(in_step, &statics.settled.open)?;
+    let motion = Motion::new(&shapes, &start, &openings, deviations);
     let gramian = LazyCell::new(|| motion.gramian());
     let dominant = |memory: usize| match memory < motion.deviations.count() {
         true => gramian.dominant(memory),
@@ -144,6 +159,7 @@ pub fn stepped(problem: &Problem, memory: Option<usize>) -> Result<(SteppedModel
     let fields = pieces.fields(Vec::new())?;
     let (model, mut recovery) = pieces.model(fields)?;
     let mut of = motion.model(model, &mut recovery, (kept, corrections));
+    of.settled = statics.settled.clone();
     of.gaps = shapes.gaps(in_step, &of.model.opening);
     of.correct_start();
     let stated = problem.scene.time.as_ref().and_then(|time| time.initial.as_ref());
@@ -218,6 +234,7 @@ impl<'p> Pieces<'p> {
             patterns: self.patterns.iter().enumerate().map(in_step).collect::<Result<_>>()?,
             spans: self.spans.clone(),
             edges: self.edges.clone(),
+            settled: self.settled.clone(),
             held_by_contact: Vec::new(),
             alone: None,
             laws: None,
@@ -228,7 +245,8 @@ impl<'p> Pieces<'p> {
 
     /// d_i for U = 1.
     fn openings(&self, problem: &Problem) -> Result<Vec<f64>> {
-        let mut fields = fields(problem, &columns(problem, &[], &self.edges, None))?;
+        let columns = columns(problem, &[], &self.edges, None);
+        let mut fields = fields(problem, &columns, &self.settled.open)?;
         self.scaled(&mut fields)
     }
 }

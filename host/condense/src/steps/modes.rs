@@ -9,7 +9,7 @@
 
 use faer::{Mat, Side};
 
-use super::super::elimination::free_block;
+use super::super::elimination::{FreeRows, free_block};
 use signorini_problem::{Assembled, Problem};
 use signorini_scene::error::{InputError, Result};
 use signorini_solve::unfit;
@@ -28,18 +28,18 @@ pub(super) struct Deviations {
     roots: Vec<f64>,
     /// ψ_j by columns.
     vectors: Mat<f64>,
-    /// The free edges that store something, and M^½ there.
+    /// The eliminated edges that store something, by their rows, and M^½ there.
     stored: Vec<(usize, f64)>,
-    free: usize,
+    rows: FreeRows,
     edges: usize,
 }
 
 impl Deviations {
-    /// Of a `problem` that is a step.
+    /// Of a `problem` that is a step, with these contact edges as free as edges inside.
     ///
     /// # Errors
     /// More edges than there is time for; a matrix that is singular to working precision.
-    pub fn new(problem: &Problem) -> Result<Self> {
+    pub fn new(problem: &Problem, open: &[usize]) -> Result<Self> {
         let unfit = unfit::<f64>(&problem.scene);
         let counts = problem.topology.counts;
         let topology = problem.topology.edges().map_err(&unfit)?;
@@ -47,9 +47,10 @@ impl Deviations {
         let step = problem.loads.step.as_ref().map(|step| step.storage(&topology)).transpose();
         let step = step.map_err(&unfit)?;
         step.iter().for_each(|step| step.add_to_diagonal(&topology, &mut masses));
-        let free = masses.iter().take(counts.free).enumerate();
+        let rows = FreeRows::new(problem, open);
+        let of_rows = rows.edges.iter().map(|&edge| masses[edge]).enumerate();
         let stored: Vec<_> =
-            free.filter(|(_, mass)| **mass > 0.0).map(|(at, mass)| (at, mass.sqrt())).collect();
+            of_rows.filter(|(_, mass)| *mass > 0.0).map(|(at, mass)| (at, mass.sqrt())).collect();
         if stored.len() > MOST {
             let message = format!(
                 "{} edges store something, expected at most {MOST} to condense steps in time",
@@ -58,13 +59,13 @@ impl Deviations {
             let hint = "take the full model (--full, model = \"full\")";
             return Err(InputError::new(message).file(&problem.scene.path).hint(hint).into());
         }
-        let (count, free, edges) = (stored.len(), counts.free, counts.edges());
+        let (count, free, edges) = (stored.len(), rows.count(), counts.edges());
         let mut own = Self {
             fading: Vec::new(),
             roots: Vec::new(),
             vectors: Mat::new(),
             stored,
-            free,
+            rows,
             edges,
         };
         let units: Vec<f64> =
@@ -95,8 +96,9 @@ impl Deviations {
     pub fn coordinates(&self, u: &[f64]) -> Vec<f64> {
         let of_mode = |j: usize| {
             let terms = self.stored.iter().enumerate();
-            let sum: f64 =
-                terms.map(|(at, &(edge, root))| self.vectors[(at, j)] * root * u[edge]).sum();
+            let of_row =
+                |(at, &(row, root))| self.vectors[(at, j)] * root * u[self.rows.edges[row]];
+            let sum: f64 = terms.map(of_row).sum();
             self.roots[j] * sum
         };
         (0..self.count()).map(of_mode).collect()
@@ -109,26 +111,26 @@ impl Deviations {
         };
         // K w = M^½ Σ ψ_j κ_j^½ y_j is for edges that store nothing: the others are known without its rounding.
         let right = all.iter().flat_map(|y| self.weighed(|at| sum(at, &|j| self.roots[j] * y[j])));
-        let has_all = self.stored.len() == self.free;
+        let free = self.rows.count();
+        let has_all = self.stored.len() == free;
         let solved =
             if has_all { Vec::new() } else { self.solved(problem, &right.collect::<Vec<_>>())? };
         let shape = |(number, y): (usize, &Vec<f64>)| {
             let mut u = vec![0.0; self.edges];
-            if !has_all {
-                u[..self.free].copy_from_slice(&solved[number * self.free..][..self.free]);
-            }
-            for (at, &(edge, root)) in self.stored.iter().enumerate() {
-                u[edge] = sum(at, &|j| y[j] / self.roots[j]) / root;
+            let solved = solved.iter().skip(number * free);
+            self.rows.edges.iter().zip(solved).for_each(|(&edge, &solved)| u[edge] = solved);
+            for (at, &(row, root)) in self.stored.iter().enumerate() {
+                u[self.rows.edges[row]] = sum(at, &|j| y[j] / self.roots[j]) / root;
             }
             u
         };
         Ok(all.iter().enumerate().map(shape).collect())
     }
 
-    /// M^½ times what `of` gives of the edges that store something: a column over the free ones.
+    /// M^½ times what `of` gives of the edges that store something: a column over all that are eliminated.
     fn weighed(&self, of: impl Fn(usize) -> f64) -> Vec<f64> {
-        let mut column = vec![0.0; self.free];
-        self.stored.iter().enumerate().for_each(|(at, &(edge, root))| column[edge] = root * of(at));
+        let mut column = vec![0.0; self.rows.count()];
+        self.stored.iter().enumerate().for_each(|(at, &(row, root))| column[row] = root * of(at));
         column
     }
 
@@ -137,7 +139,7 @@ impl Deviations {
         let mut steady = problem.clone();
         steady.loads.step = None;
         let assembled = Assembled::<f64>::new(&steady).map_err(unfit::<f64>(&problem.scene))?;
-        free_block(&assembled, self.free, right)
+        free_block(&assembled, &self.rows, right)
             .map_err(super::super::elimination::failed(&problem.scene))
     }
 }

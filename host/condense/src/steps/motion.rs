@@ -5,7 +5,7 @@ use super::gramian::{Gramian, Subspace};
 use super::modes::Deviations;
 use super::shapes::{Begun, Shapes};
 use super::{Memory, StepShapes, SteppedModel};
-use crate::{CondensedModel, Recovery};
+use crate::{CondensedModel, Recovery, Settled};
 
 /// Shapes that a step begins from, and what u deviates from them, in coordinates of modes.
 pub(super) struct Motion<'s> {
@@ -98,6 +98,7 @@ impl<'s> Motion<'s> {
             evolution: None,
             gaps: Vec::new(),
             full: self.full_memory(unit),
+            settled: Settled::default(),
         }
     }
 

@@ -7,6 +7,7 @@ mod limits_bound;
 mod limits_same;
 mod modes;
 mod rejected;
+mod settled;
 mod stepped;
 mod stepped_bound;
 mod transfer;

@@ -225,8 +225,8 @@ fn bounds<R: Bakes>(problem: &Problem) -> Result<Vec<[f64; 2]>> {
         let (_, report) = controller.tick(&inputs).expect("a tick");
         let wide = |all: &[R]| all.iter().map(|x| x.wide()).collect::<Vec<_>>();
         let mut terms = [vec![1.0], wide(&inputs), wide(&past)].concat();
-        terms.truncate(origin.whole.inputs);
-        let host = origin.whole.bound(&terms, &wide(controller.x())).expect("a bound");
+        terms.truncate(origin.recovered().inputs);
+        let host = origin.recovered().bound(&terms, &wide(controller.x())).expect("a bound");
         [report.certificate().expect("a bound").total.wide(), host]
     };
     Ok((1..30).map(tick).collect())

@@ -10,7 +10,7 @@ use super::super::lags::backward;
 use super::super::lasting::{Unproved, lasting};
 use super::super::sides::{EdgeSide, Sides};
 use super::{is_there, model, scatter};
-use crate::{Memory, SteppedModel, stepped};
+use crate::{Memory, Settled, SteppedModel, stepped};
 
 /// Roundings of this machine.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -126,6 +126,7 @@ fn by_hand() -> SteppedModel {
         evolution: None,
         gaps,
         full,
+        settled: Settled::default(),
     }
 }
 
