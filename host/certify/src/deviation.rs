@@ -170,6 +170,14 @@ impl Deviation<'_> {
         self.data.rounding_at(self.place(t), PLACES * extent(self.segment))
     }
 
+    /// Whether the data are proved to change by next to nothing between two places.
+    pub(crate) fn is_steady(&self, range: [f64; 2]) -> bool {
+        const NOTHING: f64 = 1e-9;
+        let region = Region::segment(range.map(|t| self.place(t)));
+        let range = self.data.enclose(&region).range();
+        range.width() <= NOTHING * range.size()
+    }
+
     /// Parts of the edge in which little is missed, or w is singular.
     pub fn parts(&self) -> &[Part] {
         self.parts.get_or_init(|| {

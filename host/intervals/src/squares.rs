@@ -39,10 +39,13 @@ impl Products {
             return self;
         }
         let [of_z, of_zeta] = self.sizes.map(f64::sqrt);
-        let (residual, sum) = (self.residual.sqrt(), of_zeta + of_z);
+        // What cancels may be rounded below 0.
+        let [residual, weights] =
+            [self.residual, self.weights].map(|square| square.max(0.0).sqrt());
+        let sum = of_zeta + of_z;
         Self {
             residual: (residual / (1.0 + share).sqrt() - by_s).max(0.0).powi(2),
-            weights: (self.weights.sqrt() + by_z).powi(2),
+            weights: (weights + by_z).powi(2),
             off: share * residual * sum + by_s * sum + residual * by_z + by_s * by_z,
             sizes: [(of_z + beyond).powi(2), self.sizes[1]],
             ..self
@@ -56,7 +59,7 @@ impl Products {
         }
         let (less, more) = ((1.0 - missed).max(0.0).powi(2), (1.0 + missed).powi(2));
         let [of_z, of_zeta] = self.sizes.map(f64::sqrt);
-        let both = self.residual.sqrt() * (of_z + of_zeta);
+        let both = self.residual.max(0.0).sqrt() * (of_z + of_zeta);
         Self {
             residual: less * self.residual,
             weights: more * self.weights,

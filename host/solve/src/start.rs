@@ -41,7 +41,7 @@ pub fn step_of(scene: &Scene) -> Result<f64> {
             let error = InputError::new(
                 "time.step: missing; a material has a capacity, so that ticks are steps in time",
             );
-            let hint = "add [time] with `step`, in the unit of time of the data";
+            let hint = "add [time] with `step`, in the unit of time of the data, or give --step DT";
             Err(error.file(&scene.path).hint(hint).into())
         }
     }
@@ -111,8 +111,14 @@ fn stated_means(problem: &Problem, initial: &Datum) -> Result<[Vec<f64>; 2]> {
         EdgeKind::Dirichlet => problem.loads.dirichlet[edge - counts.unknowns()],
         EdgeKind::Contact => {
             let at = edge - counts.free;
-            let may_pass = problem.loads.flux_range(at).span().length().is_finite();
-            if may_pass { mean } else { mean.max(problem.loads.gap[at]) }
+            let (range, gap) = (problem.loads.flux_range(at), problem.loads.gap[at]);
+            let [least, _] = range.ends();
+            match range.span().length().is_finite() {
+                true => mean,
+                false if least.is_finite() => mean.max(gap),
+                // u ≤ ψ
+                false => mean.min(gap),
+            }
         }
         _ => mean,
     };

@@ -22,11 +22,24 @@ const NEAREST: f64 = 16.0;
 /// 2^{1−2s}, and from s = ½ on its energy is infinite. A power between 0.5 and 0.53 can't be told from ½.
 const DECAY: f64 = 0.96;
 
+/// How near to an end of parts w is compared on both sides, and how many times that it is from the ends of the edge.
+const BESIDE: f64 = 1.0 / (1_u64 << 36) as f64;
+const FAR: f64 = 16.0;
+
 /// ∫w′² nearer to a singular place than all panels, or why it is infinite.
 ///
 /// The places are the edge's parts on which w′ is not bounded.
 pub(super) fn beyond(rise: &Rise) -> Result<std::result::Result<f64, Rough>> {
     let (mut sum, deviation) = (0.0, rise.deviation);
+    // On both sides of a jump w may be smooth, where it is at an end of parts.
+    for pair in deviation.parts().windows(2) {
+        let place = pair[0].range[1];
+        let is_inside = (FAR * BESIDE..=1.0 - FAR * BESIDE).contains(&place);
+        let beside = [place - BESIDE, place + BESIDE];
+        if is_inside && !deviation.is_steady(beside) && rise.jumps(beside)? {
+            return Ok(Err(Rough::Jump(place)));
+        }
+    }
     let singular = deviation.parts().iter().filter(|part| part.is_singular());
     for [low, high] in clusters(singular.map(|part| part.range)) {
         let place = match (low == 0.0, high == 1.0) {

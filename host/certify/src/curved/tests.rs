@@ -260,7 +260,15 @@ fn what_no_point_sees_is_found() -> Result<()> {
         assert!(most.powi(2) >= 0.5 * square, "{gap}: {record:?} {square}");
         assert!(record.energy <= 1.1 * square && record.missed < 2e-3 * most, "{gap}: {record:?}");
     }
-    for gap in ["sign(x - 0.3) - sign(x - 0.3001)", "1e-8*sign(x - 0.3) - x^2"] {
+    // The others jump where parts of the edge meet: in its middle, or at three quarters.
+    for gap in [
+        "sign(x - 0.3) - sign(x - 0.3001)",
+        "1e-8*sign(x - 0.3) - x^2",
+        "atan(1/(x - 0.25))",
+        "tanh(1/(x - 0.375))",
+        "(x - 0.25)/sqrt((x - 0.25)*(x - 0.25))",
+        "min(1, max(-1, 1/(x - 0.25)))",
+    ] {
         assert!(matches!(with_gap(gap)?.rough, Some(Rough::Jump(_))), "{gap}");
     }
     Ok(())

@@ -186,17 +186,25 @@ fn on_part(f: &Sum, region: &Region, faint: f64) -> [f64; 2] {
         return by_form;
     }
     let missed = missed_by_rule(f, region, enough) + 16.0 * f64::EPSILON * size;
-    let is_better = missed < by_form[1];
-    if !is_better {
-        return by_form;
-    }
     let rule = match *region.corners() {
         [a, b, c] => rule_of(&Cell::Triangle([a, b, c])),
         [a, b, c, d] => rule_of(&Cell::Quad([a, b, c, d])),
         _ => region.along(f64::GAUSS[DATA_POINTS - 1]),
     };
-    [by_rule(f, &rule)[0], missed]
+    let [value, sizes] = by_rule(f, &rule);
+    if missed < by_form[1] {
+        return [value, missed];
+    }
+    // The middle of what says next to nothing is no value.
+    let says_nothing = by_form[1].is_finite() && by_form[1] > WIDE * sizes;
+    if says_nothing && whole.low <= value && value <= whole.high {
+        return [value, (value - whole.low).max(whole.high - value)];
+    }
+    by_form
 }
+
+/// Half of an enclosure is wide that is more than so many times what points see of |f|.
+const WIDE: f64 = 8.0;
 
 /// ∫f over a part where it is not bounded, as it grows.
 fn unbounded(f: &Sum, region: &Region) -> Interval {

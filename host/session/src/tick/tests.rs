@@ -519,6 +519,24 @@ setting = {{ model = "{model}" }}
 }
 
 /// u = x² stands still: beside a large transfer coefficient s of a condensed start is another one than that of a solve, and its error too.
+/// u ≤ ψ: what is stated below the gap stays there.
+#[test]
+fn a_stated_start_below_an_upper_gap_is_not_moved() -> Result<()> {
+    let text = r#"
+mesh = "grid"
+material.default = { conductivity = "1", capacity = "1" }
+boundary.dirichlet = { kind = "dirichlet", value = "0" }
+boundary.contact = { kind = "contact", gap = "2", flux = "-inf", limit = "0" }
+output.heat = { kind = "content" }
+time = { step = 0.1, initial = "0" }
+"#;
+    let (_, problem) = on_grid(text, grid(2, Cells::Triangles))?;
+    let budget = Budget { shows_start: true, ..Budget::of(&problem.scene) };
+    let ticks = play(&problem, None, &[at(0.1), at(0.2)], &budget, |_, _| Ok(()))?;
+    assert!(ticks.iter().all(|tick| tick.outputs == [Some(0.0)]), "{ticks:?}");
+    Ok(())
+}
+
 #[test]
 fn the_error_of_a_condensed_controller_begins_at_its_own_start() -> Result<()> {
     let text = r#"

@@ -55,8 +55,8 @@ pub struct Dominant {
     pub at: [f64; 2],
     /// Number of the material with the largest share of all squares.
     material: usize,
-    /// That share.
-    share: f64,
+    /// That share; nothing where no cell is told to have one.
+    share: Option<f64>,
 }
 
 impl Dominant {
@@ -84,7 +84,8 @@ impl Dominant {
             of_materials[material as usize] += square;
         }
         let material = largest(&of_materials);
-        let share = of_materials.get(material).unwrap_or(&0.0) / of_cells.iter().sum::<f64>();
+        let all = of_cells.iter().sum::<f64>();
+        let share = of_materials.get(material).filter(|_| all > 0.0).map(|of| of / all);
         Ok(Self { term, at, material, share })
     }
 
@@ -92,8 +93,9 @@ impl Dominant {
     pub fn warning(&self, problem: &Problem, solution: &Solution, size: &str) -> String {
         let Self { term, at: [x, y], material, share } = self;
         let materials = &problem.scene.materials;
-        let place = match materials.get(*material).filter(|_| materials.len() > 1) {
-            Some(of) => format!(
+        let named = materials.get(*material).filter(|_| materials.len() > 1).zip(*share);
+        let place = match named {
+            Some((of, share)) => format!(
                 "material.{} has {:.0} % of its square, and the cell near ({x:.6}, {y:.6}) most",
                 of.name.value,
                 100.0 * share

@@ -34,6 +34,17 @@ fn kinks_and_jumps_are_cut_off() -> Result<()> {
     Ok(())
 }
 
+/// sin z/z is smooth, and no enclosure says so where z = 0: its points are a value, the middle of next to everything is none.
+#[test]
+fn what_cannot_be_enclosed_keeps_what_its_points_see() -> Result<()> {
+    let z = 0.75_f64;
+    for text in [format!("sin(x - {z})/(x - {z})"), format!("(x - {z})/(x - {z})")] {
+        let of = &on(&text, |f| over_cells(f, &[Cell::Quad(SQUARE)]))?[0];
+        assert!((0.8 * 2.0..1.01 * 2.0).contains(&of.value), "{text}: {of:?}");
+    }
+    Ok(())
+}
+
 /// Of what is smooth over some cells, the rule's own bits stay, and no part is cut.
 #[test]
 fn the_rule_is_proved_for_waves_that_it_resolves() -> Result<()> {
