@@ -254,7 +254,7 @@ const WRONG_SCENES: &[(&str, &str, &str)] = &[
     ("kind = \"dirichlet\"\nvalue = \"0\"", "kind = \"robin\"\ncoefficient = \"y - 0.5\"\nambient = 0", "coefficient"),
     ("[boundary.dirichlet]", "[boundary.wall]", "\"contact\", \"dirichlet\""),
     ("[boundary.contact]\nkind = \"contact\"", "", "boundary.contact"),
-    ("mesh = \"MESH\"", "mesh = \"missing.msh\"", "missing.msh"),
+    ("mesh = \"MESH\"", "mesh = \"missing.msh\"", "the path counts from the scene's folder"),
     ("mesh = \"MESH\"", "mesh = 3", "mesh"),
     ("mesh = \"MESH\"", "mesh = \"MESH\"\nsolver = \"fast\"", "solver"),
     ("mesh = \"MESH\"", "mesh = \"MESH", "a.toml:1: not TOML"),

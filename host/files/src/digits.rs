@@ -1,12 +1,12 @@
 //! Results with the digits that their bound supports, for a terminal; files keep all of them.
 
-/// Digits of a result down to the second one of its error; 3 where nobody knows that.
+/// Digits of a result down to the second one of its error, 3 at least: fewer would be another number.
 pub fn supported(value: f64, error: Option<f64>) -> usize {
-    const UNKNOWN: usize = 3;
+    const LEAST: usize = 3;
     const MOST: f64 = 9.0;
     let places = |error: f64| value.abs().log10().floor() - error.log10().floor() + 2.0;
     let known = error.map(places).filter(|digits| !digits.is_nan());
-    known.map_or(UNKNOWN, |digits| digits.clamp(1.0, MOST) as usize)
+    known.map_or(LEAST, |digits| digits.clamp(LEAST as f64, MOST) as usize)
 }
 
 /// `value` rounded to so many digits. What is far below `scale`, the size of what it was summed from, is 0.
@@ -53,7 +53,7 @@ mod tests {
         let of = |value: f64, error: f64| supported(value, Some(error));
         assert_eq!(
             [of(11.6, 3.4), of(11.6, 25.0), of(0.4, 13.2), of(3.2e-5, 1.5e-6)],
-            [3, 2, 1, 3]
+            [3, 3, 3, 3]
         );
         assert_eq!([of(1.0, 0.0), of(1.0, 1e-30), supported(1.0, None)], [9, 9, 3]);
         assert_eq!(rounded(11.6123, of(11.6123, 3.4), 0.0), "11.6");

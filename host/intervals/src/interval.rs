@@ -1,6 +1,6 @@
 //! The interval of one output: weights for more and more of what contact leaves, and the best ends of all.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Mutex;
 
 use super::answer::{Answered, Found, OutputBound};
@@ -15,10 +15,10 @@ use super::squares::Products;
 use super::values::{INTEGRATED, Value};
 use signorini_certify::ErrorBound;
 use signorini_certify::deviation::Deviations;
-use signorini_problem::Problem;
 use signorini_problem::functional::of_one;
+use signorini_problem::{EdgeKind, Problem};
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Output, Quantity};
+use signorini_scene::scene::{Condition, Output, Quantity};
 use signorini_solve::SharedSolver;
 
 /// Parts c that are tried, and by how much each is larger than the last.
@@ -36,13 +36,46 @@ const SHARES: [f64; 2] = [0.0, 1.0];
 /// Roundings of the scalar that sums may be off, next to their terms.
 const ROUNDINGS: f64 = 512.0;
 
-/// Why an output has no interval where one of its ends is infinite.
-pub(super) const UNBOUNDED: &str = "nothing bounds it from both sides: its boundary meets another one that takes flux too, and no \
-                         energy tells one flux from the other there";
+/// Why an output has no interval where one of its ends is infinite, and what has one where its boundaries meet others.
+pub(super) fn unbounded(problem: &Problem, output: &Output) -> String {
+    let boundaries = &problem.scene.boundaries;
+    let place = |edge: usize| problem.binding.boundary(problem.ends[edge]);
+    let is_own = |at: usize| match output.of.is_empty() {
+        true => matches!(boundaries[at].condition, Condition::Contact { .. }),
+        false => output.of.iter().any(|of| of.value == boundaries[at].name.value),
+    };
+    let takes_flux = |edge: &usize| {
+        matches!(problem.kinds[*edge], EdgeKind::Dirichlet | EdgeKind::Contact | EdgeKind::Robin)
+    };
+    let edges: Vec<(usize, usize)> = (0..problem.kinds.len())
+        .filter(takes_flux)
+        .filter_map(|edge| Some((edge, place(edge)?)))
+        .collect();
+    let (own, others): (Vec<_>, Vec<_>) = edges.into_iter().partition(|&(_, at)| is_own(at));
+    let vertices: BTreeSet<u32> = own.iter().flat_map(|&(edge, _)| problem.ends[edge]).collect();
+    let meets = |edge: usize| problem.ends[edge].iter().any(|vertex| vertices.contains(vertex));
+    let met: BTreeSet<usize> =
+        others.into_iter().filter(|&(edge, _)| meets(edge)).map(|(_, at)| at).collect();
+    let own: BTreeSet<usize> = own.into_iter().map(|(_, at)| at).collect();
+    let names = |of: &BTreeSet<usize>| -> Vec<String> {
+        of.iter().map(|&at| format!("{:?}", boundaries[at].name.value)).collect()
+    };
+    let (all, met) = ([names(&own), names(&met)].concat().join(", "), names(&met).join(", "));
+    let what = "nothing bounds it from both sides";
+    match met.is_empty() {
+        true => format!("{what}, and no energy tells its flux from that of its neighbours"),
+        false => format!(
+            "{what}: no energy tells its flux from that of {met}, which it meets; of = [{all}] has an interval"
+        ),
+    }
+}
 
 /// Why it has none where nothing weighs its error.
 pub(super) const UNSOLVED: &str =
     "the linear problem that weighs its error has no solution, or says nothing of it";
+
+/// Why it has none where data have no number somewhere.
+const NO_NUMBER: &str = "its value is no number: the data have none somewhere";
 
 /// Facts on the solution that all intervals share.
 pub(super) struct Known<'p> {
@@ -65,6 +98,10 @@ impl Known<'_> {
         if output.quantity == Quantity::Content {
             found = found.map(|found| found.times(of_one(self.problem, output)));
         }
+        found = found.and_then(|found| match found.center.is_finite() {
+            true => Ok(found),
+            false => Err(NO_NUMBER.to_owned()),
+        });
         // A stated solution is not that of the step.
         let exact = self.problem.scene.exact.as_ref().filter(|_| self.problem.loads.step.is_none());
         if let (Ok(found), Some(exact)) = (&mut found, exact) {
@@ -118,7 +155,7 @@ impl Known<'_> {
         Ok(match best {
             [f64::NEG_INFINITY, f64::INFINITY] => Err(UNSOLVED.to_owned()),
             _ if best.iter().all(|end| end.is_finite()) => Ok(self.around(&goal, best)),
-            _ => Err(UNBOUNDED.to_owned()),
+            _ => Err(unbounded(self.problem, output)),
         })
     }
 
@@ -151,10 +188,10 @@ impl Known<'_> {
         let ErrorBound { total, rounding, .. } = self.bound;
         let oscillation = self.oscillation();
         let middle = (0.5 * total * total - 0.25 * residual).max(0.0).sqrt();
-        let distance = apart.max(0.0).sqrt();
+        let distance = root(apart);
         let [less, more] = left.part.map(|part| {
             let with = |share: f64| {
-                let distance = (apart + 2.0 * share * share * inside[0]).max(0.0).sqrt();
+                let distance = root(apart + 2.0 * share * share * inside[0]);
                 most(distance, middle, part) + (1.0 - share) * inside[1].sqrt() * total
             };
             SHARES.map(with).into_iter().fold(f64::INFINITY, f64::min)
@@ -225,6 +262,11 @@ impl Braces {
     fn within(&self, [low, high]: [f64; 2]) -> [f64; 2] {
         [low.max(self.ends[0]), high.min(self.ends[1])]
     }
+}
+
+/// The root of a square that rounding may have put below 0; of no number all that there is.
+fn root(square: f64) -> f64 {
+    if square.is_nan() { f64::INFINITY } else { square.max(0.0).sqrt() }
 }
 
 /// The largest distance · √(middle² − k) + part · k.

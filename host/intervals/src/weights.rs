@@ -23,7 +23,7 @@ use super::answer::Answered;
 use super::contact::ContactEdge;
 use super::dual::{self, Dual};
 use super::goal::Goal;
-use super::interval::{FAR, UNBOUNDED, UNSOLVED};
+use super::interval::{FAR, UNSOLVED, unbounded};
 use super::kept::{keep, left};
 use super::known::Answers;
 use super::part::Part;
@@ -147,11 +147,11 @@ impl<'p> Weighing<'p> {
             _ if steps && !self.answers.are_balanced && !part.is_all(EdgeKind::Contact) => {
                 none("in a step of a full model the flux of contact boundaries alone has one")
             }
-            _ if steps => self.flux(&goal, &part),
+            _ if steps => self.flux((&goal, output), &part),
             Quantity::Mean if part.is_all(EdgeKind::Dirichlet) => none(GIVEN),
             Quantity::Flux if part.takes_all() => none(GIVEN),
-            Quantity::Mean => self.mean(&goal, part.is_all(EdgeKind::Contact)),
-            _ => self.flux(&goal, &part),
+            Quantity::Mean => self.mean((&goal, output), part.is_all(EdgeKind::Contact)),
+            _ => self.flux((&goal, output), &part),
         }
     }
 
@@ -173,7 +173,7 @@ impl<'p> Weighing<'p> {
         (0..counts.contact).map(edge).collect()
     }
 
-    fn flux(&self, goal: &Goal, part: &Part) -> Result<Weighed> {
+    fn flux(&self, (goal, output): (&Goal, &Output), part: &Part) -> Result<Weighed> {
         let (problem, contact) = (self.problem, self.contact());
         let (mut dual, far) = (Dual::new(problem, goal)?, FAR * goal.size(problem));
         let mut sides = [None::<Weights>; 2];
@@ -202,11 +202,13 @@ impl<'p> Weighing<'p> {
                 }
             }
         }
-        let [Some(below), Some(above)] = sides else { return Ok(Err(UNBOUNDED.to_owned())) };
+        let [Some(below), Some(above)] = sides else {
+            return Ok(Err(unbounded(self.problem, output)));
+        };
         let total = below.total.max(above.total);
         let square = below.square.max(above.square);
         if !(total.is_finite() && square.is_finite()) {
-            return Ok(Err(UNBOUNDED.to_owned()));
+            return Ok(Err(unbounded(self.problem, output)));
         }
         // On contact edges τ is within the law, and so is the output.
         let algebraic = match part.is_all(EdgeKind::Contact) {
@@ -231,7 +233,7 @@ impl<'p> Weighing<'p> {
         one.filter(|one| at(*one) <= at(other)).unwrap_or(other)
     }
 
-    fn mean(&self, goal: &Goal, on_contact: bool) -> Result<Weighed> {
+    fn mean(&self, (goal, output): (&Goal, &Output), on_contact: bool) -> Result<Weighed> {
         let (problem, contact) = (self.problem, self.contact());
         let solved = Dual::new(problem, goal)?.solve(&self.solver, &contact, goal, 0.0);
         let Some(solved) = solved else {
@@ -241,7 +243,7 @@ impl<'p> Weighing<'p> {
         let transfers = !problem.loads.robin.is_empty();
         let (total, of_u) = (Weights { total: size + loads, ..Weights::default() }, size);
         Ok(if !(size + loads).is_finite() {
-            Err(UNBOUNDED.to_owned())
+            Err(unbounded(self.problem, output))
         } else if problem.mesh.triangles.is_empty() && !on_contact && !self.answers.are_balanced {
             Ok(total)
         } else if self.has_plain_triangles() && (self.answers.are_balanced || !transfers) {

@@ -5,14 +5,13 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use signorini_draw::plan_file;
-use signorini_files::atomic::writable_file;
 use signorini_problem::progress::{say, warn};
 use signorini_scene::Faults;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 
 use super::look::Look;
-use super::{outlined, write_beside};
+use super::{outlined, picture_file, write_beside};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -39,7 +38,7 @@ pub struct Arguments {
 
 impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
-        self.draw.as_ref().map_or(Ok(()), |file| writable_file("--draw", file))?;
+        self.draw.as_deref().map_or(Ok(()), picture_file)?;
         let look = match Scene::draft(&self.scene) {
             Ok(draft) => Look::at(draft),
             Err(error) if self.json => {

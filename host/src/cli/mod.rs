@@ -27,7 +27,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Parser, Subcommand};
 
-use signorini_files::atomic::write_atomically;
+use signorini_files::atomic::{writable_file, write_atomically};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::{Scene, schema};
 
@@ -107,6 +107,15 @@ impl Cli {
 fn write_beside(scene: &Scene, option: &str, output: &Path, text: &str) -> Result<()> {
     check_beside(scene, option, output)?;
     write_atomically(output, text.as_bytes())
+}
+
+/// Refuses a place where no picture can be written, or which names another format.
+fn picture_file(file: &Path) -> Result<()> {
+    if file.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("svg")) {
+        let message = format!("--draw {}: expected a name that ends with .svg", file.display());
+        return Err(InputError::new(message).hint("pictures are SVG; browsers open them").into());
+    }
+    writable_file("--draw", file)
 }
 
 /// Refuses a file to be written, named by `option`, that the scene is made of.

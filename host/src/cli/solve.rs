@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::answer::Told;
-use super::check_beside;
 use super::levels;
 use super::scene_arguments::{SceneArguments, problem_of};
-use signorini_files::atomic::{writable_file, write_atomically};
+use super::{check_beside, picture_file};
+use signorini_files::atomic::write_atomically;
 use signorini_intervals::Coverage;
 use signorini_problem::Problem;
 use signorini_problem::progress::{say, waiting, warn};
@@ -93,8 +93,8 @@ impl Arguments {
         let scene = self.place.scene()?;
         let out = self.place.out()?;
         if let Some(file) = &self.draw {
-            writable_file("--draw", file)?;
             check_beside(&scene, "--draw", file)?;
+            picture_file(file)?;
         }
         self.check(&scene)?;
         let told = match self.max_error {

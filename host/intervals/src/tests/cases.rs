@@ -49,6 +49,49 @@ fn they_hold_the_values_of_an_exact_solution() -> Result<()> {
     Ok(())
 }
 
+/// A is constant on one side of a kink inside cells: there ζ = A∇z but for rounding, which is below 0 as often as above.
+#[test]
+fn a_plateau_of_a_conductivity_hides_no_weight() -> Result<()> {
+    const PLATEAU: &str = r#"
+mesh = "grid"
+material.default.conductivity = "2 + max(x, 1/3)"
+source.f = "0"
+boundary.dirichlet = { kind = "neumann", flux = "0" }
+boundary.contact = { kind = "neumann", flux = "0" }
+boundary.left = { kind = "dirichlet", value = "0" }
+boundary.right = { kind = "dirichlet", value = "1" }
+output.through = { kind = "flux", of = "right" }
+"#;
+    // 1/∫dx/A
+    let exact = 1.0 / (4.0 / 7.0 + (9.0_f64 / 7.0).ln());
+    for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
+        for n in [1, 2, 4, 8] {
+            let (_, problem) = on_grid(PLATEAU, grid(n, cells))?;
+            let found = of_outputs(&problem, &solve(&problem, &options())?, Coverage::Usual);
+            let through = interval(&found, "through");
+            check(&format!("{cells:?} {n}"), through, exact);
+            assert!(through.plus_minus > 0.0, "{through:?}");
+        }
+    }
+    Ok(())
+}
+
+/// A value that is no number is no interval.
+#[test]
+fn data_without_a_number_give_no_interval() -> Result<()> {
+    let (_, problem) = on_grid(
+        &HARMONIC.replace(
+            "\"1 - y^2\" }\nboundary.contact",
+            "\"(y - 0.25)/(y - 0.25)\" }\nboundary.contact",
+        ),
+        grid(2, Cells::Triangles),
+    )?;
+    let found = of_outputs(&problem, &solve(&problem, &options())?, Coverage::Usual);
+    let why = found["given"].as_ref().expect_err("no number");
+    assert!(why.contains("no number"), "{why}");
+    Ok(())
+}
+
 /// On a trapezoid the mean over the area is not the mean in the cell's own coordinates.
 #[test]
 fn the_mean_over_a_trapezoid_is_that_over_its_area() -> Result<()> {
@@ -106,6 +149,12 @@ fn a_sum_has_an_interval_where_its_parts_have_none() -> Result<()> {
             for name in ["face", "weir", "force"] {
                 let why = found[name].as_ref().expect_err(name);
                 assert!(why.contains("from both sides"), "{name}: {why}");
+                let list = if name == "weir" {
+                    "[\"right\", \"contact\"]"
+                } else {
+                    "[\"contact\", \"right\""
+                };
+                assert!(why.contains(&format!("of = {list}")), "{name}: {why}");
             }
             // −∫(x + 3) below, ∫(y + 2) on the right, −∫(y + 2) on the left, ∫(x + 3) on top.
             for (name, exact) in [("both", -3.5), ("more", 2.5), ("all", -6.0)] {

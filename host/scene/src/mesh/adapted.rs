@@ -13,8 +13,12 @@ use crate::setting::CellKind;
 /// # Errors
 /// A file that is no mesh, or a refinement too fine.
 pub fn of_scene(scene: &Scene) -> Result<Mesh> {
-    let setting = scene.setting.unwrap_or_default();
-    adapted(read(&scene.mesh.value)?, setting.cells, setting.refine)
+    let (setting, file) = (scene.setting.unwrap_or_default(), &scene.mesh.value);
+    if !file.exists() {
+        let error = scene.error(&scene.mesh, format!("mesh: there is no file {}", file.display()));
+        return Err(error.hint("the path counts from the scene's folder").into());
+    }
+    adapted(read(file)?, setting.cells, setting.refine)
 }
 
 /// `mesh` with cells of this kind, then refined so many times.

@@ -57,6 +57,10 @@ pub fn moments_after(
                     "time.end: missing; it says when the last tick is",
                     "give it, or --ticks N or --log FILE",
                 ),
+                None if scene.stores() => (
+                    "time: missing; it says how long a step is, and when the last one ends",
+                    "add [time] with step and end to the scene, or give --step DT with --ticks N or --log FILE",
+                ),
                 None => (
                     "time: missing; it says when the ticks are",
                     "add [time] with step and end to the scene, or give --ticks N or --log FILE",
