@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::command::{Folder, json, meshes, refused, repository, run, says, text};
+use crate::command::{Folder, json, meshes, repository, run, says, text};
 
 /// What `check --json` prints of a scene, and the exit status.
 fn checked(scene: &str) -> (i32, Value) {
@@ -74,7 +74,7 @@ fn a_new_scene_can_be_solved_once_it_is_filled_in() {
     let look = run(&["check", &scene, "--draw", &folder.word("bar.svg")]).succeeds().stdout;
     says(&look, &["0 triangles, 427 quads", "held by air, ends", "contact"]);
     says(&text(folder.path("bar.svg")), &["<svg", ">rib foot</text>", ">aluminium</text>"]);
-    let png = refused("check", &scene, &["--draw", &folder.word("bar.png")]);
+    let png = run(&["check", &scene, "--draw", &folder.word("bar.png")]).refuses();
     says(&png, &["bar.png: expected a name that ends with .svg"]);
     run(&["solve", &scene, "--out", &folder.word("out")]).succeeds();
     assert!(json(folder.path("out/summary.json"))["converged"].as_bool().expect("a word"));

@@ -76,22 +76,6 @@ output.through = { kind = "flux", of = "right" }
     Ok(())
 }
 
-/// A value that is no number is no interval.
-#[test]
-fn data_without_a_number_give_no_interval() -> Result<()> {
-    let (_, problem) = on_grid(
-        &HARMONIC.replace(
-            "\"1 - y^2\" }\nboundary.contact",
-            "\"(y - 0.25)/(y - 0.25)\" }\nboundary.contact",
-        ),
-        grid(2, Cells::Triangles),
-    )?;
-    let found = of_outputs(&problem, &solve(&problem, &options())?, Coverage::Usual);
-    let why = found["given"].as_ref().expect_err("no number");
-    assert!(why.contains("no number"), "{why}");
-    Ok(())
-}
-
 /// On a trapezoid the mean over the area is not the mean in the cell's own coordinates.
 #[test]
 fn the_mean_over_a_trapezoid_is_that_over_its_area() -> Result<()> {

@@ -533,7 +533,8 @@ time = { step = 0.1, initial = "0" }
     let (_, problem) = on_grid(text, grid(2, Cells::Triangles))?;
     let budget = Budget { shows_start: true, ..Budget::of(&problem.scene) };
     let ticks = play(&problem, None, &[at(0.1), at(0.2)], &budget, |_, _| Ok(()))?;
-    assert!(ticks.iter().all(|tick| tick.outputs == [Some(0.0)]), "{ticks:?}");
+    let heat = ticks.iter().map(|tick| tick.outputs[0].expect("a value").abs());
+    assert!(heat.fold(0.0, f64::max) < 1e-12, "{ticks:?}");
     Ok(())
 }
 
