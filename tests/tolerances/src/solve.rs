@@ -9,9 +9,9 @@ table! {
         "two exact solves of one problem, each as good as its condition";
     STEPPED: "u and fluxes of condensed steps against full ones, over the largest", 1e-11,
         "exact solves of one problem whose modes span many decades";
-    SETTLED: "steps without the edges that keep their side against steps with all, sizes near 1", 1e-11,
+    SETTLED: "steps without the edges that keep their side against steps with all, sizes near 1", 2e-14,
         "exact solves of one problem in two orders";
-    SETTLED_FLUX: "what flows through edges that are always open besides q, sizes near 1", 1e-12,
+    SETTLED_FLUX: "what flows through edges that are always open besides q, sizes near 1", 1e-15,
         "an elimination, and the fluxes that mend it";
     STEP_FORM: "the form of a condensed step against integrals on its mesh, relative", 1e-11,
         "columns that cancel at short steps";

@@ -101,6 +101,7 @@ fn what_the_bound_takes_for_granted_holds_for_any_openings() -> Result<()> {
             let now = problem.with_inputs(&p[1..])?;
             let fields = recovery.admissible(&of.model, &now, &terms, &x).expect("a bound");
             let ends = Ends::at_time(&now, 0.0)?;
+            let (_, flux) = recovery.field(&of.model, &terms, &x);
             let q = |edge: usize| now.loads.contact_flux[edge];
             for &edge in &of.settled.open {
                 for (end, vertex) in problem.ends[counts.free + edge].into_iter().enumerate() {
@@ -111,6 +112,9 @@ fn what_the_bound_takes_for_granted_holds_for_any_openings() -> Result<()> {
             }
             for &edge in &of.settled.touching {
                 assert!(fields.tau[counts.free + edge] >= q(edge), "{length} {tick} {edge}");
+                // What mends the others goes elsewhere.
+                let mended = fields.tau[counts.free + edge] - flux[counts.free + edge];
+                SETTLED_FLUX.check("touching", mended);
             }
             of.advance(&mut past, &p, &x);
         }
