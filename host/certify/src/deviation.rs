@@ -170,12 +170,11 @@ impl Deviation<'_> {
         self.data.rounding_at(self.place(t), PLACES * extent(self.segment))
     }
 
-    /// Whether the data are proved to change by next to nothing between two places.
-    pub(crate) fn is_steady(&self, range: [f64; 2]) -> bool {
+    /// Whether the data are the same at two places, but for next to nothing.
+    pub(crate) fn is_steady(&self, places: [f64; 2]) -> bool {
         const NOTHING: f64 = 1e-9;
-        let region = Region::segment(range.map(|t| self.place(t)));
-        let range = self.data.enclose(&region).range();
-        range.width() <= NOTHING * range.size()
+        let [a, b] = places.map(|t| self.place(t)).map(|[x, y]| self.data.at(x, y));
+        (b - a).abs() <= NOTHING * a.abs().max(b.abs())
     }
 
     /// Parts of the edge in which little is missed, or w is singular.
