@@ -36,7 +36,7 @@ const SHARES: [f64; 2] = [0.0, 1.0];
 /// Roundings of the scalar that sums may be off, next to their terms.
 const ROUNDINGS: f64 = 512.0;
 
-/// Why an output has no interval where one of its ends is infinite, and what has one where its boundaries meet others.
+/// Why an output has no interval where one of its ends is infinite, and what may have one where its boundaries meet others.
 pub(super) fn unbounded(problem: &Problem, output: &Output) -> String {
     let boundaries = &problem.scene.boundaries;
     let place = |edge: usize| problem.binding.boundary(problem.ends[edge]);
@@ -44,9 +44,8 @@ pub(super) fn unbounded(problem: &Problem, output: &Output) -> String {
         true => matches!(boundaries[at].condition, Condition::Contact { .. }),
         false => output.of.iter().any(|of| of.value == boundaries[at].name.value),
     };
-    let takes_flux = |edge: &usize| {
-        matches!(problem.kinds[*edge], EdgeKind::Dirichlet | EdgeKind::Contact | EdgeKind::Robin)
-    };
+    let takes_flux =
+        |edge: &usize| matches!(problem.kinds[*edge], EdgeKind::Dirichlet | EdgeKind::Contact);
     let edges: Vec<(usize, usize)> = (0..problem.kinds.len())
         .filter(takes_flux)
         .filter_map(|edge| Some((edge, place(edge)?)))
@@ -65,7 +64,7 @@ pub(super) fn unbounded(problem: &Problem, output: &Output) -> String {
     match met.is_empty() {
         true => format!("{what}, and no energy tells its flux from that of its neighbours"),
         false => format!(
-            "{what}: no energy tells its flux from that of {met}, which it meets; of = [{all}] has an interval"
+            "{what}: no energy tells its flux from that of {met}, which it meets; try their sum, kind = \"flux\" and of = [{all}]"
         ),
     }
 }

@@ -202,13 +202,12 @@ impl<'p> Weighing<'p> {
                 }
             }
         }
-        let [Some(below), Some(above)] = sides else {
-            return Ok(Err(unbounded(self.problem, output)));
-        };
+        let none = || Ok(Err(unbounded(problem, output)));
+        let [Some(below), Some(above)] = sides else { return none() };
         let total = below.total.max(above.total);
         let square = below.square.max(above.square);
         if !(total.is_finite() && square.is_finite()) {
-            return Ok(Err(unbounded(self.problem, output)));
+            return none();
         }
         // On contact edges τ is within the law, and so is the output.
         let algebraic = match part.is_all(EdgeKind::Contact) {

@@ -133,12 +133,8 @@ fn a_sum_has_an_interval_where_its_parts_have_none() -> Result<()> {
             for name in ["face", "weir", "force"] {
                 let why = found[name].as_ref().expect_err(name);
                 assert!(why.contains("from both sides"), "{name}: {why}");
-                let list = if name == "weir" {
-                    "[\"right\", \"contact\"]"
-                } else {
-                    "[\"contact\", \"right\""
-                };
-                assert!(why.contains(&format!("of = {list}")), "{name}: {why}");
+                let list = if name == "weir" { ["right", "contact"] } else { ["contact", "right"] };
+                assert!(why.contains(&format!("of = {list:?}")), "{name}: {why}");
             }
             // −∫(x + 3) below, ∫(y + 2) on the right, −∫(y + 2) on the left, ∫(x + 3) on top.
             for (name, exact) in [("both", -3.5), ("more", 2.5), ("all", -6.0)] {
