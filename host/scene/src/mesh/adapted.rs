@@ -15,7 +15,7 @@ use crate::setting::CellKind;
 pub fn of_scene(scene: &Scene) -> Result<Mesh> {
     let (setting, file) = (scene.setting.unwrap_or_default(), &scene.mesh.value);
     if !file.exists() {
-        let error = scene.error(&scene.mesh, format!("mesh: there is no file {}", file.display()));
+        let error = scene.error(&scene.mesh, format!("there is no file {}", file.display()));
         return Err(error.hint("the path counts from the scene's folder").into());
     }
     adapted(read(file)?, setting.cells, setting.refine)
