@@ -7,7 +7,7 @@ use std::fs;
 
 use crate::crates::DEVICE;
 use crate::export::{scenes, stages};
-use crate::modules::ROWS;
+use crate::modules::rows;
 use crate::setup;
 use crate::steps::Steps;
 use signorini_image::board::{Board, Build, HARDWARE, M4, M4F, M7};
@@ -35,7 +35,7 @@ pub fn run(steps: &mut Steps) {
             });
         }
     }
-    for row in &ROWS {
+    for row in rows(is_whole) {
         for board in row.linked.iter().take(if is_whole { row.linked.len() } else { 1 }) {
             steps.check(&format!("{} for the {}", row.name(), board.name), || {
                 Ok(row.module()?.image(board).map(drop)?)

@@ -13,7 +13,7 @@ use crate::c::package;
 use crate::logs;
 use crate::steps::Steps;
 pub use row::Row;
-pub use table::ROWS;
+use table::ROWS;
 
 /// The row of a scene in f32.
 pub fn row(scene: &str, model: &str) -> Result<&'static Row, String> {
@@ -21,6 +21,11 @@ pub fn row(scene: &str, model: &str) -> Result<&'static Row, String> {
         row.recipe().scene_name() == scene && row.model == model && row.scalar == "f32"
     });
     found.ok_or_else(|| format!("no module of {scene} {model}"))
+}
+
+/// The rows of a run.
+pub fn rows(is_whole: bool) -> impl Iterator<Item = &'static Row> {
+    ROWS.iter().filter(move |row| is_whole || !row.is_at_length)
 }
 
 /// Bakes each module that a run needs for C, a step each, with its libraries.
@@ -35,7 +40,7 @@ pub fn bake_all(steps: &mut Steps) {
 
 fn bake(steps: &mut Steps, is_asked: impl Fn(&[&str]) -> bool) {
     let is_whole = steps.is_whole();
-    for row in &ROWS {
+    for row in rows(is_whole) {
         let words = row.c.words(is_whole);
         let name = format!("{}, baked, for C on {} machines", row.name(), words.len());
         if is_asked(&words) && !steps.has(&name) {
@@ -46,7 +51,7 @@ fn bake(steps: &mut Steps, is_asked: impl Fn(&[&str]) -> bool) {
 
 /// `Ok` where no module was baked twice, those that play logs among them.
 pub fn baked_once(is_whole: bool) -> Result<(), String> {
-    let (bakes, modules) = (bakes(), ROWS.len() + logs::modules(is_whole));
+    let (bakes, modules) = (bakes(), rows(is_whole).count() + logs::modules(is_whole));
     println!("{bakes} bakes of {modules} modules");
     if bakes > modules { Err(format!("{bakes} bakes, {modules} modules")) } else { Ok(()) }
 }

@@ -37,7 +37,7 @@ pub fn compare(path: &str, versions: &str, table: &str, bless: bool) -> Result<b
     compared(path, versions, table, str::to_owned)
 }
 
-/// Compares a table that is a part of the record: some of its blocks, or the first rows of one.
+/// Compares a table that is a part of the record: some of its blocks, or some rows of one.
 pub fn compare_part(path: &str, versions: &str, table: &str) -> Result<bool, String> {
     compared(path, versions, table, |figures| part(figures, table))
 }
@@ -61,8 +61,8 @@ fn compared(
     if worse.is_empty() { Ok(true) } else { Err(format!("{path}: {}", worse.join("; "))) }
 }
 
-/// The blocks of `record` that begin with the lines that those of `table` begin with, each as long as that one.
-fn part(record: &str, table: &str) -> String {
+/// The blocks of `record` that begin with the lines that those of `table` begin with, and of each the rows that are in that one.
+pub fn part(record: &str, table: &str) -> String {
     let blocks = |text: &str| -> Vec<Vec<String>> {
         let blocks = text.trim().split("\n\n");
         blocks.map(|block| block.lines().map(str::to_owned).collect()).collect()
@@ -70,7 +70,8 @@ fn part(record: &str, table: &str) -> String {
     let mut recorded = blocks(record).into_iter();
     let kept = blocks(table).into_iter().filter_map(|now| {
         let old = recorded.find(|old| old.first() == now.first())?;
-        Some(old.into_iter().take(now.len()).collect::<Vec<_>>().join("\n"))
+        let is_there = |line: &String| now.iter().any(|now| cells(now).0 == cells(line).0);
+        Some(old.into_iter().filter(is_there).collect::<Vec<_>>().join("\n"))
     });
     kept.collect::<Vec<_>>().join("\n\n")
 }
@@ -129,8 +130,8 @@ mod tests {
     fn a_part_is_compared_with_its_own_blocks_and_rows() {
         let record = "\nM4F x\nsweep 1\n\nM7 x\nsweep 2\n\nM4F x\nflux 3\nload 4\n";
         assert_eq!(
-            part(record, "M4F x\nsweep 9\n\nM4F x\nflux 9\n"),
-            "M4F x\nsweep 1\n\nM4F x\nflux 3"
+            part(record, "M4F x\nsweep 9\n\nM4F x\nload 9\n"),
+            "M4F x\nsweep 1\n\nM4F x\nload 4"
         );
         assert_eq!(part(record, "M8 x\nsweep 9\n"), "");
     }

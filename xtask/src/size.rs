@@ -1,6 +1,6 @@
 //! `cargo xtask size`: what the images of baked scenes take, by what the scenes contain.
 
-use crate::modules::{ROWS, Row};
+use crate::modules::{Row, rows};
 use crate::record;
 use crate::setup;
 use crate::snapshot;
@@ -14,18 +14,19 @@ const RECORD: &str = "host/bake/records/size.txt";
 /// Bakes, builds, runs and prints.
 pub fn run(steps: &mut Steps) {
     setup::run(steps);
-    let bless = steps.blesses();
+    let (bless, is_whole) = (steps.blesses(), steps.is_whole());
     steps.check("flash, RAM and stack", || {
-        let rows = ROWS.iter().filter_map(|row| row.size.map(|size| (row, size)));
+        let rows = rows(is_whole).filter_map(|row| row.size.map(|size| (row, size)));
         let rows: Result<Vec<_>, String> =
             rows.map(|(row, (what, most))| Ok((what, footprint(row, most)?))).collect();
         let table = sizes::write(&rows?);
         println!("{table}");
-        if record::compare(RECORD, &record::versions()?, &table, bless)? {
-            quoted(&table)
-        } else {
-            Ok(())
-        }
+        let versions = record::versions()?;
+        let is_same = match is_whole {
+            true => record::compare(RECORD, &versions, &table, bless)?,
+            false => record::compare_part(RECORD, &versions, &table)?,
+        };
+        if is_same { quoted(&table) } else { Ok(()) }
     });
 }
 
@@ -48,7 +49,7 @@ fn quoted(table: &str) -> Result<(), String> {
     let page = snapshot::read(PAGE)?;
     let head = table.lines().next().unwrap_or_default();
     let (_, shown) = page.split_once(head).ok_or(format!("{PAGE} does not show the table"))?;
-    let shown: Vec<_> = shown.lines().take(table.lines().count()).collect();
-    let differs = record::differences(&format!("{head}{}", shown.join("\n")), table)?;
+    let shown = shown.split("```").next().unwrap_or_default();
+    let differs = record::differences(&record::part(&format!("{head}{shown}"), table), table)?;
     if differs.is_empty() { Ok(()) } else { Err(format!("{PAGE}: {}", differs.join("; "))) }
 }

@@ -6,7 +6,7 @@
 use super::kinds::{ALLOCATOR, DOUBLE, FORMATTING, Kind, PANIC, free_of};
 use crate::c::package::machine;
 use crate::caught::caught;
-use crate::modules::{ROWS, Row, row};
+use crate::modules::{Row, row, rows};
 use crate::setup;
 use crate::steps::Steps;
 use signorini_image::library::{Library, exports, mark, steps_in_time};
@@ -18,7 +18,7 @@ const ALWAYS: [Kind; 3] = [FORMATTING, ALLOCATOR, PANIC];
 pub fn run(steps: &mut Steps) {
     setup::for_c(steps);
     let is_whole = steps.is_whole();
-    for row in ROWS.iter().filter(|row| !row.c.words(is_whole).is_empty()) {
+    for row in rows(is_whole).filter(|row| !row.c.words(is_whole).is_empty()) {
         steps.check(&format!("{}, for C: what its libraries lack", row.name()), || {
             row.c.words(is_whole).into_iter().filter(|word| *word != "host").try_for_each(|word| {
                 let names = names(row, word)?;

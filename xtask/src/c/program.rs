@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use super::package::{Package, folder};
-use crate::modules::{ROWS, Row};
+use crate::modules::{Row, rows};
 use crate::steps::Steps;
 use signorini_image::board::{Board, M4F_192K};
 use signorini_image::cargo::root;
@@ -79,8 +79,9 @@ const TICKS: usize = 101;
 /// A step for each module: nothing in contact, edges by exchanges, quads, lengths, limits and modes; then meshes of both kinds of
 /// cells, by sweeps and by a factor, with transfer laws, and without a bound.
 pub fn run(steps: &mut Steps) {
-    for row in &ROWS {
-        let words = row.c_played.words(steps.is_whole());
+    let is_whole = steps.is_whole();
+    for row in rows(is_whole) {
+        let words = row.c_played.words(is_whole);
         if !words.is_empty() {
             steps.check(&format!("{}, from C, bit for bit", row.name()), || compare(row, &words));
         }

@@ -4,7 +4,7 @@ use std::process::Command;
 
 use super::package::{folder, machine};
 use super::program::{configure, sources};
-use crate::modules::ROWS;
+use crate::modules::rows;
 use crate::steps::Steps;
 use signorini_image::cargo::root;
 use signorini_image::toolchain::output;
@@ -24,7 +24,7 @@ pub fn run(steps: &mut Steps) {
 
 fn check(word: &str) -> Result<(), String> {
     let machine = machine(word)?;
-    let row = |name: &str| ROWS.iter().find(|row| row.recipe().scene_name() == name);
+    let row = |name: &str| rows(false).find(|row| row.recipe().scene_name() == name);
     let packages = CONTROLLERS.map(|name| row(name).ok_or(format!("no module of {name}")));
     let packages = packages.into_iter().map(|row| row?.package(word));
     let packages: Vec<_> = packages.collect::<Result<_, String>>()?;

@@ -21,7 +21,7 @@ use signorini_image::tools::ensure;
 use signorini_image::worst::WorstStart;
 
 use crate::baked::Failure;
-use crate::modules::{ROWS, Row};
+use crate::modules::{Row, rows};
 use crate::record;
 use crate::steps::Steps;
 pub use options::Options;
@@ -33,7 +33,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
 
 /// Scenes on the board with 192 KiB, as steps of `cargo xtask test`.
 pub fn check(steps: &mut Steps) {
-    for row in ROWS.iter().filter(|row| row.is_played) {
+    for row in rows(steps.is_whole()).filter(|row| row.is_played) {
         steps.check(&format!("{}, on the M4F-192K, bit for bit", row.name()), || {
             let (firmware, chosen) = measure(&options(row, false))?;
             firmware.verdict()?;
@@ -49,7 +49,7 @@ pub fn check(steps: &mut Steps) {
             }
         });
     }
-    if let Some(row) = ROWS.iter().find(|row| row.is_played) {
+    if let Some(row) = rows(false).find(|row| row.is_played) {
         steps.check(&format!("{}, with intervals, bit for bit", row.name()), || {
             let (firmware, _) = measure(&Options { locates: true, ..options(row, false) })?;
             firmware.verdict()?;
@@ -94,8 +94,9 @@ fn within(most: Option<u64>, median: u64) -> Result<(), String> {
 /// 10 000 of the slab's 28, and as many of 32 whose fluxes have limits. With these, two exchanges an edge are proved of the third
 /// phase, which hardly a scene needs.
 pub fn check_worst(steps: &mut Steps) {
-    let count = if steps.is_whole() { ROWS.len() } else { 1 };
-    let rows = ROWS.iter().filter_map(|row| row.worst.map(|times| (row, times)));
+    let is_whole = steps.is_whole();
+    let count = if is_whole { usize::MAX } else { 1 };
+    let rows = rows(is_whole).filter_map(|row| row.worst.map(|times| (row, times)));
     for (row, times) in rows.take(count) {
         steps.check(&format!("{}, no start takes more than is proved", row.name()), || {
             let (firmware, _) = measure(&options(row, true))?;

@@ -17,6 +17,8 @@ pub struct Row {
     pub scalar: &'static str,
     /// `--condensed` or `--full`.
     pub model: &'static str,
+    /// Whether a whole run alone has it: another row shows the same kind of code.
+    pub is_at_length: bool,
     /// Boards that its image is linked for, beside those that play it: the first in every run, all in a whole one.
     pub linked: &'static [Board],
     /// Whether the board with 192 KiB plays it, bit for bit as the desk.

@@ -9,6 +9,7 @@ const CONDENSED: Row = Row {
     scene: "",
     scalar: "f32",
     model: "--condensed",
+    is_at_length: false,
     linked: &[],
     is_played: false,
     median: None,
@@ -28,9 +29,6 @@ const M4_FIRST: Machines = Machines::and(&["m4"], &["m4-soft", "m7"]);
 /// With every core in a whole run.
 const BOARDS: Machines = Machines::and(&["m4"], &["m4-soft", "m7", "m33"]);
 const M7_FIRST: Machines = Machines::and(&["m7"], &["m4", "m4-soft"]);
-/// Boards of a whole run alone.
-const M4_AT_LENGTH: Machines = Machines::and(&[], &["m4"]);
-const M7_AT_LENGTH: Machines = Machines::and(&[], &["m7", "m4", "m4-soft"]);
 /// These, and the machine at hand.
 const ALL: Machines = Machines::and(&["m4", "host"], &["m4-soft", "m7", "m33"]);
 /// For the program with several controllers.
@@ -74,6 +72,7 @@ pub const ROWS: [Row; 20] = [
     // More than 50 000 unknowns, condensed to 96 contact edges, and to 64.
     Row {
         scene: "tests/firmware/scenes/levee-96.toml",
+        is_at_length: true,
         is_played: true,
         median: Some(120_000),
         size: Some(("levee on 50 000 unknowns, condensed", 34 * KIB)),
@@ -81,6 +80,7 @@ pub const ROWS: [Row; 20] = [
     },
     Row {
         scene: "tests/firmware/scenes/levee-64.toml",
+        is_at_length: true,
         is_played: true,
         median: Some(60_000),
         is_explained: true,
@@ -118,6 +118,7 @@ pub const ROWS: [Row; 20] = [
     },
     Row {
         scene: "tests/firmware/scenes/slab-swept.toml",
+        is_at_length: true,
         size: Some(("slab, on quads, transfer laws", 38 * KIB)),
         audit: Some(Audit::QUADS),
         c: ON_M4,
@@ -157,9 +158,10 @@ pub const ROWS: [Row; 20] = [
     },
     Row {
         scene: "tests/firmware/scenes/levee-plain.toml",
+        is_at_length: true,
         audit: Some(Audit::PLAIN),
-        c: M4_AT_LENGTH,
-        c_played: M4_AT_LENGTH,
+        c: ON_M4,
+        c_played: ON_M4,
         ..FULL
     },
     // In f64, which hardly a board has a unit for.
@@ -173,13 +175,15 @@ pub const ROWS: [Row; 20] = [
     Row {
         scene: "meshes/scenes/slab.toml",
         scalar: "f64",
-        c: M7_AT_LENGTH,
-        c_played: M7_AT_LENGTH,
+        is_at_length: true,
+        c: M7_FIRST,
+        c_played: M7_FIRST,
         ..CONDENSED
     },
     Row {
         scene: "tests/firmware/scenes/strip-swept.toml",
         scalar: "f64",
+        is_at_length: true,
         c: M7_FIRST,
         c_played: M7_FIRST,
         ..FULL
@@ -195,7 +199,8 @@ pub const ROWS: [Row; 20] = [
     },
     Row {
         scene: "tests/firmware/scenes/bare.toml",
-        c: Machines::and(&[], &["m4", "m7", "host"]),
+        is_at_length: true,
+        c: Machines::of(&["m4", "m7", "host"]),
         ..CONDENSED
     },
 ];
