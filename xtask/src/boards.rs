@@ -36,15 +36,11 @@ pub fn run(steps: &mut Steps) {
     }
     steps.check("signorini solve says the same", || replay::compare(&desk("scenes")?));
     on_board(steps, &M4F, &STAGES);
-    // The other cores have a stage each, and all of them in a whole run.
-    let (of_m4, of_m7) = match steps.is_whole() {
-        true => (&STAGES[..], &STAGES[..]),
-        false => (&["flux"][..], &["sweeps"][..]),
-    };
-    on_board(steps, &M4, of_m4);
-    on_board(steps, &M7, of_m7);
+    // The core without a unit has a stage, and all of them in a whole run, as the other cores.
+    on_board(steps, &M4, if steps.is_whole() { &STAGES } else { &["flux"] });
     on_board(steps, &M4F, &[FLUSHED]);
     if steps.is_whole() {
+        on_board(steps, &M7, &STAGES);
         on_board(steps, &M7, &[FLUSHED]);
         on_board(steps, &M33, &STAGES);
     }

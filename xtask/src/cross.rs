@@ -14,7 +14,7 @@ use signorini_image::board::{Board, Build, HARDWARE, M4, M4F, M7};
 use signorini_image::cargo::{run as run_cargo, target_dir};
 use signorini_image::files;
 
-/// Boards, the first of which links every image in every run.
+/// Boards, the first of which links every image in every run, and the last of which a whole run alone builds for.
 const BOARDS: [Board; 3] = [M4F, M4, M7];
 
 /// Packages of images, and what to call them.
@@ -25,7 +25,8 @@ const PACKAGES: [(&str, &str); 2] =
 pub fn run(steps: &mut Steps) {
     setup::run(steps);
     let is_whole = steps.is_whole();
-    for (at, board) in BOARDS.into_iter().enumerate() {
+    let boards = if is_whole { &BOARDS[..] } else { &BOARDS[..2] };
+    for (at, board) in boards.iter().enumerate() {
         let kernel = [(DEVICE, "the kernel")];
         let images = PACKAGES.into_iter().filter(|_| is_whole || at == 0);
         for (package, what) in kernel.into_iter().chain(images) {
