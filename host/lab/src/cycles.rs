@@ -4,7 +4,7 @@
 //! clock is; on AArch64 the generic timer CNTVCT, at a lower frequency. Figures are the smallest of
 //! several repeats: what the work costs when nothing else disturbs it.
 
-/// The unit that [`now`] counts, for the report.
+/// The unit that [`counted`] counts, for the report.
 pub const METHOD: &str = if cfg!(target_arch = "x86_64") {
     "x86-64 time-stamp counter (RDTSC), smallest of 7 repeats"
 } else if cfg!(target_arch = "aarch64") {
@@ -60,14 +60,16 @@ pub fn now() -> u64 {
 
 const REPEATS: usize = 7;
 
+/// The cycles of `work` and what it returns.
+pub fn counted<T>(work: impl FnOnce() -> T) -> (f64, T) {
+    let start = now();
+    let result = work();
+    (now().saturating_sub(start) as f64, result)
+}
+
 /// The smallest number of cycles that `work` took.
 pub fn smallest(mut work: impl FnMut()) -> f64 {
-    let once = |()| {
-        let start = now();
-        work();
-        now().saturating_sub(start)
-    };
-    [(); REPEATS].map(once).into_iter().min().unwrap_or(0) as f64
+    [(); REPEATS].map(|()| counted(&mut work).0).into_iter().fold(f64::INFINITY, f64::min)
 }
 
 /// The median, and (largest − smallest)/median; 0 of nothing.

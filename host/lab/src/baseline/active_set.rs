@@ -5,7 +5,8 @@
 
 use super::failed;
 use super::quadratic::Quadratic;
-use super::series::{InitialGuess, Run, TimedSolver, counted};
+use super::series::{InitialGuess, Run, TimedSolver};
+use crate::cycles::counted;
 use signorini_reference::Factor;
 use signorini_scene::Result;
 
@@ -17,15 +18,11 @@ pub(super) struct ActiveSet<'q> {
 }
 
 impl<'q> ActiveSet<'q> {
-    /// A cold start factors the matrix.
-    pub fn new(quadratic: &'q Quadratic) -> Self {
-        Self { quadratic, factor: None, keeps: false, active: Vec::new() }
-    }
-
-    /// A cold start finds the matrix factored and knows nothing of the contact set.
-    pub fn with_factor(quadratic: &'q Quadratic) -> Result<Self> {
-        let factor = Some(Factor::new(&quadratic.reference(0)).map_err(failed)?);
-        Ok(Self { quadratic, factor, keeps: true, active: Vec::new() })
+    /// A cold start factors the matrix, or, where the factor is kept, finds that and knows nothing of the contact set.
+    pub fn new(quadratic: &'q Quadratic, keeps: bool) -> Result<Self> {
+        let factor = keeps.then(|| Factor::new(&quadratic.reference(0)));
+        let factor = factor.transpose().map_err(failed)?;
+        Ok(Self { quadratic, factor, keeps, active: Vec::new() })
     }
 }
 

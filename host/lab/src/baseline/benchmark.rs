@@ -61,9 +61,9 @@ impl<'a> Benchmark<'a> {
         self.sweeps::<f64>(&task, &parts, moments, &mut take);
         self.sweeps::<f32>(&task, &parts, moments, &mut take);
         self.cascade(&task)?.into_iter().for_each(&mut take);
-        take(task.alone(Entrant::new("faer active set", Ok(ActiveSet::new(&full)))));
-        let kept = ActiveSet::with_factor(&full);
-        take(task.alone(Entrant::new("faer active set, factor kept", kept)));
+        for (name, keeps) in [("faer active set", false), ("faer active set, factor kept", true)] {
+            take(task.alone(Entrant::new(name, ActiveSet::new(&full, keeps))));
+        }
         self.general(&full).map(|entrant| task.alone(entrant)).for_each(&mut take);
 
         let begin = Instant::now();
@@ -150,21 +150,15 @@ fn sweep<R: Scalar, const WIDTH: usize>(
 
 /// Fills in the ratios: to the kernel in f64 on the same problem, and to its condensed model.
 fn compare(found: &mut [Baseline]) {
+    let all = found.to_vec();
     let fastest = |problem: &str, start: &str| {
-        let of_kernel = found.iter().filter(|b| b.problem == problem && b.start == start);
-        let of_kernel = of_kernel
-            .filter(|b| b.solver.starts_with("kernel") && b.solver.contains("f64"))
-            .map(|b| b.cycles);
-        of_kernel.min_by(f64::total_cmp)
+        let of_kernel = all.iter().filter(|b| b.solver.starts_with("kernel"));
+        let of_kernel = of_kernel.filter(|b| b.solver.contains("f64"));
+        let own = of_kernel.filter(|b| b.problem == problem && b.start == start);
+        own.map(|b| b.cycles).min_by(f64::total_cmp)
     };
-    let mut ratios = Vec::new();
-    for baseline in found.iter() {
-        let problem = if baseline.problem == "condensed" { "condensed" } else { "full" };
-        let own = fastest(problem, &baseline.start).unwrap_or(baseline.cycles);
-        ratios.push((baseline.cycles / own, fastest("condensed", &baseline.start)));
-    }
-    for (baseline, (ratio, condensed)) in found.iter_mut().zip(ratios) {
-        baseline.ratio = ratio;
-        baseline.to_condensed = condensed.map(|cycles| baseline.cycles / cycles);
+    for Baseline { problem, start, cycles, ratio, to_condensed, .. } in found {
+        *ratio = *cycles / fastest(problem, start).unwrap_or(*cycles);
+        *to_condensed = fastest("condensed", start).map(|fastest| *cycles / fastest);
     }
 }

@@ -13,7 +13,8 @@ use signorini_solve::prolongation::{Origin, prolong};
 
 use super::failed;
 use super::psor::{Full, TickLoads, solve};
-use super::series::{InitialGuess, Run, TimedSolver, counted};
+use super::series::{InitialGuess, Run, TimedSolver};
+use crate::cycles::counted;
 use signorini_problem::Problem;
 use signorini_scene::Result;
 use signorini_session::coarse;

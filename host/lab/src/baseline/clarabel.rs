@@ -11,7 +11,8 @@ use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SupportedConeT}
 
 use super::failed;
 use super::quadratic::{Matrix, Program, Quadratic};
-use super::series::{InitialGuess, Run, TimedSolver, counted};
+use super::series::{InitialGuess, Run, TimedSolver};
+use crate::cycles::counted;
 use signorini_scene::Result;
 
 pub(super) struct Clarabel<'q> {

@@ -33,7 +33,7 @@ pub use series::Baseline;
 use signorini_problem::{Approach, Problem};
 use signorini_scene::{Error, InputError, Result};
 use signorini_solve::norms;
-pub use sizes::{Size, Sizes, sizes};
+pub use sizes::{Sizes, sizes};
 pub use table::{findings, table};
 
 /// Warm ticks of a scene.

@@ -182,11 +182,10 @@ impl Drop for Osqp {
 mod tests {
     use std::os::unix::fs::PermissionsExt;
 
-    use super::super::load_case::load_cases;
-    use super::super::psor::quadratic;
+    use super::super::tests::full;
     use super::*;
     use crate::trade::tests::scene;
-    use signorini_problem::{Parts, Problem};
+    use signorini_problem::Problem;
     use signorini_scene::mesh::structured::{Cells, grid};
 
     /// The error of a process that runs this script instead of OSQP.
@@ -197,8 +196,7 @@ mod tests {
         std::fs::set_permissions(&program, PermissionsExt::from_mode(0o755)).unwrap();
         let scene = scene("catalogue/moving-tri");
         let problem = Problem::new(&scene, grid(16, Cells::Triangles)).unwrap();
-        let parts = Parts::examine(&problem).unwrap();
-        let (full, _) = quadratic(&problem, &parts, &load_cases(&problem, 1).unwrap()).unwrap();
+        let (full, _) = full(&problem, 1);
         let run = Osqp::new(&program, &full, Manner::Watched, limit)
             .and_then(|mut osqp| osqp.run(0, InitialGuess::Cold, 1e-3));
         run.unwrap_err().to_string()

@@ -11,7 +11,8 @@ use signorini_kernel::limits::Deadline;
 
 use super::failed;
 use super::quadratic::QuadraticLoads;
-use super::series::{InitialGuess, Run, TimedSolver, counted};
+use super::series::{InitialGuess, Run, TimedSolver};
+use crate::cycles::counted;
 use signorini_bake::Bakes;
 use signorini_bake::condensed::{Baked, Work};
 use signorini_condense::CondensedModel;

@@ -2,7 +2,8 @@
 
 use super::failed;
 use super::quadratic::{Matrix, Quadratic, QuadraticLoads};
-use super::series::{InitialGuess, Run, TimedSolver, counted};
+use super::series::{InitialGuess, Run, TimedSolver};
+use crate::cycles::counted;
 use signorini_kernel::flux_range::Spans;
 use signorini_kernel::law::Law;
 use signorini_kernel::relaxation::Relaxation;

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
-use crate::cycles::{self, median_and_spread};
+use crate::cycles::median_and_spread;
 use crate::record_file::word;
 use signorini_scene::Result;
 
@@ -67,13 +67,6 @@ pub(super) trait TimedSolver {
     fn finest(&self) -> i32 {
         -13
     }
-}
-
-/// The cycles of `work` and what it returns.
-pub(super) fn counted<T>(work: impl FnOnce() -> T) -> (f64, T) {
-    let start = cycles::now();
-    let result = work();
-    (cycles::now().saturating_sub(start) as f64, result)
 }
 
 /// Seconds of a repeat, at least; tests ask for no times.
@@ -173,10 +166,9 @@ impl Task<'_> {
             let run = solver.run(tick, start, tolerance)?;
             distance = distance.max(self.quadratic.distance(tick, &run.u));
             cycles.push(run.cycles);
-            iterations.push(run.iterations);
+            iterations.push(f64::from(run.iterations));
         }
-        iterations.sort_unstable();
-        let iterations = iterations[iterations.len() / 2];
+        let iterations = median_and_spread(iterations).0 as u32;
         let worst = cycles.iter().fold(0.0, |most: f64, &cycles| most.max(cycles));
         let (cycles, _) = median_and_spread(cycles);
         Ok(Pass { cycles, worst, iterations, distance })

@@ -26,8 +26,7 @@ const TICKS: usize = 10;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Sizes {
     pub title: String,
-    /// The registers that this program was built for; empty in records that do not tell.
-    #[serde(default)]
+    /// The registers that this program was built for.
     pub registers: String,
     pub rows: Vec<Size>,
     /// Solvers that could not run and why; how long condensing takes.

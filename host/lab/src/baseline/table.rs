@@ -1,20 +1,19 @@
 //! The study of sizes as a table, and the figures of each size in plain sentences.
 
+use super::Sizes;
 use super::benchmark::PSOR;
 use super::series::Baseline;
-use super::{Size, Sizes};
+use crate::trade::digits::or_dash;
 use signorini_draw::{Column, Table};
 
-/// A line of the table: a solver on a problem, cold and warm.
-struct Line<'s> {
-    problem: &'s str,
-    solver: &'s str,
-    starts: [Option<&'s Baseline>; 2],
-}
+/// A line of the table: the starts of a solver on a problem.
+type Line<'s> = &'s [Baseline];
 
 /// A line for each solver and size.
 pub fn table(sizes: &Sizes) -> Table {
-    Table::new(&columns(), sizes.rows.iter().flat_map(lines))
+    let is_same = |a: &Baseline, b: &Baseline| (&a.problem, &a.solver) == (&b.problem, &b.solver);
+    let lines = sizes.rows.iter().flat_map(|size| size.baselines.chunk_by(is_same));
+    Table::new(&columns(), lines)
 }
 
 /// A start's figure for a column.
@@ -22,13 +21,11 @@ type Figure = fn(&Baseline) -> String;
 
 fn columns<'s>() -> Vec<Column<'s, Line<'s>>> {
     let mut columns = vec![
-        Column::words("unknowns", |line: &Line| {
-            line.found().next().map_or(0, |b| b.unknowns).to_string()
-        }),
-        Column::words("problem", |line: &Line| line.problem.to_owned()),
-        Column::words("solver", |line: &Line| line.solver.to_owned()),
+        Column::words("unknowns", |line: &Line| line[0].unknowns.to_string()),
+        Column::words("problem", |line: &Line| line[0].problem.clone()),
+        Column::words("solver", |line: &Line| line[0].solver.clone()),
     ];
-    for (start, cycles) in ["cold, kilocycles", "warm, kilocycles"].into_iter().enumerate() {
+    for (start, cycles) in [("cold", "cold, kilocycles"), ("warm", "warm, kilocycles")] {
         let figures: [(&str, Figure); 4] = [
             (cycles, |b| format!("{:.1}", 1e-3 * b.cycles)),
             ("±", |b| format!("{:.0} %", 100.0 * b.cycles_spread)),
@@ -37,38 +34,15 @@ fn columns<'s>() -> Vec<Column<'s, Line<'s>>> {
         ];
         columns.extend(figures.map(|(name, figure)| {
             Column::number(name, move |line: &Line| {
-                line.starts[start].map_or("–".to_owned(), figure)
+                or_dash(line.iter().find(|b| b.start == start), figure)
             })
         }));
     }
     columns.push(Column::number("error/target", |line: &Line| {
-        let errors = line.found().map(|b| b.algebraic_error / b.target);
+        let errors = line.iter().map(|b| b.algebraic_error / b.target);
         format!("{:.0e}", errors.fold(0.0, f64::max))
     }));
     columns
-}
-
-impl<'s> Line<'s> {
-    fn found(&self) -> impl Iterator<Item = &'s Baseline> {
-        self.starts.into_iter().flatten()
-    }
-}
-
-/// The solvers of a size, each once.
-fn lines(size: &Size) -> Vec<Line<'_>> {
-    let mut lines: Vec<Line> = Vec::new();
-    for baseline in &size.baselines {
-        let (problem, solver) = (baseline.problem.as_str(), baseline.solver.as_str());
-        if lines.iter().any(|line| (line.problem, line.solver) == (problem, solver)) {
-            continue;
-        }
-        let of = |start: &str| {
-            let same = |b: &&Baseline| b.problem == problem && b.solver == solver;
-            size.baselines.iter().filter(same).find(|b| b.start == start)
-        };
-        lines.push(Line { problem, solver, starts: ["cold", "warm"].map(of) });
-    }
-    lines
 }
 
 /// What the table is of, sentences that follow from it, size by size, and the remarks.

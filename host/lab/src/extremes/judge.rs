@@ -15,6 +15,7 @@ use std::sync::mpsc::RecvTimeoutError;
 use serde::{Deserialize, Serialize};
 
 use super::measure::{Measured, Reference};
+use crate::record_file::word;
 use signorini_scene::Error;
 use signorini_solve::ScalarKind;
 
@@ -46,51 +47,34 @@ pub enum Outcome {
 impl Outcome {
     /// All, the best first.
     pub const ALL: [Self; 4] = [Self::Correct, Self::CertifiedPoor, Self::TypedError, Self::Wrong];
-
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Correct => "correct",
-            Self::CertifiedPoor => "certified-poor",
-            Self::TypedError => "typed-error",
-            Self::Wrong => "wrong",
-        }
-    }
 }
 
-/// How a case ended.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Ended {
-    Refused(String),
-    /// The input was refused after sweeps had been spent on it.
-    RefusedLate(String),
-    Failed(String),
-    Panicked,
-    TimedOut,
-    Answered {
-        success: bool,
-        status: &'static str,
-        measured: Measured,
-    },
+/// How many cases ended in which way, in words.
+pub fn counts(count: impl Fn(Outcome) -> usize) -> String {
+    Outcome::ALL.map(|of| format!("{} {}", count(of), word(&of))).join(", ")
 }
 
-impl From<RecvTimeoutError> for Ended {
-    fn from(lost: RecvTimeoutError) -> Self {
-        match lost {
-            RecvTimeoutError::Timeout => Self::TimedOut,
-            RecvTimeoutError::Disconnected => Self::Panicked,
-        }
-    }
+/// The outcome and, unless it is correct, why.
+pub type Verdict = (Outcome, String);
+
+/// An attempt that panicked or never ended.
+pub fn lost(lost: RecvTimeoutError) -> Verdict {
+    let why = match lost {
+        RecvTimeoutError::Timeout => "did not end in time",
+        RecvTimeoutError::Disconnected => "panicked",
+    };
+    (Outcome::Wrong, why.to_owned())
 }
 
-impl From<Error> for Ended {
-    fn from(error: Error) -> Self {
-        match error {
-            Error::Input(error) if error.message().starts_with("not-finite") => {
-                Self::RefusedLate(error.message().to_owned())
-            }
-            Error::Input(error) => Self::Refused(error.message().to_owned()),
-            error => Self::Failed(error.to_string()),
+/// An attempt that ended with an error.
+pub fn failed(error: Error) -> Verdict {
+    match error {
+        // Sweeps had been spent on it.
+        Error::Input(error) if error.message().starts_with("not-finite") => {
+            (Outcome::Wrong, format!("refused after the work was done: {}", error.message()))
         }
+        Error::Input(error) => (Outcome::TypedError, error.message().to_owned()),
+        error => (Outcome::Wrong, error.to_string()),
     }
 }
 
@@ -100,140 +84,137 @@ pub fn ratio(part: f64, whole: f64) -> Option<f64> {
     ratio.is_finite().then_some(ratio)
 }
 
-/// The outcome and, unless it is correct, why.
-pub fn judge(ended: &Ended, scalar: ScalarKind) -> (Outcome, String) {
-    match ended {
-        Ended::Refused(message) => (Outcome::TypedError, message.clone()),
-        Ended::RefusedLate(message) => {
-            (Outcome::Wrong, format!("refused after the work was done: {message}"))
-        }
-        Ended::Failed(message) => (Outcome::Wrong, message.clone()),
-        Ended::Panicked => (Outcome::Wrong, "panicked".to_owned()),
-        Ended::TimedOut => (Outcome::Wrong, "did not end in time".to_owned()),
-        Ended::Answered { measured, .. } if !measured.finite => {
-            (Outcome::Wrong, "a number is not finite".to_owned())
-        }
-        Ended::Answered { success, status, measured } => match measured.bound {
-            Some(bound) => certified(*success, status, bound, measured, scalar),
-            None => uncertified(*success, status, measured, scalar),
-        },
-    }
+/// An answer, how it ended, and how wrong it is.
+#[derive(Debug, Clone, Copy)]
+pub struct Answered {
+    /// Whether success is claimed.
+    pub success: bool,
+    pub status: &'static str,
+    pub scalar: ScalarKind,
+    pub measured: Measured,
 }
 
-fn certified(
-    success: bool,
-    status: &str,
-    bound: f64,
-    measured: &Measured,
-    scalar: ScalarKind,
-) -> (Outcome, String) {
-    if measured.error - measured.uncertain > bound * (1.0 + INTEGRATED) {
-        let ratio = measured.error / bound;
-        return (Outcome::Wrong, format!("the true error is {ratio:.3e} of the bound"));
-    }
-    let Some(reference) = measured.reference else {
-        return (Outcome::CertifiedPoor, "no exact discrete solution to compare with".to_owned());
-    };
-    if !success {
-        return (Outcome::CertifiedPoor, format!("status {status}"));
-    }
-    let best = reference.bound.unwrap_or(0.0);
-    if bound > (USEFUL * best).max(digits(scalar) * reference.energy) {
-        let text = format!("the bound is {:.3e} of the exact discrete solution's", bound / best);
-        return (Outcome::CertifiedPoor, text);
-    }
-    if bound > reference.energy {
-        let text = format!("the bound is {:.3e} of the solution", bound / reference.energy);
-        return (Outcome::CertifiedPoor, text);
-    }
-    (Outcome::Correct, String::new())
-}
-
-fn uncertified(
-    success: bool,
-    status: &str,
-    measured: &Measured,
-    scalar: ScalarKind,
-) -> (Outcome, String) {
-    let far = |reference: Reference| {
-        let allowed = (FAR * reference.error).max(digits(scalar) * reference.energy);
-        (measured.error > allowed).then(|| measured.error / reference.error)
-    };
-    match measured.reference.and_then(far) {
-        Some(ratio) if success => {
-            let text = format!(
-                "no bound, status {status}, and {ratio:.3e} times the error of the exact discrete solution"
-            );
-            (Outcome::Wrong, text)
+impl Answered {
+    pub fn verdict(&self) -> Verdict {
+        match self.measured.bound {
+            _ if !self.measured.finite => (Outcome::Wrong, "a number is not finite".to_owned()),
+            Some(bound) => self.certified(bound),
+            None => self.uncertified(),
         }
-        _ => (Outcome::CertifiedPoor, format!("no bound, status {status}")),
     }
-}
 
-fn digits(scalar: ScalarKind) -> f64 {
-    DIGITS[usize::from(scalar == ScalarKind::F32)]
+    fn certified(&self, bound: f64) -> Verdict {
+        let Measured { error, uncertain, reference, .. } = self.measured;
+        if error - uncertain > bound * (1.0 + INTEGRATED) {
+            let ratio = error / bound;
+            return (Outcome::Wrong, format!("the true error is {ratio:.3e} of the bound"));
+        }
+        let Some(reference) = reference else {
+            let why = "no exact discrete solution to compare with";
+            return (Outcome::CertifiedPoor, why.to_owned());
+        };
+        let best = reference.bound.unwrap_or(0.0);
+        let useful = (USEFUL * best).max(self.digits() * reference.energy);
+        let why = match self.status {
+            status if !self.success => format!("status {status}"),
+            _ if bound > useful => {
+                format!("the bound is {:.3e} of the exact discrete solution's", bound / best)
+            }
+            _ if bound > reference.energy => {
+                format!("the bound is {:.3e} of the solution", bound / reference.energy)
+            }
+            _ => return (Outcome::Correct, String::new()),
+        };
+        (Outcome::CertifiedPoor, why)
+    }
+
+    fn uncertified(&self) -> Verdict {
+        let Self { success, status, measured, .. } = self;
+        let far = |reference: Reference| {
+            let allowed = (FAR * reference.error).max(self.digits() * reference.energy);
+            (measured.error > allowed).then(|| measured.error / reference.error)
+        };
+        match measured.reference.and_then(far) {
+            Some(ratio) if *success => {
+                let text = format!(
+                    "no bound, status {status}, and {ratio:.3e} times the error of the exact discrete solution"
+                );
+                (Outcome::Wrong, text)
+            }
+            _ => (Outcome::CertifiedPoor, format!("no bound, status {status}")),
+        }
+    }
+
+    fn digits(&self) -> f64 {
+        DIGITS[usize::from(self.scalar == ScalarKind::F32)]
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::Outcome::{CertifiedPoor, Correct, TypedError, Wrong};
     use super::*;
+    use signorini_scene::InputError;
 
-    fn answered(success: bool, measured: Measured) -> Ended {
-        Ended::Answered { success, status: "converged", measured }
+    /// The outcome of such an answer in f64; of energy 1, and of the bound and the error of the exact discrete solution.
+    fn outcome(success: bool, bound: Option<f64>, error: f64, best: [f64; 2]) -> Outcome {
+        judged(success, bound, error, best, ScalarKind::F64)
     }
 
-    /// Energy 1; the exact discrete solution has a bound of 0.1.
-    fn measured(bound: Option<f64>, error: f64) -> Measured {
-        let reference = Reference { bound: Some(0.1), error: 0.08, energy: 1.0 };
-        Measured { bound, error, reference: Some(reference), finite: true, ..Measured::default() }
+    fn judged(
+        success: bool,
+        bound: Option<f64>,
+        error: f64,
+        [best, least]: [f64; 2],
+        scalar: ScalarKind,
+    ) -> Outcome {
+        let reference = Some(Reference { bound: Some(best), error: least, energy: 1.0 });
+        let finite = error.is_finite();
+        let measured = Measured { bound, error, reference, finite, ..Measured::default() };
+        Answered { success, status: "converged", scalar, measured }.verdict().0
     }
 
-    fn outcome(ended: Ended) -> Outcome {
-        judge(&ended, ScalarKind::F64).0
-    }
+    const BEST: [f64; 2] = [0.1, 0.08];
 
     #[test]
     fn a_sharp_bound_is_correct_and_a_wide_one_poor() {
-        assert_eq!(outcome(answered(true, measured(Some(0.11), 0.1))), Outcome::Correct);
-        assert_eq!(outcome(answered(true, measured(Some(0.39), 0.1))), Outcome::Correct);
-        assert_eq!(outcome(answered(true, measured(Some(0.41), 0.1))), Outcome::CertifiedPoor);
-        assert_eq!(outcome(answered(false, measured(Some(0.11), 0.1))), Outcome::CertifiedPoor);
-        let mut coarse = measured(Some(1.1), 1.0);
-        coarse.reference = Some(Reference { bound: Some(1.0), error: 1.0, energy: 1.0 });
-        assert_eq!(outcome(answered(true, coarse)), Outcome::CertifiedPoor);
+        assert_eq!(outcome(true, Some(0.11), 0.1, BEST), Correct);
+        assert_eq!(outcome(true, Some(0.39), 0.1, BEST), Correct);
+        assert_eq!(outcome(true, Some(0.41), 0.1, BEST), CertifiedPoor);
+        assert_eq!(outcome(false, Some(0.11), 0.1, BEST), CertifiedPoor);
+        assert_eq!(outcome(true, Some(1.1), 1.0, [1.0; 2]), CertifiedPoor, "a coarse grid");
     }
 
     #[test]
     fn an_error_above_its_bound_is_wrong_whatever_the_status() {
         for success in [true, false] {
-            assert_eq!(outcome(answered(success, measured(Some(0.1), 0.10002))), Outcome::Wrong);
+            assert_eq!(outcome(success, Some(0.1), 0.10002, BEST), Wrong);
         }
-        let broken = Measured { finite: false, ..measured(Some(0.1), f64::NAN) };
-        assert_eq!(outcome(answered(true, broken)), Outcome::Wrong);
+        assert_eq!(outcome(true, Some(0.1), f64::NAN, BEST), Wrong);
     }
 
     #[test]
     fn what_rounds_to_nothing_needs_the_digits_of_its_scalar_only() {
-        let mut exact = measured(Some(1e-5), 1e-6);
-        exact.reference = Some(Reference { bound: Some(1e-15), error: 1e-15, energy: 1.0 });
-        let ended = answered(true, exact);
-        assert_eq!(judge(&ended, ScalarKind::F32).0, Outcome::Correct);
-        assert_eq!(judge(&ended, ScalarKind::F64).0, Outcome::CertifiedPoor);
+        for (scalar, expected) in [(ScalarKind::F32, Correct), (ScalarKind::F64, CertifiedPoor)] {
+            assert_eq!(judged(true, Some(1e-5), 1e-6, [1e-15; 2], scalar), expected);
+        }
     }
 
     #[test]
     fn without_a_bound_success_must_not_be_claimed_for_nonsense() {
-        assert_eq!(outcome(answered(true, measured(None, 0.09))), Outcome::CertifiedPoor);
-        assert_eq!(outcome(answered(true, measured(None, 0.9))), Outcome::Wrong);
-        assert_eq!(outcome(answered(false, measured(None, 0.9))), Outcome::CertifiedPoor);
+        assert_eq!(outcome(true, None, 0.09, BEST), CertifiedPoor);
+        assert_eq!(outcome(true, None, 0.9, BEST), Wrong);
+        assert_eq!(outcome(false, None, 0.9, BEST), CertifiedPoor);
     }
 
     #[test]
     fn refusals_and_accidents() {
-        assert_eq!(outcome(Ended::Refused("too thin".to_owned())), Outcome::TypedError);
-        assert_eq!(outcome(Ended::RefusedLate("overflow".to_owned())), Outcome::Wrong);
-        for ended in [Ended::Failed("disk".to_owned()), Ended::Panicked, Ended::TimedOut] {
-            assert_eq!(outcome(ended), Outcome::Wrong);
+        let refused = |message: &str| failed(InputError::new(message).into()).0;
+        assert_eq!(refused("too thin"), TypedError);
+        assert_eq!(refused("not-finite: overflow"), Wrong);
+        assert_eq!(failed(Error::Check("disk".to_owned())).0, Wrong);
+        for why in [RecvTimeoutError::Timeout, RecvTimeoutError::Disconnected] {
+            assert_eq!(lost(why).0, Wrong);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
@@ -35,7 +35,6 @@ struct Line<T> {
 /// Finished cases, in a folder that goes once everything is finished.
 #[derive(Debug)]
 pub struct Kept {
-    folder: PathBuf,
     journal: Mutex<Journal>,
     start: Instant,
     /// Seconds of the runs before.
@@ -47,7 +46,7 @@ impl Kept {
     pub fn open(out: &Path) -> Result<Self> {
         let folder = out.join("unfinished");
         let journal = Mutex::new(Journal::open(&folder, Shard::WHOLE, &program())?);
-        Ok(Self { folder, journal, start: Instant::now(), before: Mutex::default() })
+        Ok(Self { journal, start: Instant::now(), before: Mutex::default() })
     }
 
     /// The row that is known of the case `key`, or what `work` finds.
@@ -89,10 +88,7 @@ impl Kept {
 
     /// Deletes what only an interrupted run needs.
     pub fn close(self) -> Result<()> {
-        self.journal.into_inner().unwrap_or_else(PoisonError::into_inner).close()?;
-        // It stays where somebody else keeps something in it.
-        let _ = std::fs::remove_dir(self.folder);
-        Ok(())
+        self.journal.into_inner().unwrap_or_else(PoisonError::into_inner).close()
     }
 }
 

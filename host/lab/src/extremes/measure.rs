@@ -53,7 +53,7 @@ const LARGE: u32 = 128;
 
 pub fn measure(case: &ExtremeCase, attempt: &Attempt) -> Result<Measured> {
     let posed = case.posed.at_scale_one();
-    let mesh = case.posed.scales.unplaced(&attempt.mesh);
+    let mesh = case.posed.scales.unplaced(Mesh::clone(&attempt.mesh));
     let problem = at_scale_one(&posed, mesh)?;
     let scales = case.posed.scales;
     let (load, unit) = (scales.load, scales.energy());
@@ -158,9 +158,9 @@ mod tests {
     use crate::extremes::grid::Grid;
     use crate::extremes::solution::Solution as Exact;
     use signorini_scene::mesh::structured::Cells;
-    use signorini_solve::Solution;
 
-    fn jump(k: f64, change: impl Fn(&str) -> String) -> Result<(Solution, f64)> {
+    /// The bound of a jump whose scene is changed holds, and is near where it has to be.
+    fn check(k: f64, is_near: bool, change: impl Fn(&str) -> String) -> Result<()> {
         let grid = Grid { n: 12, cells: Cells::Triangles, shape: Shape::Square };
         let posed = Posed::new(Exact::Jump(k), grid);
         let scene = Scene::parse(&change(&posed.scene()), Path::new("jump.toml"))?;
@@ -168,19 +168,19 @@ mod tests {
         let solution = solve_directly(&problem)?;
         let exact = problem.scene.exact.as_ref().expect("an exact solution");
         let found = distance(exact, &problem, &solution.certified.admissible())?;
-        Ok((solution, found.combined))
+        let (total, combined) = (solution.bound.expect("a bound").total, found.combined);
+        println!("k = {k:e}: total {total:.5e}, combined {combined:.5e}");
+        assert!(total >= combined, "k = {k:e}: {total} {combined}");
+        assert!(total <= 1.01 * combined || !is_near, "k = {k:e}: {total} {combined}");
+        Ok(())
     }
 
     /// On the stiff side u is small and its energy is not: u_D there counts by its energy.
     #[test]
     fn a_high_contrast_keeps_the_data_of_its_stiff_side() -> Result<()> {
         for k in [1e9, 7e9, 1e10, 1e12] {
-            let (solution, combined) = jump(k, str::to_owned)?;
-            let total = solution.bound.expect("a bound").total;
-            println!("k = {k:e}: total {total:.4e}, combined {combined:.4e}");
-            assert!(total >= combined, "k = {k:e}: {total} {combined}");
             // Rounding is half of it where the contrast is 1e12.
-            assert!(total <= 1.01 * combined || k > 1e10, "k = {k:e}: {total} {combined}");
+            check(k, k <= 1e10, str::to_owned)?;
         }
         Ok(())
     }
@@ -197,11 +197,7 @@ mod tests {
                 assert!(text.contains(&on_right), "{text}");
                 text.replace(&on_right, &format!("(sqrt(x^2 + y^2)*cos({alpha}*atan2(y,x)))"))
             };
-            let (solution, combined) = jump(k, plain)?;
-            let total = solution.bound.expect("a bound").total;
-            println!("k = {k:e}: total {total:.5e}, combined {combined:.5e}");
-            assert!(total >= combined, "k = {k:e}: {total} {combined}");
-            assert!(total <= 1.01 * combined, "k = {k:e}: {total} {combined}");
+            check(k, true, plain)?;
         }
         Ok(())
     }

@@ -33,7 +33,7 @@ use crate::trade::journal::digest;
 use attempt::{Attempt, attempt};
 use case::ExtremeCase;
 use flush::flushed;
-use judge::{Ended, Outcome, judge, ratio};
+use judge::{Answered, Outcome, failed, lost, ratio};
 use measure::{Measured, measure, of_ticks};
 use record::{Record, Row, definitions, text};
 use section::section;
@@ -97,17 +97,16 @@ fn row(case: &ExtremeCase) -> Result<Row> {
         let seconds = start.elapsed().as_secs_f64();
         (found.and_then(|found| measured(&own, found)), seconds)
     });
-    let (answer, seconds, ended) = match left {
+    let (answer, seconds, (outcome, note)) = match left {
         Ok((Ok((attempt, measured)), seconds)) => {
-            let (success, status) =
-                (attempt.answer.status.is_success(), attempt.answer.status.name());
-            let ended = Ended::Answered { success, status, measured };
-            (Some((attempt, measured)), seconds, ended)
+            let (scalar, status) = (case.scalar, attempt.answer.status);
+            let (success, status) = (status.is_success(), status.name());
+            let verdict = Answered { success, status, scalar, measured }.verdict();
+            (Some((attempt, measured)), seconds, verdict)
         }
-        Ok((Err(error), seconds)) => (None, seconds, error.into()),
-        Err(lost) => (None, LIMIT.as_secs_f64(), lost.into()),
+        Ok((Err(error), seconds)) => (None, seconds, failed(error)),
+        Err(why) => (None, LIMIT.as_secs_f64(), lost(why)),
     };
-    let (outcome, note) = judge(&ended, case.scalar);
     Ok(Row { outcome, note, seconds, ..described(case, answer.as_ref()) })
 }
 

@@ -9,6 +9,7 @@
 //! differences of doubles are.
 
 use std::fmt::Write;
+use std::mem::replace;
 
 use super::grid::Grid;
 use super::solution::{Shear, Solution, Texts};
@@ -37,23 +38,15 @@ impl Scales {
         self.load * self.stiffness.sqrt()
     }
 
-    fn place(&self, x: f64) -> f64 {
-        self.length * (x + self.shift)
-    }
-
-    fn back(&self, x: f64) -> f64 {
-        (x - self.length * self.shift) / self.length
-    }
-
     pub fn placed(&self, mesh: Mesh) -> Mesh {
-        let vertices = mesh.vertices.iter().map(|point| point.map(|x| self.place(x))).collect();
-        Mesh { vertices, ..mesh }
+        let place = |x: f64| self.length * (x + self.shift);
+        Mesh { vertices: mesh.vertices.iter().map(|point| point.map(place)).collect(), ..mesh }
     }
 
     /// The mesh at scale 1.
-    pub fn unplaced(&self, mesh: &Mesh) -> Mesh {
-        let vertices = mesh.vertices.iter().map(|point| point.map(|x| self.back(x))).collect();
-        Mesh { vertices, ..mesh.clone() }
+    pub fn unplaced(&self, mesh: Mesh) -> Mesh {
+        let back = |x: f64| (x - self.length * self.shift) / self.length;
+        Mesh { vertices: mesh.vertices.iter().map(|point| point.map(back)).collect(), ..mesh }
     }
 
     /// The name of a coordinate at scale 1.
@@ -126,11 +119,9 @@ impl Posed {
         let mut mesh = self.scales.placed(self.grid.mesh());
         if let Some(split) = self.split {
             let rest = mesh.curves.iter_mut().find(|curve| curve.name == split.of).map(|curve| {
-                let (from, to) = (split.edges[0], split.edges[1]);
-                let kept = curve.edges[from..to].to_vec();
-                let rest = [&curve.edges[..from], &curve.edges[to..]].concat();
-                curve.edges = kept;
-                Curve { name: "rest".to_owned(), edges: rest }
+                let [from, to] = split.edges;
+                let kept = curve.edges.drain(from..to).collect();
+                Curve { name: "rest".to_owned(), edges: replace(&mut curve.edges, kept) }
             });
             mesh.curves.extend(rest);
             mesh.curves.retain(|curve| !curve.edges.is_empty());

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::judge::{DIGITS, FAR, INTEGRATED, Outcome, USEFUL};
-use crate::record_file;
+use super::judge::{DIGITS, FAR, INTEGRATED, Outcome, USEFUL, counts};
+use crate::record_file::{self, word};
 use signorini_draw::{Column, Table};
 use signorini_scene::Result;
 
@@ -99,20 +99,12 @@ impl Record {
 
     /// How many cases ended in which way, in words.
     pub fn counts(&self) -> String {
-        Outcome::ALL.map(|of| format!("{} {}", self.count(of), of.name())).join(", ")
+        counts(|of| self.count(of))
     }
 
-    /// The studies in their order: the axis, what it is crossed with, and the cases.
-    pub fn studies(&self) -> Vec<(&str, Option<&str>, Vec<&Row>)> {
-        let mut studies: Vec<(&str, Option<&str>, Vec<&Row>)> = Vec::new();
-        for case in &self.cases {
-            let key = (case.axis.as_str(), case.axis2.as_deref());
-            match studies.iter_mut().find(|(axis, across, _)| (*axis, *across) == key) {
-                Some((.., cases)) => cases.push(case),
-                None => studies.push((key.0, key.1, vec![case])),
-            }
-        }
-        studies
+    /// The studies in their order: the cases along an axis, or a pair of them.
+    pub fn studies(&self) -> impl Iterator<Item = &[Row]> {
+        self.cases.chunk_by(|a, b| (&a.axis, &a.axis2) == (&b.axis, &b.axis2))
     }
 }
 
@@ -130,7 +122,7 @@ pub fn text(record: &Record) -> String {
         Column::words("scalar", |line: &Line| line.scalar.to_owned()),
     ];
     columns.extend(Outcome::ALL.map(|outcome| {
-        Column::number(outcome.name(), move |line: &Line| {
+        Column::number(&word(&outcome), move |line: &Line| {
             match line.cases.iter().filter(|case| case.outcome == outcome).count() {
                 0 => "·".to_owned(),
                 some => some.to_string(),
@@ -151,14 +143,18 @@ pub fn text(record: &Record) -> String {
 
 fn lines(record: &Record) -> Vec<Line<'_>> {
     let mut lines = Vec::new();
-    for (axis, across, cases) in record.studies() {
-        let name = across.map_or(axis.to_owned(), |across| format!("{axis} × {across}"));
-        for (scalar, name) in [("f64", name), ("f32", String::new())] {
-            let cases = cases.iter().copied().filter(|case| case.scalar == scalar).collect();
+    for study in record.studies() {
+        for (scalar, name) in [("f64", heading(&study[0])), ("f32", String::new())] {
+            let cases = study.iter().filter(|case| case.scalar == scalar).collect();
             lines.push(Line { name, scalar, cases });
         }
     }
     lines
+}
+
+/// The axis of a case, and what it is crossed with.
+pub(super) fn heading(Row { axis, axis2, .. }: &Row) -> String {
+    axis2.as_ref().map_or(axis.clone(), |across| format!("{axis} × {across}"))
 }
 
 /// Where a case lies, in words.

@@ -8,7 +8,7 @@ use super::bound::Certified;
 use super::checks::{self, Check};
 use super::cost::{self, Cost};
 use super::outputs::KnownOutputs;
-use crate::cycles;
+use crate::cycles::counted;
 use crate::mesh_solution::solve_directly;
 use signorini_problem::Problem;
 use signorini_scene::{Result, Scene};
@@ -83,9 +83,8 @@ pub fn study(path: &Path) -> Result<(Problem, Solution, KnownScene)> {
 /// The kernel down to the rounding floor.
 fn run(problem: &Problem, scalar: ScalarKind, reference: &Solution) -> Result<(Solution, Run)> {
     let options = Options { scalar, to_the_floor: true, ..Options::default() };
-    let start = cycles::now();
-    let solution = solve(problem, &options)?;
-    let spent = cycles::now().saturating_sub(start) as f64;
+    let (spent, solution) = counted(|| solve(problem, &options));
+    let solution = solution?;
     let cost = match scalar {
         ScalarKind::F64 => cost::measure::<f64>(problem),
         ScalarKind::F32 => cost::measure::<f32>(problem),

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use super::files::FRAGMENT;
 use super::front::Wish;
-use super::mpi;
+use super::mpi::on_ranks;
 use super::record::Trade;
 use super::records::{RECORD, SIZES};
 use super::shard::Shard;
@@ -102,17 +102,13 @@ impl Campaign {
         if let Some(shard) = shard {
             return self.share(shard, wish, done);
         }
-        let (session, shard) = mpi::shard();
-        let shared = match shard.is_whole() {
-            true => Ok(()),
-            false => self.share(shard, wish, done).map(drop),
-        };
-        let mut ended = Ended::default();
-        ended.status = session.gather(shared, || {
-            ended = self.share(Shard::WHOLE, wish, done)?;
-            Ok(0)
+        let mut whole = None;
+        let status = on_ranks(|shard| {
+            let found = self.share(shard, wish, done)?;
+            whole = Some(found).filter(|_| shard.is_whole());
+            Ok(())
         })?;
-        Ok(ended)
+        Ok(Ended { status, ..whole.unwrap_or_default() })
     }
 
     fn share(&self, shard: Shard, wish: &Wish, done: &mut Done) -> Result<Ended> {

@@ -23,14 +23,13 @@ pub fn write(folder: &Path, scene: &Scene, trade: &Trade) -> Result<()> {
     write_atomically(&folder.join("trade.csv"), &csv)?;
     write_atomically(&folder.join("trade.svg"), pareto_file(&picture(trade)).as_bytes())?;
     let file = folder.join(FRAGMENT);
-    match &trade.recommendation.point {
-        Some(point) => write_fragment(&file, scene, &point.setting, &trade.recommendation.text),
-        None => match std::fs::remove_file(&file) {
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-                Err(Error::io(&file)(error))
-            }
-            _ => Ok(()),
-        },
+    if let Some(point) = &trade.recommendation.point {
+        let text = fragment(folder, scene, &point.setting, &trade.recommendation.text)?;
+        return write_atomically(&file, text.as_bytes());
+    }
+    match std::fs::remove_file(&file) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(Error::io(&file)(error)),
+        _ => Ok(()),
     }
 }
 
@@ -72,18 +71,15 @@ struct Fragment<'a> {
     setting: &'a Setting,
 }
 
-/// Writes the fragment of `scene` with `setting` to `file`; `why` stands above it.
-fn write_fragment(file: &Path, scene: &Scene, setting: &Setting, why: &str) -> Result<()> {
-    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let folder = folder.unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
+/// The fragment of `scene` with `setting` for a file in `folder`; `why` stands above it.
+fn fragment(folder: &Path, scene: &Scene, setting: &Setting, why: &str) -> Result<String> {
     let whole = |path: &Path| path.canonicalize().map_err(Error::io(path));
     let (scene, folder) = (whole(&scene.path)?, whole(folder)?);
     let way = pathdiff::diff_paths(&scene, &folder).unwrap_or(scene);
     let fragment = Fragment { extends: way.to_string_lossy().replace('\\', "/"), setting };
     let text = toml::to_string(&fragment).map_err(|error| Error::Check(error.to_string()))?;
     let comment: String = why.lines().map(|line| format!("# {line}\n")).collect();
-    write_atomically(file, (comment + &text).as_bytes())
+    Ok(comment + &text)
 }
 
 #[cfg(test)]

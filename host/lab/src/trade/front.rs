@@ -47,15 +47,11 @@ pub fn choose<'p>(trade: &'p Trade, wish: &Wish) -> Option<&'p Point> {
             own.map(|point| AS_GOOD * point.error.energy).min_by(f64::total_cmp)
         }
     };
-    match most {
-        Some(most) => points()
-            .filter(cheap)
-            .filter(|point| point.error.energy <= most)
-            .min_by(|a, b| a.cost().total_cmp(&b.cost()).then(by_error(a, b))),
-        None => {
-            points().filter(cheap).min_by(|a, b| by_error(a, b).then(a.cost().total_cmp(&b.cost())))
-        }
-    }
+    let good = |point: &&Point| most.is_none_or(|most| point.error.energy <= most);
+    points().filter(cheap).filter(good).min_by(|a, b| match most {
+        Some(_) => by_cost(a, b).then(by_error(a, b)),
+        None => by_error(a, b).then(by_cost(a, b)),
+    })
 }
 
 /// Points whose setting firmware can have too; where there is no other, all.
@@ -63,6 +59,10 @@ fn eligible(trade: &Trade) -> impl Iterator<Item = &Point> {
     let bakeable = |point: &Point| point.scalar != "f32+f64";
     let any = trade.points.iter().any(bakeable);
     trade.points.iter().filter(move |point| !any || bakeable(point))
+}
+
+fn by_cost(a: &Point, b: &Point) -> std::cmp::Ordering {
+    a.cost().total_cmp(&b.cost())
 }
 
 fn by_error(a: &Point, b: &Point) -> std::cmp::Ordering {
@@ -112,7 +112,7 @@ fn part(part: f64, whole: f64) -> String {
 }
 
 fn nothing(trade: &Trade, wish: &Wish) -> String {
-    let cheapest = eligible(trade).min_by(|a, b| a.cost().total_cmp(&b.cost()));
+    let cheapest = eligible(trade).min_by(|a, b| by_cost(a, b));
     let best = eligible(trade).min_by(|a, b| by_error(a, b));
     let (Some(cheapest), Some(best)) = (cheapest, best) else {
         return "No setting could be measured.".to_owned();

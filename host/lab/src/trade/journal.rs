@@ -117,14 +117,17 @@ impl Journal {
         Ok(())
     }
 
-    /// Deletes the journals of all shards that nobody is writing: the outputs of the study, written before,
-    /// replace them.
+    /// Deletes the journals of all shards that nobody is writing, and their folder: the outputs of the study, written
+    /// before, replace them.
     pub fn close(self) -> Result<()> {
         drop(self.file);
         journals(&self.folder)?
             .iter()
             .filter(|path| File::open(path).is_ok_and(|file| lock(&file, path).is_ok()))
-            .try_for_each(|path| fs::remove_file(path).map_err(Error::io(path)))
+            .try_for_each(|path| fs::remove_file(path).map_err(Error::io(path)))?;
+        // It stays where somebody else keeps something in it, such as a shard that still runs.
+        let _ = fs::remove_dir(self.folder);
+        Ok(())
     }
 
     /// A line with its newline; `None` where it reads back as something else.

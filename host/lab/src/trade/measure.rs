@@ -1,10 +1,9 @@
 //! One setting measured: what a tick costs, and how far its answer is from the truth.
 
-use super::record::Point;
+use super::record::{Point, PointError};
 use super::reference::ReferenceSolution;
-use crate::trade::record::PointError;
 
-use crate::cycles::{self, median_and_spread};
+use crate::cycles::{counted, median_and_spread};
 use crate::record_file::word;
 use signorini_problem::Problem;
 use signorini_problem::inputs::{InputSpace, drawn};
@@ -16,7 +15,7 @@ use signorini_solve::Solution;
 /// Repeats of a cold solve; of those that take long, fewer.
 const REPEATS: usize = 5;
 /// Cycles beyond which a solve takes long.
-const LONG: u64 = 1_000_000_000;
+const LONG: f64 = 1e9;
 /// Warm ticks, as many as `cargo xtask firmware` plays after the first.
 const TICKS: usize = 100;
 /// Runs of all warm ticks.
@@ -55,14 +54,14 @@ fn cold(session: &mut dyn Session, defaults: &[f64]) -> Result<Timing> {
     let mut sweeps = 0;
     while costs.len() < REPEATS {
         session.restart();
-        let start = cycles::now();
-        sweeps = session.tick(defaults)?;
-        costs.push(cycles::now().saturating_sub(start));
-        if costs.last().is_some_and(|&cost| cost > LONG) && costs.len() > 1 {
+        let (cost, tick) = counted(|| session.tick(defaults));
+        sweeps = tick?;
+        costs.push(cost);
+        if cost > LONG && costs.len() > 1 {
             break;
         }
     }
-    let (cycles, spread) = median_and_spread(costs.iter().map(|&cost| cost as f64));
+    let (cycles, spread) = median_and_spread(costs);
     Ok(Timing { cycles, spread, sweeps })
 }
 
@@ -73,17 +72,16 @@ fn warm(session: &mut dyn Session, spaces: &[InputSpace], defaults: &[f64]) -> R
     for _ in 0..RUNS {
         session.restart();
         session.tick(defaults)?;
-        let (mut costs, mut all) = (Vec::new(), 0);
+        let mut costs = Vec::new();
         sweeps.clear();
         for inputs in drawn::<f64>(spaces, TICKS).skip(1) {
-            let start = cycles::now();
-            sweeps.push(f64::from(session.tick(&inputs)?));
-            let cost = cycles::now().saturating_sub(start);
-            costs.push(cost as f64);
-            all += cost;
+            let (cost, tick) = counted(|| session.tick(&inputs));
+            sweeps.push(f64::from(tick?));
+            costs.push(cost);
         }
+        let is_long = costs.iter().sum::<f64>() > LONG;
         medians.push(median_and_spread(costs).0);
-        if all > LONG {
+        if is_long {
             break;
         }
     }

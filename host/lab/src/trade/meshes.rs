@@ -1,7 +1,5 @@
 //! The meshes of a study: the scene's own, refined, cut or paired.
 
-use std::collections::HashMap;
-
 use signorini_problem::Problem;
 use signorini_scene::mesh::adapted::adapted;
 use signorini_scene::setting::CellKind;
@@ -19,22 +17,20 @@ pub(super) fn finest(problem: &Problem) -> u32 {
     (0..=LEVELS).rev().find(|level| unknowns << (2 * level) <= FINEST).unwrap_or(0)
 }
 
-/// The goal of a refined mesh, and the cells that it was brought to before.
-type ErrorMesh = (Goal, Option<CellKind>);
+/// A mesh: its cells where they are not the scene's, how often it is refined, and for which error.
+type Wanted = (Option<CellKind>, u32, Option<Goal>);
 
 /// The meshes of a study, each made once.
 pub(super) struct Meshes {
     scene: Scene,
     pub own: Mesh,
-    made: HashMap<(Option<CellKind>, u32), Problem>,
-    /// The last one for an error in all inputs: settings in a row have the same.
-    for_error: Option<(ErrorMesh, Problem)>,
+    made: Vec<(Wanted, Problem)>,
 }
 
 impl Meshes {
     pub fn new(scene: &Scene) -> Result<Self> {
         let own = mesh::read(&scene.mesh.value)?;
-        Ok(Self { scene: scene.clone(), own, made: HashMap::new(), for_error: None })
+        Ok(Self { scene: scene.clone(), own, made: Vec::new() })
     }
 
     /// The kind of cells that the mesh is not yet made of, where it can be brought to them.
@@ -47,35 +43,36 @@ impl Meshes {
 
     /// On the mesh that `setting` asks for, which may be refined until its error is small enough.
     pub fn of_setting(&mut self, setting: &Setting) -> Result<Problem> {
-        let problem = match setting.error {
-            Some(goal) => self.for_error(goal, setting.cells)?,
-            None => self.problem(setting.cells, setting.refine)?,
-        };
+        // One that is refined for an error begins as it is.
+        let level = if setting.error.is_some() { 0 } else { setting.refine };
+        let problem = self.made((setting.cells, level, setting.error))?;
         Ok(problem.clone().with_setting(Some(*setting)))
     }
 
-    fn for_error(&mut self, goal: Goal, cells: Option<CellKind>) -> Result<&Problem> {
+    /// On the scene's own mesh.
+    pub fn problem(&mut self) -> Result<&Problem> {
+        self.made((None, 0, None))
+    }
+
+    fn made(&mut self, wanted: Wanted) -> Result<&Problem> {
+        let known = self.made.iter().position(|(known, _)| *known == wanted);
+        let at = match known {
+            Some(at) => at,
+            None => {
+                let problem = Problem::new(&self.scene, self.mesh(wanted)?)?;
+                self.made.push((wanted, problem));
+                self.made.len() - 1
+            }
+        };
+        Ok(&self.made[at].1)
+    }
+
+    fn mesh(&self, (cells, level, error): Wanted) -> Result<Mesh> {
+        let mesh = adapted(self.own.clone(), cells, level)?;
+        let Some(goal) = error else { return Ok(mesh) };
         // A study's own settings stay small; a scene that asks for one error means it.
         let most_unknowns = if self.scene.setting.is_some() { MOST_UNKNOWNS } else { FINEST };
         let promised = Promised { goal, refining: Refining::Marked, most_unknowns };
-        let wanted = (goal, cells);
-        let known = self.for_error.take().filter(|(known, _)| *known == wanted);
-        let made = match known {
-            Some(known) => known,
-            None => {
-                let mesh = adapted(self.own.clone(), cells, 0)?;
-                let (mesh, _) = promised_mesh(&self.scene, mesh, promised)?;
-                (wanted, Problem::new(&self.scene, mesh)?)
-            }
-        };
-        Ok(&self.for_error.insert(made).1)
-    }
-
-    pub fn problem(&mut self, cells: Option<CellKind>, level: u32) -> Result<&Problem> {
-        if !self.made.contains_key(&(cells, level)) {
-            let mesh = adapted(self.own.clone(), cells, level)?;
-            self.made.insert((cells, level), Problem::new(&self.scene, mesh)?);
-        }
-        Ok(&self.made[&(cells, level)])
+        Ok(promised_mesh(&self.scene, mesh, promised)?.0)
     }
 }

@@ -8,7 +8,7 @@
 
 mod board;
 pub mod campaign;
-mod digits;
+pub(crate) mod digits;
 mod files;
 pub mod front;
 pub mod journal;

@@ -8,58 +8,38 @@
 //!
 //! The journals on a file system that all ranks see carry what was found; MPI carries one number, so
 //! that a failure on one rank hangs none: it waits for the others like a rank that is done, rank 0 merges
-//! what there is, and the failed rank and rank 0 end with its status. A [`Session`] that is dropped on
-//! the way, by `?` or by a panic, reports a failure likewise. Who waits sleeps: a core that spins would
-//! disturb what others measure.
+//! what there is, and the failed rank and rank 0 end with its status. A panic is such a failure. Who waits
+//! sleeps: a core that spins would disturb what others measure.
 //!
 //! Without the feature `mpi` there is one rank.
 
-use std::thread::panicking;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 use super::shard::Shard;
 use signorini_scene::Result;
 
-/// This process among the ranks, from the start of MPI to its end.
-#[derive(Debug)]
-#[must_use = "the other ranks wait for `gather`"]
-pub struct Session {
-    // `None` once the ranks are gathered.
-    ranks: Option<Ranks>,
-}
-
-/// Starts MPI: this rank's shard, and the session in which it is measured. A single rank has all cases,
-/// and so has a process that no launcher started.
-pub fn shard() -> (Session, Shard) {
+/// Starts MPI and has each rank `work` on its shard. Once all are done rank 0 works on the whole, which is to merge their
+/// parts. The others wait until it has: a launcher may kill the job as soon as one rank fails. A single rank has all
+/// cases at once, and so has a process that no launcher started. Journals must be closed (dropped) when `work` returns:
+/// only then another machine reads all of them.
+///
+/// The result is the failure of this rank's shard, if it failed; else, on rank 0, the failure of the merging, or the
+/// worst exit status of a shard; elsewhere 0.
+pub fn on_ranks(mut work: impl FnMut(Shard) -> Result<()>) -> Result<u8> {
     let ranks = Ranks::start();
     let shard = Shard::new(ranks.rank + 1, ranks.count).unwrap_or(Shard::WHOLE);
-    (Session { ranks: Some(ranks) }, shard)
-}
-
-impl Session {
-    /// Waits until every rank is done with its shard, has rank 0 `merge`, and waits until it has: a
-    /// launcher may kill the job as soon as one rank fails. Journals must be closed before (dropped):
-    /// only then another machine reads all of them.
-    ///
-    /// `done` is what became of this rank's shard. The result is its failure, if it failed; else, on
-    /// rank 0, what `merge` returns, or the worst exit status of a shard if that is larger; elsewhere 0.
-    /// A single rank that failed does not merge.
-    pub fn gather(mut self, done: Result<()>, merge: impl FnOnce() -> Result<u8>) -> Result<u8> {
-        let Some(ranks) = self.ranks.take() else { return Ok(0) };
-        if ranks.count == 1 {
-            done?;
-            return merge();
-        }
-        let worst = ranks.worst(done.as_ref().map_or_else(|error| error.exit_status(), |()| 0));
-        let merged = if ranks.rank == 0 { merge().map(|status| status.max(worst)) } else { Ok(0) };
-        done.and(merged)
+    if shard.is_whole() {
+        return work(shard).map(|()| 0);
     }
-}
-
-impl Drop for Session {
-    fn drop(&mut self) {
-        let Some(ranks) = self.ranks.take() else { return };
-        ranks.worst(if panicking() { 101 } else { 1 });
-    }
+    let done = catch_unwind(AssertUnwindSafe(|| work(shard)));
+    let worst = ranks.worst(match &done {
+        Ok(Ok(())) => 0,
+        Ok(Err(error)) => error.exit_status(),
+        Err(_) => 101,
+    });
+    let done = done.unwrap_or_else(|panic| resume_unwind(panic));
+    let merged = if ranks.rank == 0 { work(Shard::WHOLE).map(|()| worst) } else { Ok(0) };
+    done.and(merged)
 }
 
 #[cfg(feature = "mpi")]
@@ -154,17 +134,15 @@ mod tests {
     use signorini_scene::Error;
 
     #[test]
-    fn one_process_has_all_cases_and_merges() {
-        let (session, shard) = shard();
-        assert_eq!(shard, Shard::WHOLE);
-        assert!(matches!(session.gather(Ok(()), || Ok(3)), Ok(3)));
-    }
-
-    #[test]
-    fn one_process_that_failed_does_not_merge() {
-        let (session, _) = shard();
-        let failed = Err(Error::Check("no room".to_owned()));
-        let ended = session.gather(failed, || unreachable!("nothing to merge"));
-        assert!(matches!(ended, Err(Error::Check(_))));
+    fn one_process_has_all_cases_at_once() {
+        for (found, status) in [(Ok(()), Some(0)), (Err(Error::Check("no room".to_owned())), None)]
+        {
+            let mut found = Some(found);
+            let ended = on_ranks(|shard| {
+                assert_eq!(shard, Shard::WHOLE);
+                found.take().expect("called once")
+            });
+            assert_eq!(ended.ok(), status);
+        }
     }
 }

@@ -63,9 +63,9 @@ fn note(trade: &Trade, point: &Point) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::{names, trade};
+    use super::super::tests::trade;
     use super::*;
-    use signorini_draw::pareto_file;
+    use signorini_draw::{escape, pareto_file};
 
     fn drawn(trade: &Trade) -> String {
         let svg = pareto_file(&picture(trade));
@@ -80,7 +80,7 @@ mod tests {
             let svg = drawn(&trade);
             let front = trade.points.iter().filter(|point| point.pareto);
             for point in front {
-                assert!(svg.contains(&format!(">{}<", names(point))), "{}", point.name);
+                assert!(svg.contains(&format!(">{}<", escape(&point.name))), "{}", point.name);
             }
             assert_eq!(svg.matches("class=\"ring\"").count(), 2, "in the picture and its legend");
         }

@@ -35,11 +35,15 @@ pub const RECORD: &str = "host/benches/trade/promised.txt";
 /// The name of a table in the folder of its scene.
 pub const FILE: &str = "promised.txt";
 
+/// The kinds of meshes.
+const KINDS: [(&str, Refining); 2] =
+    [("where needed", Refining::Marked), ("everywhere", Refining::Everywhere)];
+
 /// The firmware of a promised error on a mesh of one kind, or why there is none.
 struct Taken {
     goal: Goal,
-    /// Which cells were refined.
-    refining: Refining,
+    /// Which cells were refined, in words.
+    refined: &'static str,
     found: std::result::Result<Firmware, String>,
 }
 
@@ -66,13 +70,13 @@ pub fn table(scene: &Scene, goals: &[Goal], done: &mut dyn FnMut()) -> Result<St
     }
     let mut all = Vec::new();
     for &goal in goals {
-        for refining in [Refining::Marked, Refining::Everywhere] {
+        for (refined, refining) in KINDS {
             let found = match firmware(&scene, goal, refining) {
                 Ok(firmware) => Ok(firmware),
                 Err(Error::Input(error)) => Err(error.message().to_owned()),
                 Err(error) => return Err(error),
             };
-            all.push(Taken { goal, refining, found });
+            all.push(Taken { goal, refined, found });
             done();
         }
     }
@@ -103,13 +107,11 @@ fn baked<R: Bakes>(problem: &Problem, promise: &Promise) -> Result<Firmware> {
 
 fn text(title: &str, all: &[Taken]) -> String {
     let of = |name: &str, cell: fn(&Firmware) -> String| {
-        Column::number(name, move |taken: &&Taken| {
-            taken.found.as_ref().map_or("–".to_owned(), cell)
-        })
+        Column::number(name, move |taken: &&Taken| or_dash(taken.found.as_ref().ok(), cell))
     };
     let columns = [
         Column::number("error", |taken: &&Taken| taken.goal.to_string()),
-        Column::words("refined", |taken: &&Taken| taken.refined().to_owned()),
+        Column::words("refined", |taken: &&Taken| taken.refined.to_owned()),
         of("unknowns", |found| grouped(found.promise.unknowns as u64)),
         of("contact", |found| grouped(found.contact as u64)),
         of("bound/error", |found| format!("{:.2}", found.promise.largest)),
@@ -117,26 +119,16 @@ fn text(title: &str, all: &[Taken]) -> String {
         of("flash", |found| grouped(found.bytes[1])),
         of("instructions", |found| or_dash(found.instructions, |count| grouped(count as u64))),
         Column::words("model", |taken: &&Taken| {
-            taken.found.as_ref().map_or("–".to_owned(), |found| found.model.clone())
+            or_dash(taken.found.as_ref().ok(), |found| found.model.clone())
         }),
     ];
     let mut text = format!("{title}\n{}", Table::new(&columns, all).text());
     for taken in all {
         if let Err(why) = &taken.found {
-            let _ = writeln!(text, "{}, refined {}: {why}", taken.goal, taken.refined());
+            let _ = writeln!(text, "{}, refined {}: {why}", taken.goal, taken.refined);
         }
     }
     text
-}
-
-impl Taken {
-    /// Which cells were refined, in words.
-    fn refined(&self) -> &'static str {
-        match self.refining {
-            Refining::Marked => "where needed",
-            Refining::Everywhere => "everywhere",
-        }
-    }
 }
 
 #[cfg(test)]
@@ -152,8 +144,8 @@ mod tests {
         let firmware =
             Firmware { promise, contact: 69, model, bytes: [2096, 33_400], instructions };
         let taken = [
-            Taken { goal, refining: Refining::Marked, found: Ok(firmware) },
-            Taken { goal, refining: Refining::Everywhere, found: Err("too large".to_owned()) },
+            Taken { goal, refined: KINDS[0].0, found: Ok(firmware) },
+            Taken { goal, refined: KINDS[1].0, found: Err("too large".to_owned()) },
         ];
         let expected = "\
 A levee

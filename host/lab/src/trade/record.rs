@@ -15,8 +15,7 @@ pub struct Trade {
     pub title: String,
     /// `host`, `m4f` or `m7`: whose cost decides.
     pub target: Target,
-    /// The registers that this program was built for, where cycles were counted; empty in records that do not tell.
-    #[serde(default)]
+    /// The registers that this program was built for, where cycles were counted.
     pub registers: String,
     /// The reference that errors are measured against, in words.
     pub truth: String,

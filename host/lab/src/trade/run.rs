@@ -13,13 +13,11 @@ use super::shard::Shard;
 use super::study::Study;
 use super::target::Target;
 use super::{math, measure};
-use crate::baseline;
-use crate::baseline::Baseline;
+use crate::baseline::{self, Baseline};
 use crate::cycles::{NARROW, REGISTERS};
 use signorini_problem::{Approach, Problem};
-use signorini_scene::mesh::adapted::adapted;
 use signorini_scene::setting::{ModelKind, Precision};
-use signorini_scene::{Error, InputError, Mesh, Result, Setting};
+use signorini_scene::{Error, InputError, Result, Setting};
 use signorini_solve::tuned_omega;
 
 /// The algebraic error that a tuned ω reaches from a cold start.
@@ -74,7 +72,7 @@ impl Run<'_> {
         let (mut baselines, mut functions) = (Some((Vec::new(), Vec::new())), Some(Vec::new()));
         if has_extras {
             let [solvers, math] = [all - 2, all - 1].map(|at| self.is_mine(at));
-            let (journal, problem) = (&mut self.journal, self.meshes.problem(None, 0)?);
+            let (journal, problem) = (&mut self.journal, self.meshes.problem()?);
             baselines = journal.once("baselines", solvers, || baseline::of_scene(problem))?;
             done(all, "other solvers");
             functions = journal.once("math", math, || math::of_scene(problem))?;
@@ -106,7 +104,7 @@ impl Run<'_> {
             return Ok(Plan { settings: vec![setting], skipped: Vec::new() });
         }
         let other_cells = self.meshes.other_cells()?;
-        let problem = self.meshes.problem(None, 0)?;
+        let problem = self.meshes.problem()?;
         let is_loose = Approach::Tick.lack(problem)?.is_some();
         let tuned = || match is_loose {
             true => Ok(None),
@@ -151,10 +149,8 @@ impl Run<'_> {
         if let Some(known) = &self.truth {
             return Ok(known.clone());
         }
-        let (scene, own) = (&self.study.scene, &self.meshes.own);
-        let level = finest(&Problem::new(scene, own.clone())?);
-        let refined = |mesh: &Mesh, times| adapted(mesh.clone(), None, times);
-        let found = Rc::new(ReferenceSolution::new(scene, own, level, refined)?);
+        let (scene, level) = (&self.study.scene, finest(self.meshes.problem()?));
+        let found = Rc::new(ReferenceSolution::new(scene, &self.meshes.own, level)?);
         self.journal.add("truth", &found.facts).map_err(|_| {
             InputError::new("the energy or the contact force of the solution overflows")
                 .file(&scene.path)

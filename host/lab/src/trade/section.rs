@@ -7,11 +7,10 @@ use super::front::sentence;
 use super::picture::picture;
 use super::record::{Point, Trade};
 use super::records::Records;
-use super::table::{ERRORS, costs, front, further, skipped};
+use super::table::{ERRORS, Figure, costs, front, further, skipped};
 use super::target::Target;
 use super::verdict::{self, certificate, knob_values};
-use crate::baseline;
-use crate::baseline::Baseline;
+use crate::baseline::{self, Baseline};
 use signorini_draw::{Column, Table, TradePanel, TradeStudy, TradeTarget, Tradeoff};
 
 /// The scene whose study is the example, where there is one of it.
@@ -56,16 +55,11 @@ fn taken(trades: &[Trade]) -> Table {
         Column::words("scene", |trade: &&Trade| trade.scene.clone()),
         Column::words("take", |trade: &&Trade| recommended(trade, |point| point.name.clone())),
     ];
-    let number = |(name, text): (&'static str, fn(&Trade, &Point) -> String)| {
+    let number = |&(name, text): &Figure| {
         Column::number(name, move |trade: &&Trade| recommended(trade, |point| text(trade, point)))
     };
-    columns.extend(ERRORS.map(number));
     let target = trades.first().map_or(Target::Host, |trade| trade.target);
-    columns.extend(
-        costs(target).iter().map(|&(name, text)| {
-            Column::number(name, move |trade: &&Trade| recommended(trade, text))
-        }),
-    );
+    columns.extend(ERRORS.iter().chain(costs(target)).map(number));
     if target == Target::Host {
         columns.extend(OTHERS.map(|(solver, title)| {
             Column::number(solver, move |trade: &&Trade| or_dash(warm_ratio(trade, solver), times))

@@ -59,22 +59,16 @@ impl Study {
 
     /// Deletes what only an interrupted study needs.
     pub fn close(&self) -> Result<()> {
-        self.journal(Shard::WHOLE, &mut Meshes::new(&self.scene)?)?.close()?;
-        // It stays where somebody else keeps something in it, such as a shard that still runs.
-        let _ = std::fs::remove_dir(self.unfinished());
-        Ok(())
+        self.journal(Shard::WHOLE, &mut Meshes::new(&self.scene)?)?.close()
     }
 
     /// Opens the journal of a shard: what it knows was measured of this scene and target, by this program.
     pub(super) fn journal(&self, shard: Shard, meshes: &mut Meshes) -> Result<Journal> {
-        let hash = ModuleApi::new(meshes.problem(None, 0)?).hash;
+        let hash = ModuleApi::new(meshes.problem()?).hash;
         let fingerprint = format!("{hash:016x} {} {}", self.target, program());
-        Journal::open(&self.unfinished(), shard, &fingerprint)
-    }
-
-    /// The folder of the journals: each target has its own.
-    fn unfinished(&self) -> PathBuf {
-        self.folder.join(format!("unfinished-{}", self.target))
+        // Each target has its own folder.
+        let folder = self.folder.join(format!("unfinished-{}", self.target));
+        Journal::open(&folder, shard, &fingerprint)
     }
 
     /// The name of a point's module: no other point has it, of this study or of one of the same scene elsewhere.

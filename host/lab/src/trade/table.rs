@@ -15,10 +15,8 @@ pub fn front(trade: &Trade) -> Table {
     points.sort_by(|a, b| a.cost().total_cmp(&b.cost()));
     let taken = trade.recommendation.point.as_ref();
     let chosen = taken.and_then(|taken| points.iter().position(|point| point.name == taken.name));
-    let error = |at: usize| {
-        let (name, text) = ERRORS[at];
-        Column::number(name, move |point: &&Point| text(trade, point))
-    };
+    let number =
+        |&(name, text): &Figure| Column::number(name, move |point: &&Point| text(trade, point));
     let mut columns = vec![
         Column::words("setting", |point: &&Point| point.name.clone()),
         Column::number("unknowns", |point: &&Point| grouped(point.unknowns as u64)),
@@ -27,16 +25,13 @@ pub fn front(trade: &Trade) -> Table {
             or_dash((point.sweeps > 0).then_some(point.sweeps.into()), grouped)
         }),
     ];
-    columns.extend(
-        costs(trade.target)
-            .iter()
-            .map(|&(name, text)| Column::number(name, move |point: &&Point| text(point))),
-    );
+    columns.extend(costs(trade.target).iter().map(number));
+    let [of_u, of_s, bound] = ERRORS.each_ref().map(number);
     columns.extend([
-        error(0),
+        of_u,
         Column::number("force %", |point: &&Point| percent(point.error.force, trade.force)),
-        error(1),
-        error(2),
+        of_s,
+        bound,
         Column::number("bound/error", |point: &&Point| {
             let both = point.bound.zip(point.error.combined);
             or_dash(both.map(|(bound, error)| bound / error), plain)
@@ -45,10 +40,11 @@ pub fn front(trade: &Trade) -> Table {
     Table::new(&columns, points).choosing(chosen)
 }
 
-type ErrorColumn = (&'static str, fn(&Trade, &Point) -> String);
+/// A figure of a point: its name and its text.
+pub type Figure = (&'static str, fn(&Trade, &Point) -> String);
 
 /// Errors and the bound in percent of the energy norm.
-pub const ERRORS: [ErrorColumn; 3] = [
+pub const ERRORS: [Figure; 3] = [
     ("error of u_h %", |trade, point| percent(point.error.energy, trade.energy)),
     ("error of s, τ %", |trade, point| {
         or_dash(point.error.combined, |error| percent(error, trade.energy))
@@ -56,19 +52,16 @@ pub const ERRORS: [ErrorColumn; 3] = [
     ("bound of s, τ %", |trade, point| or_dash(point.bound, |bound| percent(bound, trade.energy))),
 ];
 
-/// A cost of a point: its name and its text.
-pub type CostColumn = (&'static str, fn(&Point) -> String);
-
-/// The columns of a target's costs; bytes for RAM and flash.
-pub fn costs(target: Target) -> &'static [CostColumn] {
-    const ON_HOST: [CostColumn; 2] = [
-        ("cycles", |point| cost_text(point.cycles)),
-        ("cycles/unknown", |point| cost_text(point.cycles_per_unknown)),
+/// The costs on a target; bytes for RAM and flash.
+pub fn costs(target: Target) -> &'static [Figure] {
+    const ON_HOST: [Figure; 2] = [
+        ("cycles", |_, point| cost_text(point.cycles)),
+        ("cycles/unknown", |_, point| cost_text(point.cycles_per_unknown)),
     ];
-    const ON_BOARD: [CostColumn; 3] = [
-        ("instructions", |point| or_dash(point.instructions, grouped)),
-        ("RAM, bytes", |point| or_dash(point.ram_bytes, grouped)),
-        ("flash, bytes", |point| or_dash(point.flash_bytes, grouped)),
+    const ON_BOARD: [Figure; 3] = [
+        ("instructions", |_, point| or_dash(point.instructions, grouped)),
+        ("RAM, bytes", |_, point| or_dash(point.ram_bytes, grouped)),
+        ("flash, bytes", |_, point| or_dash(point.flash_bytes, grouped)),
     ];
     if target == Target::Host { &ON_HOST } else { &ON_BOARD }
 }

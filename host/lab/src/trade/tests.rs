@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
-use super::record::{FunctionCost, Point, Recommendation, Skipped, Trade};
+use super::record::{FunctionCost, Point, PointError, Recommendation, Skipped, Trade};
 use super::target::Target;
 use crate::baseline::Baseline;
-use crate::trade::record::PointError;
 use signorini_draw::plain;
 use signorini_problem::Problem;
 use signorini_scene::{Scene, Setting, mesh};
@@ -20,11 +19,6 @@ pub fn scene(name: &str) -> Scene {
 pub fn problem(name: &str) -> Problem {
     let scene = scene(name);
     Problem::new(&scene, mesh::read(&scene.mesh.value).unwrap()).unwrap()
-}
-
-/// The name of a point as pictures write it.
-pub fn names(point: &Point) -> String {
-    point.name.replace('&', "&amp;").replace('<', "&lt;")
 }
 
 /// One of many settings: level, model, scalar and stop from the digits of `at`.

@@ -1,7 +1,6 @@
 //! All solvers on problems whose fluxes have limits: answers are those of the kernel's solve, and of each other.
 
 use crate::trade::tests::problem;
-use signorini_problem::{Loads, Parts};
 use signorini_scene::Result;
 use signorini_solve::{Options, SolverKind, solve};
 use signorini_tolerances::lab::{CLARABEL_LIMITED, PIVOTING_LIMITED};
@@ -11,9 +10,9 @@ use super::super::clarabel::Clarabel;
 use super::super::condensed::condensed;
 use super::super::discretisation_error;
 use super::super::load_case::load_cases;
-use super::super::psor::quadratic;
 use super::super::quadratic::{Matrix, Program, Quadratic, QuadraticLoads};
 use super::super::series::{InitialGuess, TimedSolver};
+use super::full;
 
 /// The unknowns one by one, relative to the largest.
 fn check(name: &str, found: &[f64], u: &[f64]) {
@@ -28,8 +27,7 @@ fn check(name: &str, found: &[f64], u: &[f64]) {
 fn clarabel_agrees_where_fluxes_have_limits() -> Result<()> {
     for name in ["limits/l-tri", "limits/l-quad", "scenes/antiicing"] {
         let problem = problem(name);
-        let here = [Loads::at_time(&problem, problem.time)?];
-        let (full, factor) = quadratic(&problem, &Parts::examine(&problem)?, &here)?;
+        let (full, factor) = full(&problem, 0);
         let solution =
             solve(&problem, &Options { solver: SolverKind::Kernel, ..Options::default() })?;
         let u = &solution.u[..full.matrix.order()];
@@ -47,13 +45,13 @@ fn clarabel_agrees_where_fluxes_have_limits() -> Result<()> {
     Ok(())
 }
 
-/// Answers are compared inside, as without limits.
+/// Answers are compared inside, as on small grids; the last scene has no limits.
 #[test]
 fn all_solvers_follow_limits_from_tick_to_tick() -> Result<()> {
-    for name in ["limits/l-tri", "scenes/antiicing"] {
+    for name in ["limits/l-tri", "scenes/antiicing", "scenes/strip"] {
         let (problem, mut notes) = (problem(name), Vec::new());
         let moments = load_cases(&problem, 3)?;
-        let (full, _) = quadratic(&problem, &Parts::examine(&problem)?, &moments)?;
+        let (full, _) = full(&problem, 3);
         let size = full.distance(0, &vec![0.0; full.matrix.order()]);
         let error = discretisation_error(&problem, &mut notes)?;
         let found = Benchmark::new(&problem, &moments, error).hold(&mut notes)?;

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 
 use super::cut::Line;
@@ -75,7 +76,8 @@ impl RandomCase {
         let (tens, unit) = (number / 10, number % 10);
         let is_plain = unit != 9 && unit.is_multiple_of(3);
         let featured = 7 * tens + unit - unit.div_ceil(3);
-        let feature = (!is_plain).then(|| Feature::ALL[featured as usize % Feature::ALL.len()]);
+        let features = Feature::value_variants();
+        let feature = (!is_plain).then(|| features[featured as usize % features.len()]);
         let mut random = match feature {
             None => Random::of_case(seed, 3 * tens + unit / 3),
             Some(_) => Random::of_case(!seed, featured),
@@ -178,9 +180,7 @@ fn setting(random: &mut Random, effort: &Effort, kind: Kind) -> String {
     };
     let _ = writeln!(text, "model = \"{model}\"");
     match effort.sweeps {
-        Some(sweeps) => {
-            let _ = writeln!(text, "sweeps = {sweeps}");
-        }
+        Some(sweeps) => text += &format!("sweeps = {sweeps}\n"),
         None if effort.way == Way::Full && random.chance(0.5) => text += "solver = \"factor\"\n",
         None => {}
     }

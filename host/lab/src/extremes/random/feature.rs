@@ -5,6 +5,7 @@
 
 use std::f64::consts::PI;
 
+use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 
 use super::catalogue;
@@ -17,7 +18,7 @@ use signorini_problem::random::Random;
 use signorini_scene::Mesh;
 
 /// A feature of the data of a scene.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Feature {
     /// A Gaussian bump of f.
@@ -48,25 +49,6 @@ pub enum Feature {
     Gap,
     /// A bump of u_D, or a hat.
     Value,
-}
-
-impl Feature {
-    pub const ALL: [Self; 14] = [
-        Self::Source,
-        Self::Flux,
-        Self::ContactFlux,
-        Self::Power,
-        Self::Cancellation,
-        Self::Offset,
-        Self::Anisotropy,
-        Self::FadingLimit,
-        Self::Kink,
-        Self::Conductivity,
-        Self::Transfer,
-        Self::Ambient,
-        Self::Gap,
-        Self::Value,
-    ];
 }
 
 /// Draws a scene, and the lines of a mesh that resolves its data.

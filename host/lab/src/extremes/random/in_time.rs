@@ -138,20 +138,20 @@ impl Row {
         };
         let last = |all: &[Judged]| all.last().and_then(|of| finite(of.bound_over_error()));
         let of_step = |step: Option<Judged>| finite(step?.error_over_bound());
-        let [full, condensed] = &found.controllers;
+        let [own, full, condensed] = &found.plays;
         let row = Self {
             rate: found.rate,
-            ticks: found.windows.len(),
-            error_over_window: largest(&found.windows, Judged::error_over_bound),
-            window_over_error: largest(&found.windows, Judged::bound_over_error),
-            at_last: last(&found.windows),
+            ticks: own.windows.len(),
+            error_over_window: largest(&own.windows, Judged::error_over_bound),
+            window_over_error: largest(&own.windows, Judged::bound_over_error),
+            at_last: last(&own.windows),
             full_error_over_window: largest(&full.windows, Judged::error_over_bound),
             full_error_over_step: of_step(full.step),
             condensed_error_over_window: largest(&condensed.windows, Judged::error_over_bound),
             condensed_error_over_step: of_step(condensed.step),
             condensed_at_last: last(&condensed.windows),
-            error_over_step: of_step(found.step),
-            step_over_error: found.step.and_then(|of| finite(of.bound_over_error())),
+            error_over_step: of_step(own.step),
+            step_over_error: own.step.and_then(|of| finite(of.bound_over_error())),
             note: found.no_bound.clone().unwrap_or_default(),
             ..self
         };
@@ -248,21 +248,17 @@ impl Row {
 mod tests {
     use super::super::window::posed;
     use super::*;
+    use signorini_problem::threads::on_two_threads;
     use signorini_tolerances::cases;
 
     /// The first of those that `signorini extremes --random N --seed 5 --in-time` draws, and the next of them that can be condensed.
     #[test]
     fn random_trajectories_keep_their_bounds() {
-        let folder = tempfile::tempdir().unwrap();
-        let kept = Kept::open(folder.path()).unwrap();
-        let rows =
-            |cases| kept.rows(cases, |number| number.to_string(), |number| row(5, number), || ());
         let all = cases(100) as u32;
-        let mut found = rows(0..=all - 1).unwrap();
         let may_be = |number: &u32| posed(&Trajectory::draw(5, *number)).unwrap().is_some();
-        for number in (all..).filter(may_be).take(all as usize / 5) {
-            found.extend(rows(number..=number).unwrap());
-        }
+        let further = (all..).filter(may_be).take(all as usize / 5);
+        let numbers: Vec<u32> = (0..all).chain(further).collect();
+        let found = on_two_threads(&numbers, |&number| Ok(row(5, number)), || ()).unwrap();
         let record = Record::new(5, &found);
         println!("{}", record.text());
         assert!(record.violations.is_empty(), "{:?}", record.violations);

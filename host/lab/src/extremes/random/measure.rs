@@ -218,7 +218,7 @@ impl Held<'_> {
         for (panels, points) in RULES {
             let rule = on_panels(panels, &gauss(points));
             let next = apart(&own, &fine, &nesting, &rule)?;
-            uncertain = difference(&found, &next);
+            uncertain = [found.combined - next.combined, found.of_u - next.of_u].map(f64::abs);
             found = next;
             if !is_above(&found) {
                 uncertain = [0.0; 2];
@@ -236,8 +236,4 @@ impl Held<'_> {
             ..Measured::default()
         }))
     }
-}
-
-fn difference(one: &Apart, other: &Apart) -> [f64; 2] {
-    [(one.combined - other.combined).abs(), (one.of_u - other.of_u).abs()]
 }

@@ -37,9 +37,9 @@ use attempt::{Attempt, attempt};
 use case::RandomCase;
 use measure::measure;
 use record::{Record, Row};
-use verdict::{broken_by, ended};
+use verdict::{broken_by, verdict};
 
-use super::judge::{Ended, Outcome, judge};
+use super::judge::{Outcome, Verdict, failed, lost};
 use super::kept::{Findings, Kept};
 use super::watch::watched;
 use crate::record_file::{csv, indented};
@@ -90,14 +90,12 @@ fn row(seed: u64, number: u32) -> Row {
         let seconds = start.elapsed().as_secs_f64();
         let row = match found {
             Ok(attempt) => answered(&case, &attempt),
-            Err(error) => concluded(Row::of(&case), &case, &error.into()),
+            Err(error) => concluded(Row::of(&case), failed(error)),
         };
         Row { seconds, ..row }
     });
-    let row = left.unwrap_or_else(|lost| {
-        let case = RandomCase::draw(seed, number);
-        concluded(Row::of(&case), &case, &lost.into())
-    });
+    let row =
+        left.unwrap_or_else(|why| concluded(Row::of(&RandomCase::draw(seed, number)), lost(why)));
     Row { seconds_in_all: start.elapsed().as_secs_f64(), ..row }
 }
 
@@ -107,18 +105,16 @@ fn answered(case: &RandomCase, attempt: &Attempt) -> Row {
     let measured = match measured {
         Ok(measured) => measured,
         Err(error) => {
-            let ended = Ended::Failed(format!("not measured: {}", error.reason()));
-            return concluded(Row::of(case), case, &ended);
+            let note = format!("not measured: {}", error.reason());
+            return concluded(Row::of(case), (Outcome::Wrong, note));
         }
     };
     let broken = broken_by(case, attempt, measured.as_ref());
-    let ended = ended(attempt, measured.as_ref());
-    let row = concluded(Row::of(case).with(case, attempt, measured.as_ref()), case, &ended);
-    let outcome = if broken.is_empty() { row.outcome } else { Outcome::Wrong };
-    Row { broken, outcome, ..row }
+    let (outcome, note) = verdict(case, attempt, measured.as_ref());
+    let outcome = if broken.is_empty() { outcome } else { Outcome::Wrong };
+    Row { broken, outcome, note, ..Row::of(case).with(case, attempt, measured.as_ref()) }
 }
 
-fn concluded(row: Row, case: &RandomCase, ended: &Ended) -> Row {
-    let (outcome, note) = judge(ended, case.effort.scalar);
+fn concluded(row: Row, (outcome, note): Verdict) -> Row {
     Row { outcome, note, ..row }
 }

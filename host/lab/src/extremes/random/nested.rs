@@ -181,18 +181,13 @@ impl NestedPair<'_> {
 
 /// The edge of a cell on which a point of its boundary lies.
 fn edge_at(problem: &Problem, at: usize, cell: &Cell, [x, y, z]: [f64; 3]) -> usize {
-    let triangles = problem.mesh.triangles.len();
-    let nearest = |away: &[f64]| {
-        let sides = 0..away.len();
-        sides.min_by(|&i, &j| away[i].abs().total_cmp(&away[j].abs())).unwrap_or(0)
+    let away: &[f64] = match cell {
+        Cell::Triangle(_) => &[z, x, y],
+        Cell::Quad(_) => &[y, 1.0 - x, 1.0 - y, x],
     };
-    let edge = match cell {
-        Cell::Triangle(_) => problem.topology.of_triangles[at][nearest(&[z, x, y])],
-        Cell::Quad(_) => {
-            problem.topology.of_quads[at - triangles][nearest(&[y, 1.0 - x, 1.0 - y, x])]
-        }
-    };
-    edge as usize
+    let edges = problem.topology.edges_of(at).iter().zip(away);
+    let nearest = edges.min_by(|(_, one), (_, other)| one.abs().total_cmp(&other.abs()));
+    nearest.map_or(0, |(&edge, _)| edge as usize)
 }
 
 /// Barycentric coordinates in the parent of child `number`, in the order of [`signorini_scene::mesh::refine`].

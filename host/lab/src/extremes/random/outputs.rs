@@ -169,28 +169,22 @@ fn with_outputs(problem: &Problem, case: &RandomCase, probes: bool) -> Problem {
     let scene = &problem.scene;
     let named = |value: String| Located { value, key: "output".to_owned(), span: 0..0 };
     let mut all = Vec::new();
+    let mut add = |name: String, quantity: Quantity, of: Option<&String>| {
+        let of = of.cloned().map(named).into_iter().collect();
+        all.push(Output { name: named(name), quantity, of, unit: None });
+    };
     for boundary in &scene.boundaries {
         let name = &boundary.name.value;
-        let mut add = |word: &str, quantity: Quantity| {
-            let of = vec![named(name.clone())];
-            all.push(Output { name: named(format!("{word} of {name}")), quantity, of, unit: None });
-        };
-        add("mean", Quantity::Mean);
-        add("flux", Quantity::Flux);
+        add(format!("mean of {name}"), Quantity::Mean, Some(name));
+        add(format!("flux of {name}"), Quantity::Flux, Some(name));
         if matches!(boundary.condition, Condition::Contact { .. }) {
-            add("force", Quantity::Force);
+            add(format!("force of {name}"), Quantity::Force, Some(name));
         }
     }
-    all.push(Output {
-        name: named("all".to_owned()),
-        quantity: Quantity::Force,
-        of: Vec::new(),
-        unit: None,
-    });
+    add("all".to_owned(), Quantity::Force, None);
     if probes {
         let at = Cell::of(problem, number % problem.cells()).middle();
-        let (name, quantity) = (named("probe".to_owned()), Quantity::Probe { at });
-        all.push(Output { name, quantity, of: Vec::new(), unit: None });
+        add("probe".to_owned(), Quantity::Probe { at }, None);
     }
     let first = number % all.len();
     all.rotate_left(first);

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 
 use super::attempt::Attempt;
@@ -12,7 +13,7 @@ use super::measure::Measured;
 use super::mesh::Kind;
 use super::posed::Hold;
 use super::verdict::Broken;
-use crate::extremes::judge::{Outcome, ratio};
+use crate::extremes::judge::{Outcome, counts, ratio};
 use crate::record_file::word;
 use signorini_solve::ScalarKind;
 
@@ -28,7 +29,6 @@ pub struct Record {
     pub classes: BTreeMap<String, BTreeMap<String, usize>>,
     /// The largest ratios and the cases that they belong to.
     pub worst: BTreeMap<String, Worst>,
-    #[serde(default)]
     pub features: BTreeMap<String, Spread>,
     pub violations: Vec<Violation>,
 }
@@ -79,17 +79,17 @@ impl Record {
         for row in rows {
             record.add(row);
         }
-        for feature in Feature::ALL {
-            let own: Vec<_> = rows.iter().filter(|row| row.feature == Some(feature)).collect();
+        for feature in Feature::value_variants() {
+            let own: Vec<_> = rows.iter().filter(|row| row.feature == Some(*feature)).collect();
             if !own.is_empty() {
-                record.features.insert(word(&feature), Spread::of(&own));
+                record.features.insert(word(feature), Spread::of(&own));
             }
         }
         record
     }
 
     fn add(&mut self, row: &Row) {
-        let outcome = row.outcome.name().to_owned();
+        let outcome = word(&row.outcome);
         *self.outcomes.entry(outcome.clone()).or_default() += 1;
         for class in row.classes() {
             *self.classes.entry(class).or_default().entry(outcome.clone()).or_default() += 1;
@@ -116,11 +116,8 @@ impl Record {
     }
 
     pub fn text(&self) -> String {
-        let counts = Outcome::ALL.map(|outcome| {
-            let name = outcome.name();
-            format!("{} {name}", self.outcomes.get(name).copied().unwrap_or(0))
-        });
-        let mut lines = vec![format!("{} random scenes: {}", self.cases, counts.join(", "))];
+        let count = |of: Outcome| self.outcomes.get(&word(&of)).copied().unwrap_or(0);
+        let mut lines = vec![format!("{} random scenes: {}", self.cases, counts(count))];
         for (name, worst) in &self.worst {
             lines.push(format!("  largest {name}: {:.6} (case {})", worst.ratio, worst.case));
         }
@@ -213,26 +210,24 @@ impl Row {
 
     /// The ratios whose largest is recorded.
     pub fn ratios(&self) -> Vec<(&'static str, f64)> {
-        let finer = self.truth == Yardstick::Finer;
-        let of = |name, ratio: Option<f64>| ratio.map(|ratio| (name, ratio));
-        let [error, of_u, output] = match finer {
-            true => [
+        let [error, of_u, output] = match self.truth {
+            Yardstick::Finer => [
                 "error over bounds, by a finer solve",
                 "error of u_h over bounds, by a finer solve",
                 "output over intervals, by a finer solve",
             ],
-            false => [
+            Yardstick::Catalogue | Yardstick::Made => [
                 "error over bound, exact",
                 "error of u_h over bound, exact",
                 "output over interval, exact",
             ],
         };
         let all = [
-            of(error, self.error_over_bound),
-            of(of_u, self.of_u_over_bound),
-            of("|gap/identity − 1|", self.identity_off),
-            of(output, self.output_over_interval),
+            (error, self.error_over_bound),
+            (of_u, self.of_u_over_bound),
+            ("|gap/identity − 1|", self.identity_off),
+            (output, self.output_over_interval),
         ];
-        all.into_iter().flatten().collect()
+        all.into_iter().filter_map(|(name, ratio)| Some((name, ratio?))).collect()
     }
 }

@@ -28,12 +28,11 @@ pub fn residual(problem: &Problem, u: &[f64]) -> Result<Residual, KernelError> {
         Sums { product: vec![0.0; edges], terms: vec![0.0; edges], diagonal: vec![0.0; edges] };
     let stiffness = assembled.stiffness();
     for (cell, k) in problem.topology.of_triangles.iter().zip(stiffness.triangles) {
-        let [k01, k12, k20] = *k;
-        sums.add(&cell.map(|edge| edge as usize), u, &[[0, 1], [1, 2], [2, 0]], &[k01, k12, k20]);
+        sums.add(cell, u, &[[0, 1], [1, 2], [2, 0]], k);
     }
     for (cell, k) in problem.topology.of_quads.iter().zip(stiffness.quads) {
         const PAIRS: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
-        sums.add(&cell.map(|edge| edge as usize), u, &PAIRS, k);
+        sums.add(cell, u, &PAIRS, k);
     }
     for law in &problem.loads.robin {
         let (edge, h) = (law.edge as usize, law.coefficient);
@@ -87,9 +86,9 @@ struct Sums {
 
 impl Sums {
     /// Rows of K_T add up to 0: (K_T u)_i = Σ_j K_ij (u_j − u_i).
-    fn add(&mut self, cell: &[usize], u: &[f64], pairs: &[[usize; 2]], entries: &[f64]) {
+    fn add(&mut self, cell: &[u32], u: &[f64], pairs: &[[usize; 2]], entries: &[f64]) {
         for (&[i, j], k) in pairs.iter().zip(entries) {
-            let [i, j] = [cell[i], cell[j]];
+            let [i, j] = [i, j].map(|k| cell[k] as usize);
             let flow = k * (u[j] - u[i]);
             self.product[i] += flow;
             self.product[j] -= flow;

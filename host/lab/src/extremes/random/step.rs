@@ -37,9 +37,7 @@ impl Judged {
 /// Judges the answer of the step `problem` by that on a mesh refined `levels` times; nothing where one of them has no bound.
 pub fn judge(problem: &Problem, answer: &Solution, levels: u32) -> Result<Option<Judged>> {
     let Some(bound) = answer.bound else { return Ok(None) };
-    let finer = finer(problem, levels)?;
-    let options = Options { solver: SolverKind::Factor, averages: true, ..Options::default() };
-    let truth = solve(&finer, &options)?;
+    let (finer, truth) = finer_answer(problem, levels)?;
     let Some(of_truth) = truth.bound else { return Ok(None) };
     let nesting = Nesting { levels, cut: None };
     let (own, its) = (MeshSolution::of(problem, answer)?, MeshSolution::of(&finer, &truth)?);
@@ -47,8 +45,16 @@ pub fn judge(problem: &Problem, answer: &Solution, levels: u32) -> Result<Option
     Ok(Some(Judged { bound: bound.total, apart: apart.combined, finer: of_truth.total }))
 }
 
+/// The step of `problem` on a mesh refined `levels` times, and its answer.
+fn finer_answer(problem: &Problem, levels: u32) -> Result<(Problem, Solution)> {
+    let finer = finer(problem, levels)?;
+    let options = Options { solver: SolverKind::Factor, averages: true, ..Options::default() };
+    let truth = solve(&finer, &options)?;
+    Ok((finer, truth))
+}
+
 /// The step of `problem` on a finer mesh: from its s_old, which every finer mesh holds exactly.
-pub(super) fn finer(problem: &Problem, levels: u32) -> Result<Problem> {
+fn finer(problem: &Problem, levels: u32) -> Result<Problem> {
     let Some(step) = &problem.loads.step else {
         return Err(Error::Check("no step in time".to_owned()));
     };

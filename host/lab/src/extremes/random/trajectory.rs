@@ -66,9 +66,9 @@ impl Trajectory {
         }
     }
 
-    /// The scene by steps of dt over `parts`.
-    pub fn scene(&self, parts: u32) -> Result<Scene> {
-        Scene::parse(&self.scene_text(parts), Path::new("scene.toml"))
+    /// The scene by steps of dt over `parts`, in a setting of its own if there is any text of one.
+    pub fn scene(&self, parts: u32, setting: &str) -> Result<Scene> {
+        Scene::parse(&(self.scene_text(parts) + setting), Path::new("scene.toml"))
     }
 
     pub fn scene_text(&self, parts: u32) -> String {

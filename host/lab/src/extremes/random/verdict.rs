@@ -7,7 +7,7 @@ use super::case::{RandomCase, Way};
 use super::measure::{IDENTITY, Measured};
 use super::outputs::Intervals;
 use super::residual::{ends, residual};
-use crate::extremes::judge::{Ended, INTEGRATED};
+use crate::extremes::judge::{Answered, INTEGRATED, Verdict};
 use crate::extremes::measure::{self, Reference};
 use signorini_kernel::solver::Status;
 use signorini_problem::Problem;
@@ -156,23 +156,21 @@ fn forces(case: &RandomCase, attempt: &Attempt) -> Option<Broken> {
 }
 
 /// The answer as the axes judge theirs.
-pub fn ended(attempt: &Attempt, measured: Option<&Measured>) -> Ended {
+pub fn verdict(case: &RandomCase, attempt: &Attempt, measured: Option<&Measured>) -> Verdict {
     let answer = &attempt.answer;
     let finite = attempt.is_finite();
     let measured = measured.filter(|_| finite);
     let beyond = |of: &Measured| (of.combined - of.total).max(0.0);
     let reference =
         |of: &Measured| Reference { bound: of.best, error: f64::NAN, energy: of.energy };
-    Ended::Answered {
-        success: answer.converged(),
-        status: answer.status.name(),
-        measured: measure::Measured {
-            bound: measured.map(|of| of.bound.total),
-            error: measured.map_or(f64::NAN, beyond),
-            uncertain: measured.map_or(0.0, |of| of.uncertain[0]),
-            reference: measured.map(reference),
-            of_fields: None,
-            finite,
-        },
-    }
+    let measured = measure::Measured {
+        bound: measured.map(|of| of.bound.total),
+        error: measured.map_or(f64::NAN, beyond),
+        uncertain: measured.map_or(0.0, |of| of.uncertain[0]),
+        reference: measured.map(reference),
+        of_fields: None,
+        finite,
+    };
+    let (success, status) = (answer.converged(), answer.status.name());
+    Answered { success, status, scalar: case.effort.scalar, measured }.verdict()
 }

@@ -6,15 +6,12 @@
 //! with u replaced by the finer s, whose own window counts. A steady start stands for all time before it. The controllers that the scene
 //! can have, full and condensed, are judged by the same finer play, and their last step alone.
 
-use std::path::Path;
-
 use signorini_certify::CertifiedFields;
 use signorini_condense::stepped;
 use signorini_problem::quadrature::gauss;
 use signorini_problem::{Problem, State};
 use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh::refine::refined;
-use signorini_scene::scene::Scene;
 use signorini_session::tick::{Budget, ScheduledTick, TickRecord, play, replay};
 use signorini_solve::{ScalarKind, Solution};
 
@@ -32,21 +29,18 @@ pub const PARTS: u32 = 4;
 pub struct JudgedTrajectory {
     /// λ dt
     pub rate: Option<f64>,
-    /// The bound over time at each tick; empty where there is none.
-    pub windows: Vec<Judged>,
-    pub step: Option<Judged>,
-    /// By the full controller and by the condensed one; empty where there is none.
-    pub controllers: [Controlled; 2],
+    /// By this machine's own ticks, by the full controller and by the condensed one; empty where there is none.
+    pub plays: [JudgedPlay; 3],
     /// Why the last tick has no bound.
     pub no_bound: Option<String>,
 }
 
-/// Bounds of a controller beside the finer play.
+/// Bounds of a play beside the finer one.
 #[derive(Debug, Clone, Default)]
-pub struct Controlled {
-    /// `windows` of the controller.
+pub struct JudgedPlay {
+    /// The bound over time at each tick; empty where there is none.
     pub windows: Vec<Judged>,
-    /// Its last step.
+    /// The last step.
     pub step: Option<Judged>,
 }
 
@@ -62,30 +56,29 @@ pub fn judged(case: &Trajectory) -> Result<JudgedTrajectory> {
     let ticks = case.log.len();
     let last = &own.answers[ticks];
     let no_bound = last.no_bound.as_ref().map(ToString::to_string);
-    // A finer mesh does not hold s_old where that follows curved data.
-    let step = if case.is_affine { own.step(case, ticks)? } else { None };
-    let dt = case.step;
-    let rate = own.records[1].window.map(|[_, seconds]| dt * 0.5 / (0.1 * seconds));
     let seconds = own.records[1].window.map(|[_, seconds]| seconds);
+    let rate = seconds.map(|seconds| case.step * 0.5 / (0.1 * seconds));
     let finer = seconds.map(|_| played(case, PARTS)).transpose()?.zip(seconds);
-    let windows = |of: &Played| match &finer {
-        Some((finer, seconds)) => of.windows(case, finer, *seconds),
-        None => Ok(Vec::new()),
-    };
-    let controlled = |of: Option<Played>| -> Result<Controlled> {
-        let Some(of) = of else { return Ok(Controlled::default()) };
+    let judged = |of: Option<Played>| -> Result<JudgedPlay> {
+        let Some(of) = of else { return Ok(JudgedPlay::default()) };
+        // A finer mesh does not hold s_old where that follows curved data.
         let step = if case.is_affine { of.step(case, ticks)? } else { None };
-        Ok(Controlled { windows: windows(&of)?, step })
+        let windows = match &finer {
+            Some((finer, seconds)) => of.windows(case, finer, *seconds)?,
+            None => Vec::new(),
+        };
+        Ok(JudgedPlay { windows, step })
     };
-    let controllers = [controlled(full(case, &own)?)?, controlled(condensed(case)?)?];
-    Ok(JudgedTrajectory { rate, windows: windows(&own)?, step, controllers, no_bound })
+    let (full, condensed) = (full(case, &own)?, condensed(case)?);
+    let plays = [judged(Some(own))?, judged(full)?, judged(condensed)?];
+    Ok(JudgedTrajectory { rate, plays, no_bound })
 }
 
 /// The problem of a trajectory, if its condensed model with a few states has a bound over time, and s at its start.
 pub(super) fn posed(case: &Trajectory) -> Result<Option<(Problem, CertifiedFields)>> {
     let memory = 2 + case.log.len() % 7;
-    let text = format!("{}[setting]\nmemory = {memory}\n", case.scene_text(1));
-    let problem = Problem::new(&Scene::parse(&text, Path::new("scene.toml"))?, case.mesh.clone())?;
+    let scene = case.scene(1, &format!("[setting]\nmemory = {memory}\n"))?;
+    let problem = Problem::new(&scene, case.mesh.clone())?;
     // What a condensed model refuses is no matter of this judge.
     let Ok((of, recovery)) = stepped(&problem, Some(memory)) else { return Ok(None) };
     let start = of.evolution.as_ref().and_then(|_| of.s_at_start(&recovery, &problem));
@@ -95,8 +88,8 @@ pub(super) fn posed(case: &Trajectory) -> Result<Option<(Problem, CertifiedField
 /// The trajectory by its full controller, which begins where its `own` ticks do; nothing where there is none.
 fn full(case: &Trajectory, own: &Played) -> Result<Option<Played>> {
     let sweeps = case.sweeps.map_or_else(String::new, |sweeps| format!("sweeps = {sweeps}\n"));
-    let text = format!("{}[setting]\nmodel = \"full\"\n{sweeps}", case.scene_text(1));
-    let problem = Problem::new(&Scene::parse(&text, Path::new("scene.toml"))?, case.mesh.clone())?;
+    let scene = case.scene(1, &format!("[setting]\nmodel = \"full\"\n{sweeps}"))?;
+    let problem = Problem::new(&scene, case.mesh.clone())?;
     match replayed(case, problem, own.answers[0].certified.clone()) {
         // Nor is what a full one refuses.
         Err(Error::Input(_)) => Ok(None),
@@ -123,7 +116,7 @@ fn replayed(case: &Trajectory, problem: Problem, start: CertifiedFields) -> Resu
 }
 
 fn played(case: &Trajectory, parts: u32) -> Result<Played> {
-    let scene = case.scene(parts)?;
+    let scene = case.scene(parts, "")?;
     let mesh = if parts == 1 { case.mesh.clone() } else { refined(&case.mesh)? };
     let problem = Problem::new(&scene, mesh)?;
     let own = Budget::of(&scene);

@@ -25,12 +25,13 @@ use signorini_certify::curved::followed;
 use signorini_certify::deviation::Deviations;
 use signorini_certify::exact::Integrands;
 use signorini_problem::Problem;
+use signorini_scene::mesh::adapted::adapted;
 use signorini_scene::scene::Exact;
 use signorini_scene::{Mesh, Result, Scene};
 use signorini_solve::{Solution, norms};
 
 /// How many refinements the reference is finer than the finest mesh that is measured.
-pub const FINER: u32 = 2;
+const FINER: u32 = 2;
 /// The words of a record whose scene has an exact solution.
 pub const EXACT: &str = "the exact solution";
 
@@ -61,16 +62,12 @@ enum Source {
 }
 
 impl ReferenceSolution {
-    /// Takes the exact solution of `scene`, or solves it on `refined(mesh, times)`, [`FINER`] times
-    /// finer than `finest`, the number of refinements of the finest mesh that is measured.
-    pub fn new(
-        scene: &Scene,
-        mesh: &Mesh,
-        finest: u32,
-        refined: impl FnOnce(&Mesh, u32) -> Result<Mesh>,
-    ) -> Result<Self> {
+    /// Takes the exact solution of `scene`, or solves it on `mesh`, refined some times more than `finest`, the number
+    /// of refinements of the finest mesh that is measured.
+    pub fn new(scene: &Scene, mesh: &Mesh, finest: u32) -> Result<Self> {
         let Some(exact) = &scene.exact else {
-            let (reference, facts) = Reference::new(scene, refined(mesh, finest + FINER)?)?;
+            let fine = adapted(mesh.clone(), None, finest + FINER)?;
+            let (reference, facts) = Reference::new(scene, fine)?;
             return Ok(Self { source: Source::Reference(reference), facts });
         };
         let problem = Problem::new(scene, mesh.clone())?;

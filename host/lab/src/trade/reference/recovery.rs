@@ -64,7 +64,8 @@ pub(super) fn smooth(problem: &Problem, inside: &mut [Inside]) -> f64 {
         let (here, others) = rest.split_at_mut(points(&cell).len());
         rest = others;
         let material = problem.binding.materials[at];
-        let corners = vertices(problem, at).iter().map(|&vertex| &patches[&(vertex, material)]);
+        let corners =
+            problem.mesh.corners_of(at).iter().map(|&vertex| &patches[&(vertex, material)]);
         let affine = Affine::nearest(cell.corners(), &corners.collect::<Vec<_>>());
         for known in here {
             let gradient = affine.at(known.x);
@@ -81,7 +82,7 @@ fn collect(problem: &Problem, inside: &[Inside]) -> Patches {
     for at in 0..problem.cells() {
         let (here, others) = rest.split_at(points(&Cell::of(problem, at)).len());
         rest = others;
-        for vertex in vertices(problem, at) {
+        for vertex in problem.mesh.corners_of(at) {
             let patch = patches.entry((*vertex, problem.binding.materials[at])).or_default();
             for known in here {
                 patch.add(known);
@@ -89,13 +90,6 @@ fn collect(problem: &Problem, inside: &[Inside]) -> Patches {
         }
     }
     patches
-}
-
-fn vertices(problem: &Problem, at: usize) -> &[u32] {
-    match at.checked_sub(problem.mesh.triangles.len()) {
-        None => &problem.mesh.triangles[at],
-        Some(quad) => &problem.mesh.quads[quad],
-    }
 }
 
 impl Patch {

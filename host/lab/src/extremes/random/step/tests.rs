@@ -12,7 +12,7 @@ use signorini_solve::ScalarKind;
 use super::super::mesh::Kind;
 use super::super::posed::Hold;
 use super::super::trajectory::Trajectory;
-use super::super::window::judged as judged_over_time;
+use super::super::window::{JudgedPlay, judged as judged_over_time};
 use super::*;
 
 fn scene(dt: f64, material: &str, contact: &str, dirichlet: &str) -> Scene {
@@ -37,9 +37,12 @@ fn materials() -> [String; 2] {
     ]
 }
 
-fn judged(scene: &Scene, mesh: Mesh, scalar: ScalarKind, sweeps: Option<u32>) -> Judged {
-    let (step, last) = second_step(scene, mesh, scalar, sweeps);
-    judge(&step, &last, 2).unwrap().unwrap()
+/// Judges the answer of a step, whose bound has to hold: the bound over the error.
+fn bound_over_error((step, last): &(Problem, Solution), of: &str) -> f64 {
+    let found = judge(step, last, 2).unwrap().unwrap();
+    println!("{of}: {found:?} ratio {:.3}", found.bound_over_error());
+    assert!(found.error_over_bound() <= 1.0, "{of}: {found:?}");
+    found.bound_over_error()
 }
 
 /// The second step, in which f has another sign, and its answer after so many sweeps.
@@ -74,13 +77,9 @@ fn bounds_of_steps_hold_and_are_near_at_every_step_length() {
         for (exponent, scalar) in (-6..=6).zip([ScalarKind::F64, ScalarKind::F32].iter().cycle()) {
             let dt = 10_f64.powi(exponent);
             let scene = scene(dt, PLAIN, "", HELD);
-            let found = judged(&scene, grid(8, cells), *scalar, None);
-            println!(
-                "{cells:?} {scalar:?} dt {dt:e}: {found:?} ratio {:.3}",
-                found.bound_over_error()
-            );
-            assert!(found.error_over_bound() <= 1.0, "{cells:?}, dt = {dt}: {found:?}");
-            assert!(found.bound_over_error() < 1.75, "{cells:?}, dt = {dt}: {found:?}");
+            let of = format!("{cells:?} {scalar:?} dt {dt:e}");
+            let ratio = bound_over_error(&second_step(&scene, grid(8, cells), *scalar, None), &of);
+            assert!(ratio < 1.75, "{of}: {ratio}");
         }
     }
 }
@@ -95,9 +94,8 @@ fn bounds_of_steps_hold_on_trapezoids_and_where_nothing_else_holds() {
             ["", "limit = 0"].iter().flat_map(|of| [1e-4, 1e-2, 1.0].map(|dt| (of, dt)))
         {
             let scene = scene(dt, PLAIN, contact, outside);
-            let found = judged(&scene, mesh.clone(), ScalarKind::F64, Some(40));
-            println!("{outside} {contact} dt {dt:e}: {found:?}");
-            assert!(found.error_over_bound() <= 1.0, "{outside}, {contact}, {dt}: {found:?}");
+            let step = second_step(&scene, mesh.clone(), ScalarKind::F64, Some(40));
+            bound_over_error(&step, &format!("{outside} {contact} dt {dt:e}"));
         }
     }
 }
@@ -116,12 +114,8 @@ fn bounds_of_steps_hold_with_robin_limits_layers_and_few_sweeps() {
         for cells in [Cells::Triangles, Cells::Quads] {
             for (dt, sweeps) in [(1e-4, Some(1)), (1e-2, None), (1e-2, Some(3)), (1.0, Some(10))] {
                 let scene = scene(dt, material, contact, outside);
-                let found = judged(&scene, grid(8, cells), ScalarKind::F64, sweeps);
-                println!("{name} {cells:?} dt {dt:e} {sweeps:?}: {found:?}");
-                assert!(
-                    found.error_over_bound() <= 1.0,
-                    "{name}, {cells:?}, {dt}, {sweeps:?}: {found:?}"
-                );
+                let step = second_step(&scene, grid(8, cells), ScalarKind::F64, sweeps);
+                bound_over_error(&step, &format!("{name} {cells:?} dt {dt:e} {sweeps:?}"));
             }
         }
     }
@@ -147,7 +141,7 @@ fn windows(cells: Cells, dt: f64, ticks: u32, sweeps: Option<u32>) -> Vec<f64> {
         is_affine: true,
         on_line: vec![false],
     };
-    let found = judged_over_time(&trajectory).unwrap().windows;
+    let [JudgedPlay { windows: found, .. }, ..] = judged_over_time(&trajectory).unwrap().plays;
     assert_eq!(found.len(), ticks as usize);
     for window in &found {
         assert!(window.error_over_bound() <= 1.0, "{window:?}");

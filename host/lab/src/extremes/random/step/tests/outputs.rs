@@ -7,9 +7,9 @@ use signorini_certify::cell::Cell;
 use signorini_intervals::{Coverage, OutputBound, of_answer};
 use signorini_problem::Problem;
 use signorini_problem::field::CellField;
+use signorini_problem::fixtures::with_four_sides;
 use signorini_problem::functional::Functional;
 use signorini_problem::quadrature::gauss;
-use signorini_scene::mesh::Curve;
 use signorini_scene::mesh::structured::{Cells, Trapezoids, grid, trapezoids};
 use signorini_scene::setting::ModelKind;
 use signorini_scene::{Mesh, Scene};
@@ -17,8 +17,8 @@ use signorini_session::tick::{ScheduledTick, TickInterval, replay};
 use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
 use signorini_tolerances::{is_whole, some};
 
-use super::super::{finer, judge};
-use super::{PLAIN, ROBIN, materials, second_step};
+use super::super::finer_answer;
+use super::{PLAIN, ROBIN, bound_over_error, materials, second_step};
 
 const HELD: &str = "kind = \"dirichlet\"\nvalue = 0.1";
 const WALL: &str = "kind = \"neumann\"\nflux = 0.2";
@@ -56,18 +56,6 @@ fn scene(dt: f64, material: &str, contact: &str, left: &str) -> Scene {
     Scene::parse(&text, Path::new("step.toml")).unwrap()
 }
 
-/// With curves of their own for the left and the right side.
-fn sided(mut mesh: Mesh) -> Mesh {
-    for (name, x) in [("left", -1.0), ("right", 1.0)] {
-        let is_there = |edge: &[u32; 2]| edge.iter().all(|&at| mesh.vertices[at as usize][0] == x);
-        let rest = mesh.curves.iter().position(|curve| curve.name == "dirichlet").unwrap();
-        let (edges, others) = mesh.curves[rest].edges.iter().copied().partition(is_there);
-        mesh.curves[rest].edges = others;
-        mesh.curves.push(Curve { name: name.to_owned(), edges });
-    }
-    mesh
-}
-
 /// The mean of s of a finer answer over the cell of a probe on the coarser mesh.
 fn mean_over(coarse: &Problem, cell: usize, (fine, answer): (&Problem, &Solution)) -> f64 {
     let none = vec![0.0; coarse.ends.len()];
@@ -89,10 +77,8 @@ fn mean_over(coarse: &Problem, cell: usize, (fine, answer): (&Problem, &Solution
 
 /// Half-widths over the errors of the middles, and how many outputs have an interval.
 fn check(scene: &Scene, mesh: Mesh, scalar: ScalarKind, sweeps: Option<u32>, of: &str) -> Vec<f64> {
-    let (problem, answer) = second_step(scene, sided(mesh), scalar, sweeps);
-    let options = Options { solver: SolverKind::Factor, averages: true, ..Options::default() };
-    let fine = finer(&problem, 2).unwrap();
-    let truth = solve(&fine, &options).unwrap();
+    let (problem, answer) = second_step(scene, with_four_sides(mesh), scalar, sweeps);
+    let (fine, truth) = finer_answer(&problem, 2).unwrap();
     let its = of_answer(&fine, &(&truth).into(), Coverage::Usual);
     let mut ratios = Vec::new();
     for (name, found) in of_answer(&problem, &(&answer).into(), Coverage::Usual) {
@@ -205,10 +191,8 @@ fn bounds_of_controllers_hold_where_nothing_else_holds() {
                 let scene = super::scene(dt, PLAIN, contact, insulated);
                 let scene = driven(&scene, &format!("model = \"full\"\nsweeps = {sweeps}"));
                 let (step, last, _) = of_controller(&scene, grid(4, cells));
-                let found = judge(&step, &last, 2).unwrap().unwrap();
                 let of = format!("{contact} {cells:?} dt {dt:e} {sweeps}");
-                println!("{of}: {found:?}");
-                assert!(found.error_over_bound() <= 1.0, "{of}: {found:?}");
+                bound_over_error(&(step, last), &of);
             }
         }
     }
@@ -245,12 +229,9 @@ fn intervals_of_controllers_hold_in_steps() {
             {
                 let scene = scene(dt, material, contact, left);
                 let scene = driven(&scene, &format!("model = \"{model}\"\n{setting}\n{ALL}"));
-                let (step, _, intervals) = of_controller(&scene, sided(grid(4, cells)));
-                let fine = finer(&step, 2).unwrap();
-                let options =
-                    Options { solver: SolverKind::Factor, averages: true, ..Options::default() };
-                let its =
-                    of_answer(&fine, &(&solve(&fine, &options).unwrap()).into(), Coverage::Usual);
+                let (step, _, intervals) = of_controller(&scene, with_four_sides(grid(4, cells)));
+                let (fine, truth) = finer_answer(&step, 2).unwrap();
+                let its = of_answer(&fine, &(&truth).into(), Coverage::Usual);
                 for (output, found) in scene.outputs.iter().zip(intervals) {
                     let name = output.name.value.as_str();
                     let (Ok([least, most]), Ok(truth)) = (found, &its[name]) else { continue };
@@ -274,7 +255,8 @@ fn intervals_of_controllers_hold_in_steps() {
 fn intervals_of_long_steps_are_those_of_the_steady_problem() {
     for (cells, left) in [(Cells::Triangles, ROBIN), (Cells::Quads, HELD), (Cells::Mixed, ROBIN)] {
         let scene = scene(1e10, PLAIN, "", left);
-        let (step, answer) = second_step(&scene, sided(grid(4, cells)), ScalarKind::F64, None);
+        let (step, answer) =
+            second_step(&scene, with_four_sides(grid(4, cells)), ScalarKind::F64, None);
         let mut steady = Problem::new(&scene, (*step.mesh).clone()).unwrap();
         steady.set_time(step.time).unwrap();
         let options = Options { solver: SolverKind::Factor, averages: true, ..Options::default() };
