@@ -66,7 +66,7 @@ pub fn refuse_inputs<R: Scalar>(scene: &Scene) -> Result<()> {
     let ranges = scene.inputs.iter().filter_map(|input| input.range.as_ref());
     let is_held = |end: f64| R::narrow(end).finite();
     for range in ranges {
-        if ![range.value.lo, range.value.hi].into_iter().all(is_held) {
+        if !range.value.into_iter().all(is_held) {
             let message = format!("{} cannot hold its ends", R::NAME);
             return Err(scene.error(range, message).hint(narrower::<R>()).into());
         }

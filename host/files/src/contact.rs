@@ -1,50 +1,37 @@
 //! States of contact edges: where u is, and how far from the gap.
 
+use signorini_draw::ContactState;
 use signorini_kernel::law::EdgeLaw;
 
 use super::vtu::Contact;
 use signorini_problem::Problem;
 use signorini_solve::Solution;
 
-/// Where u is on a contact edge.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum State {
-    /// u > ψ
-    Open,
-    /// u = ψ
-    Touching,
-    /// u < ψ: the flux is at its limit.
-    Saturated,
+/// Where u is on contact edge `at`, counted from the first one.
+pub fn state(problem: &Problem, solution: &Solution, at: usize) -> ContactState {
+    let (gap, range) = (solution.gap(problem, at), problem.loads.flux_range(at));
+    let law = EdgeLaw::above(gap).with_span(range.span());
+    match solution.u[problem.topology.counts.free + at] {
+        u if law.touches(u) => ContactState::Touching,
+        u if law.is_saturated(u) => ContactState::Saturated,
+        _ => ContactState::Open,
+    }
 }
 
-impl State {
-    /// Of contact edge `at`, counted from the first one.
-    pub fn of(problem: &Problem, solution: &Solution, at: usize) -> Self {
-        let (gap, range) = (solution.gap(problem, at), problem.loads.flux_range(at));
-        let law = EdgeLaw::above(gap).with_span(range.span());
-        match solution.u[problem.topology.counts.free + at] {
-            u if law.touches(u) => Self::Touching,
-            u if law.is_saturated(u) => Self::Saturated,
-            _ => Self::Open,
-        }
+/// The word of a state in files, and its number there: the sign of u − ψ.
+pub const fn written(state: ContactState) -> (&'static str, i8) {
+    match state {
+        ContactState::Open => ("open", 1),
+        ContactState::Touching => ("touching", 0),
+        ContactState::Saturated => ("saturated", -1),
     }
+}
 
-    /// Its word in files.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Open => "open",
-            Self::Touching => "touching",
-            Self::Saturated => "saturated",
-        }
-    }
-
-    /// Its number in files: the sign of u − ψ.
-    pub const fn sign(self) -> i8 {
-        match self {
-            Self::Open => 1,
-            Self::Touching => 0,
-            Self::Saturated => -1,
-        }
+/// u − ψ on contact edge `at`; 0 where it touches.
+pub fn opening(problem: &Problem, solution: &Solution, at: usize) -> f64 {
+    match state(problem, solution, at) {
+        ContactState::Touching => 0.0,
+        _ => solution.u[problem.topology.counts.free + at] - solution.gap(problem, at),
     }
 }
 
@@ -55,12 +42,10 @@ pub fn contact(problem: &Problem, solution: &Solution) -> Contact {
     let mut contact = Contact { names: names.collect(), ..Contact::default() };
     for at in 0..counts.contact {
         let edge = counts.free + at;
-        let state = State::of(problem, solution, at);
-        let opening = solution.u[edge] - solution.gap(problem, at);
         contact.ends.push(problem.segment(edge));
         contact.lambda.push(solution.multiplier(problem, at) + 0.0);
-        contact.gap.push(if state == State::Touching { 0.0 } else { opening });
-        contact.state.push(state.sign());
+        contact.gap.push(opening(problem, solution, at));
+        contact.state.push(written(state(problem, solution, at)).1);
         let boundary = problem.binding.boundary(problem.ends[edge]);
         contact.boundary.push(boundary.unwrap_or_default());
     }

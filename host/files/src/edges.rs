@@ -1,6 +1,6 @@
 //! `edges.csv`: one line an edge, in the order of the kernel's unknowns.
 
-use super::contact::State;
+use super::contact::{state, written};
 use signorini_problem::threads::on_two_threads;
 use signorini_problem::{EdgeKind, Problem};
 use signorini_scene::error::{Error, Result};
@@ -46,9 +46,9 @@ fn rows_of(
         let numbers = [a[0], a[1], b[0], b[1]].map(|x| x.to_string());
         let kind = problem.kinds[edge].name();
         let (u, flux) = (digits(solution, solution.u[edge]), digits(solution, flux));
-        let boundary = problem.binding.boundary(problem.ends[edge]);
-        let boundary = boundary.filter(|_| problem.kinds[edge] != EdgeKind::Interior);
-        let name = boundary.map_or("", |at| &problem.scene.boundaries[at].name.value);
+        let is_outer = problem.kinds[edge] != EdgeKind::Interior;
+        let boundary = problem.boundary_of(edge).filter(|_| is_outer);
+        let name = boundary.map_or("", |boundary| &boundary.name.value);
         let [psi, q, limit, lambda, state] = on_contact(problem, solution, edge);
         let [left, right] = cells(problem, edge);
         let rest = [kind, &u, &flux, name, &psi, &q, &limit, &lambda, &state, &left, &right];
@@ -64,7 +64,7 @@ fn on_contact(problem: &Problem, solution: &Solution, edge: usize) -> [String; 5
     }
     let at = edge - problem.topology.counts.free;
     let (gap, range) = (solution.gap(problem, at), problem.loads.flux_range(at));
-    let state = State::of(problem, solution, at).name();
+    let (state, _) = written(state(problem, solution, at));
     let [least, most] = range.ends().map(|end| digits(solution, end / problem.lengths[edge]));
     let lambda = digits(solution, solution.multiplier(problem, at));
     [digits(solution, gap), least, most, lambda, state.to_owned()]
@@ -72,12 +72,10 @@ fn on_contact(problem: &Problem, solution: &Solution, edge: usize) -> [String; 5
 
 /// The cells on both sides; no second one on the boundary.
 fn cells(problem: &Problem, edge: usize) -> [String; 2] {
-    let triangles = problem.mesh.triangles.len();
-    problem.topology.half_edges[edge].map(|half| match (half as usize).checked_sub(3 * triangles) {
-        _ if half == u32::MAX => String::new(),
-        None => (half / 3).to_string(),
-        Some(rest) => (triangles + rest / 4).to_string(),
-    })
+    match problem.kinds[edge] {
+        EdgeKind::Interior => problem.topology.cells_of(edge).map(|cell| cell.to_string()),
+        _ => [problem.topology.first_side(edge).0.to_string(), String::new()],
+    }
 }
 
 /// The shortest text that reads back as the same number of the solution's scalar type; −0 is 0.

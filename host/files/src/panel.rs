@@ -2,12 +2,10 @@
 
 use std::collections::HashMap;
 
-use super::contact::State;
+use super::contact::state;
+use super::fields::Drawn;
 use signorini_certify::ErrorBound;
-use signorini_draw::{
-    BoundTerms, BoundaryEdge, BoundaryKind, ContactEdge, ContactState, ScenePanel,
-};
-use signorini_problem::field::CellField;
+use signorini_draw::{BoundTerms, BoundaryEdge, BoundaryKind, ContactEdge, ScenePanel};
 use signorini_problem::{EdgeKind, Problem};
 use signorini_scene::scene::Condition;
 use signorini_solve::{Solution, energy_norm};
@@ -17,8 +15,7 @@ const SAMPLES: usize = 9;
 
 /// The panel of a solution, without what checks and outputs have to say.
 pub fn panel(problem: &Problem, solution: &Solution) -> ScenePanel {
-    let cells = 0..problem.mesh.triangles.len() + problem.mesh.quads.len();
-    let flux = |cell| CellField::new(problem, cell, &solution.u, &solution.flux).middle_flux();
+    let (_, cell_flux) = Drawn::plain(solution).in_cells(problem);
     let norm = energy_norm::of_solution(problem, solution).ok().flatten();
     ScenePanel {
         title: problem.scene.title.clone(),
@@ -27,7 +24,7 @@ pub fn panel(problem: &Problem, solution: &Solution) -> ScenePanel {
         triangles: problem.mesh.triangles.clone(),
         quads: problem.mesh.quads.clone(),
         vertex_u: solution.certified.vertices.clone(),
-        cell_flux: cells.map(flux).collect(),
+        cell_flux,
         indicators: solution.certified.indicators.clone(),
         bound: solution.bound.map(terms),
         no_bound: solution.no_bound.as_ref().map(ToString::to_string),
@@ -59,11 +56,7 @@ fn contact_edge(
     ContactEdge {
         ends,
         arc_length: [start, start + problem.lengths[edge]],
-        state: match State::of(problem, solution, contact) {
-            State::Open => ContactState::Open,
-            State::Touching => ContactState::Touching,
-            State::Saturated => ContactState::Saturated,
-        },
+        state: state(problem, solution, contact),
         multiplier: solution.multiplier(problem, contact),
         exact_multiplier: exact_multiplier(problem, edge, ends).unwrap_or_default(),
         opening,
@@ -73,8 +66,7 @@ fn contact_edge(
 /// A∇u·n − q of the exact solution along an edge walked from `ends`\[0\].
 fn exact_multiplier(problem: &Problem, edge: usize, ends: [[f64; 2]; 2]) -> Option<Vec<f64>> {
     let exact = problem.scene.exact.as_ref()?;
-    let boundary = &problem.scene.boundaries[problem.binding.boundary(problem.ends[edge])?];
-    let Condition::Contact { flux, .. } = &boundary.condition else {
+    let Condition::Contact { flux, .. } = &problem.boundary_of(edge)?.condition else {
         return None;
     };
     let (cell, _) = problem.topology.first_side(edge);

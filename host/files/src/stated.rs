@@ -54,7 +54,7 @@ impl<'a> Stated<'a> {
                 });
                 format!(
                     "{}{unit}{of}, guaranteed; {value} {at}on this mesh{estimate}",
-                    with_error(found)
+                    around(found.center, found.plus_minus)
                 )
             }
             Some(Err(why))
@@ -85,7 +85,7 @@ pub fn sentence(all: &[Stated]) -> Option<String> {
     };
     let length = length.and_then(|of| Some((of, of.value?))).map_or_else(String::new, told);
     let name = flux.output.name.value.replace('_', " ");
-    let value = printed_power(&with_error(found));
+    let value = printed_power(&around(found.center, found.plus_minus));
     Some(format!("The {name} is {value}{}, guaranteed{length}.", flux.unit()))
 }
 
@@ -105,11 +105,6 @@ fn printed_power(number: &str) -> String {
 fn digits_beside(of: &OutputBound, value: f64) -> usize {
     let digits = value.abs().log10().floor() - of.plus_minus.log10().floor() + 2.0;
     if digits.is_finite() { (digits as usize).clamp(UNKNOWN, 12) } else { UNKNOWN }
-}
-
-/// An interval as [`around`] writes it.
-pub fn with_error(of: &OutputBound) -> String {
-    around(of.center, of.plus_minus)
 }
 
 /// "27.5 ± 3.6", "(3.31 ± 0.15)e-5": both numbers with the same places, the second rounded up so that all of the interval is said.
@@ -141,11 +136,6 @@ pub fn around(center: f64, plus_minus: f64) -> String {
 mod tests {
     use super::*;
 
-    fn of(center: f64, plus_minus: f64) -> String {
-        let of = String::new();
-        with_error(&OutputBound { center, plus_minus, of, estimate: None, exact: None, doubt: 0.0 })
-    }
-
     #[test]
     fn powers_are_raised_in_print() {
         assert_eq!(printed_power("(3.31 ± 0.15)e-5"), "(3.31 ± 0.15)·10⁻⁵");
@@ -170,13 +160,13 @@ mod tests {
 
     #[test]
     fn the_error_is_rounded_up_and_holds_what_rounding_took() {
-        assert_eq!(of(27.475, 3.554), "27.5 ± 3.6");
-        assert_eq!(of(3.3087e-5, 1.4001e-6), "(3.31 ± 0.15)e-5");
-        assert_eq!(of(-3.7916, 0.5813), "-3.79 ± 0.59");
-        assert_eq!(of(0.4, 13.2), "0 ± 14");
-        assert_eq!(of(1.0, 1e-13), "1.00000000000 ± 0.00000000001");
-        assert_eq!(of(0.0, 0.0), "0 ± 0");
-        assert_eq!(of(0.25, 0.0), "0.25 ± 0");
-        assert_eq!(of(123_456.0, 7890.0), "123500 ± 8000");
+        assert_eq!(around(27.475, 3.554), "27.5 ± 3.6");
+        assert_eq!(around(3.3087e-5, 1.4001e-6), "(3.31 ± 0.15)e-5");
+        assert_eq!(around(-3.7916, 0.5813), "-3.79 ± 0.59");
+        assert_eq!(around(0.4, 13.2), "0 ± 14");
+        assert_eq!(around(1.0, 1e-13), "1.00000000000 ± 0.00000000001");
+        assert_eq!(around(0.0, 0.0), "0 ± 0");
+        assert_eq!(around(0.25, 0.0), "0.25 ± 0");
+        assert_eq!(around(123_456.0, 7890.0), "123500 ± 8000");
     }
 }

@@ -61,11 +61,7 @@ pub(super) fn check_within_ranges(problem: &Problem) -> Result<()> {
     if problem.scene.inputs.iter().all(|input| input.range.is_none()) {
         return Ok(());
     }
-    each(problem, |input, rises| match &input.range {
-        Some(range) if rises => range.value.hi,
-        Some(range) => range.value.lo,
-        None => input.default,
-    })
+    each(problem, |input, rises| input.end(rises))
 }
 
 impl Problem {

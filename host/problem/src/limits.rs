@@ -162,11 +162,7 @@ fn check_at(problem: &Problem, boundary: &Boundary, [x, y]: [f64; 2]) -> Result<
         let pattern = at(&input.pattern);
         let is_limit = input.field.value == Field::Limit;
         let opens = if is_limit { pattern } else { -pattern };
-        let value = match &input.range {
-            Some(range) if opens > 0.0 => range.value.lo,
-            Some(range) => range.value.hi,
-            None => input.default,
-        };
+        let value = input.end(opens <= 0.0);
         *(if is_limit { &mut most } else { &mut least }) += value * pattern;
         size += (value * pattern).abs();
         if opens != 0.0 {

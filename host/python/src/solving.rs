@@ -7,7 +7,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use signorini_files::answer::Answer;
-use signorini_files::contact::State;
+use signorini_files::contact::{opening, state, written};
 use signorini_files::fields::Drawn;
 use signorini_intervals::Coverage;
 use signorini_problem::{EdgeKind, Problem};
@@ -212,11 +212,8 @@ fn contact_columns<'py>(
     let edges = counts.free..counts.free + counts.contact;
     let all = || 0..counts.contact;
     let length = |at: usize| problem.lengths[counts.free + at];
-    let state = |at: usize| State::of(problem, solution, at);
-    let gap = |at: usize| match state(at) {
-        State::Touching => 0.0,
-        _ => solution.u[counts.free + at] - solution.gap(problem, at),
-    };
+    let gap = |at: usize| opening(problem, solution, at);
+    let state = |at: usize| written(state(problem, solution, at)).1;
     let end = |at: usize, which: usize| problem.loads.flux_range(at).ends()[which] / length(at);
     columns.numbers("edge", edges.map(|edge| edge as i64).collect())?;
     columns.numbers("lambda", all().map(|at| solution.multiplier(problem, at) + 0.0).collect())?;
@@ -224,6 +221,6 @@ fn contact_columns<'py>(
     columns.numbers("psi", all().map(|at| solution.gap(problem, at)).collect())?;
     columns.numbers("q", all().map(|at| end(at, 0)).collect())?;
     columns.numbers("limit", all().map(|at| end(at, 1)).collect())?;
-    columns.numbers("state", all().map(|at| state(at).sign()).collect())?;
+    columns.numbers("state", all().map(state).collect())?;
     Ok(columns)
 }

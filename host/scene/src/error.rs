@@ -203,20 +203,21 @@ pub fn install_handler() {
 }
 
 impl Error {
+    fn input(&self) -> Option<&InputError> {
+        match self {
+            Self::Input(error) => Some(error),
+            Self::Io { .. } | Self::Check(_) => None,
+        }
+    }
+
     /// The message, without the file that it stands in.
     pub fn reason(&self) -> String {
-        match self {
-            Self::Input(error) => error.message.clone(),
-            Self::Io { .. } | Self::Check(_) => self.to_string(),
-        }
+        self.input().map_or_else(|| self.to_string(), |error| error.message.clone())
     }
 
     /// Why the kernel refuses the input, where it is the kernel that does.
     pub fn cause(&self) -> Option<signorini_kernel::Error> {
-        match self {
-            Self::Input(error) => error.cause,
-            Self::Io { .. } | Self::Check(_) => None,
-        }
+        self.input()?.cause
     }
 
     /// Wraps an I/O failure with the file it concerns.
@@ -236,9 +237,6 @@ impl Error {
 
     /// The exit status that this failure ends in.
     pub fn exit_status(&self) -> u8 {
-        match self {
-            Self::Input(_) => 2,
-            Self::Io { .. } | Self::Check(_) => 1,
-        }
+        if self.input().is_some() { 2 } else { 1 }
     }
 }

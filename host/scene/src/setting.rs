@@ -1,22 +1,6 @@
 //! A setting: what trades speed for accuracy, as the `[setting]` of a scene states it.
 //!
-//! ```toml
-//! [setting]
-//! refine = 1            # uniform refinements of the scene's mesh                    [0]
-//! error = "5%"          # instead: refined where the error bound says, until it is at most this, for all inputs tried  [none]
-//! cells = "quads"       # triangles: quads are cut; quads: triangles are paired      [as in the mesh]
-//! element = "parametric" # or nonparametric: full rates of u_h on quads of any shape  [parametric]
-//! scalar = "f32"        # f32, f64, or f32+f64: sweeps in f32, residuals in f64      [f64; bake: f32]
-//! math = "libm"         # libm or micromath: the square root of the search for ω     [libm]
-//! model = "full"        # full or condensed                                          [full; bake: the smaller]
-//! solver = "auto"       # sweeps; full: factor, worked out on the host; condensed: exact  [auto; bake: the quicker]
-//! start = "warm"        # warm: from the tick before; cold: every tick anew          [warm]
-//! omega = 1.93          # a fixed relaxation factor, or "auto"                       [auto]
-//! sweeps = 12           # exactly so many; condensed: instead of the exact method    [none]
-//! share = 0.1           # sweep until this share of the bound is left to sweeps      [0.01]
-//! certificate = true    # the error bound                                            [true]
-//! memory = 24           # states of a condensed model that steps in time              [as its bound needs]
-//! ```
+//! Keys, meanings and defaults stand in the list of [`crate::scene::keys`].
 //! `refine` and `error` exclude each other, so do `sweeps` and `share`, and a factor excludes both. Without `model`, a key that means something to
 //! the full one alone asks for that, and so does `solver = "sweeps"`; `solver = "exact"` and `memory` ask for the condensed one. The
 //! bound is left out where `certificate = false` says so, and nowhere else. The file reads them in [`crate::scene`].
@@ -104,11 +88,10 @@ impl Setting {
     pub fn foreign_to(&self, model: ModelKind) -> Option<&'static str> {
         match model {
             ModelKind::Condensed => self.of_full_alone(),
-            ModelKind::Full => {
-                [("solver", self.solver == Some(Method::Exact)), ("memory", self.memory.is_some())]
-                    .into_iter()
-                    .find_map(|(key, is_set)| is_set.then_some(key))
-            }
+            ModelKind::Full => first([
+                ("solver", self.solver == Some(Method::Exact)),
+                ("memory", self.memory.is_some()),
+            ]),
         }
     }
 
@@ -130,15 +113,19 @@ impl Setting {
 
     /// A key that is set, and means nothing to the condensed model.
     fn of_full_alone(&self) -> Option<&'static str> {
-        let keys = [
+        first([
             ("solver", self.solver == Some(Method::Factor)),
             ("share", self.share.is_some()),
             ("omega", matches!(self.omega, Omega::Fixed(_))),
             ("start", self.start == Start::Cold),
             ("math", self.math == MathKind::Micromath),
-        ];
-        keys.into_iter().find(|(_, is_set)| *is_set).map(|(key, _)| key)
+        ])
     }
+}
+
+/// The first key that is set.
+fn first<const N: usize>(keys: [(&'static str, bool); N]) -> Option<&'static str> {
+    keys.into_iter().find_map(|(key, is_set)| is_set.then_some(key))
 }
 
 /// Cells with three or four sides.
@@ -222,52 +209,11 @@ pub enum Start {
 
 /// The relaxation factor.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(rename_all = "lowercase")]
 pub enum Omega {
-    /// This one, inside (0, 2).
-    Fixed(f64),
-    /// Found while sweeping; the text `auto`.
-    #[serde(with = "auto")]
+    /// Found while sweeping.
     Auto,
-}
-
-/// `Omega::Auto` as the text `auto`.
-mod auto {
-    use serde::de::Error;
-    use serde::{Deserialize, Deserializer, Serializer};
-
-    pub fn serialize<S: Serializer>(serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str("auto")
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D::Error> {
-        match String::deserialize(deserializer)?.as_str() {
-            "auto" => Ok(()),
-            other => Err(D::Error::custom(format!("`{other}` is no relaxation factor"))),
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_setting_survives_its_text() {
-        let setting = Setting {
-            refine: 2,
-            cells: Some(CellKind::Quads),
-            element: QuadElement::Nonparametric,
-            scalar: Some(Precision::Mixed),
-            solver: Some(Method::Factor),
-            omega: Omega::Fixed(1.93),
-            sweeps: Some(12),
-            certificate: false,
-            ..Setting::default()
-        };
-        for setting in [setting, Setting::default()] {
-            let text = toml::to_string(&setting).unwrap();
-            assert_eq!(toml::from_str::<Setting>(&text), Ok(setting), "{text}");
-        }
-    }
+    /// This one, inside (0, 2).
+    #[serde(untagged)]
+    Fixed(f64),
 }

@@ -4,9 +4,9 @@ use std::iter;
 use std::path::Path;
 
 use super::levels;
-use signorini_draw::{ScenePanel, solution_file};
+use signorini_draw::{ContactState, ScenePanel, solution_file};
 use signorini_files::answer::{Answer, FileSeconds};
-use signorini_files::contact::State;
+use signorini_files::contact::state;
 use signorini_files::digits::{percent_above, rounded, supported};
 use signorini_files::panel::panel;
 use signorini_files::stated::Stated;
@@ -109,7 +109,7 @@ fn below_gap(problem: &Problem, solution: &Solution) -> (usize, f64) {
     let counts = problem.topology.counts;
     // Where u may only be below the gap, edges there are free, and at no limit.
     let is_limited = |&at: &usize| {
-        State::of(problem, solution, at) == State::Saturated
+        state(problem, solution, at) == ContactState::Saturated
             && problem.loads.flux_range(at).ends()[0].is_finite()
     };
     let limited = (0..counts.contact).filter(is_limited);

@@ -22,9 +22,8 @@ pub(super) fn text(look: &Look) -> String {
         text.push_str(&groups(outline));
     }
     let inputs = scene.inputs.iter().map(|input| {
-        let range = input.range.as_ref().map_or_else(String::new, |range| {
-            format!(", from {} to {}", range.value.lo, range.value.hi)
-        });
+        let range = input.range.as_ref().map(|range| range.value);
+        let range = range.map_or_else(String::new, |[lo, hi]| format!(", from {lo} to {hi}"));
         let place = format!("{} of {}", input.field.value.name(), input.of.value);
         [input.name.value.clone(), place, format!("default {}{range}", input.default)]
     });
@@ -141,7 +140,7 @@ fn input_json(input: &Input) -> Json {
         "of": input.of.value,
         "field": input.field.value.name(),
         "default": input.default,
-        "range": input.range.as_ref().map(|range| [range.value.lo, range.value.hi]),
+        "range": input.range.as_ref().map(|range| range.value),
         "unit": input.unit,
     })
 }

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use signorini_scene::mesh::adaptive::Hierarchy;
+use signorini_scene::mesh::adaptive::{self, Hierarchy};
 use signorini_scene::mesh::shape::{self, Orientation};
-use signorini_scene::mesh::{self, Mesh, check, cut, gmsh, pairing, refine};
+use signorini_scene::mesh::{self, Mesh, check, cut, gmsh, pairing};
 use signorini_scene::scene::Scene;
 
 use super::{bytes, solved};
@@ -68,7 +68,7 @@ fn changed(mesh: &Mesh) {
         assert_eq!(corners(&other), corners(mesh));
         let _ = check::edges(&other);
     }
-    let fine = refine::refined(mesh).expect("few cells");
+    let fine = adaptive::refined(mesh).expect("few cells");
     assert_eq!(fine.cells(), 4 * mesh.cells());
     check::edges(&fine).expect("a mesh");
     refined_in_part(mesh);

@@ -194,7 +194,7 @@ fn ranges_that_a_scalar_cannot_hold_or_solve_for_are_refused() {
     let refused = |most: f64| {
         let problem = problem("levee", |scene| {
             scene.target = None;
-            scene.inputs[0].range.as_mut().expect("a range").value.hi = most;
+            scene.inputs[0].range.as_mut().expect("a range").value[1] = most;
         });
         let wanted = || Wanted::model(ModelKind::Condensed);
         let narrow = Choice::<f32>::new(&problem, wanted()).err().map(|error| error.to_string());

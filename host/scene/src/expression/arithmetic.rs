@@ -183,17 +183,12 @@ impl Numbers for Duals {
     }
 }
 
-/// slope · gradient, whose slope nobody asks for where the operand is a constant.
+/// slope · gradient, where what does not change contributes nothing, and nobody asks for the slope of a constant: the exponent's
+/// share of x^2, x² ln x, is undefined for x < 0.
 fn change(gradient: [f64; 2], slope: impl Fn() -> f64) -> [f64; 2] {
     if gradient == [0.0; 2] {
         return [0.0; 2];
     }
     let slope = slope();
-    gradient.map(|change| along(slope, change))
-}
-
-/// slope · change, where what does not change contributes nothing: the exponent's share of x^2,
-/// x² ln x, is undefined for x < 0, and no one asked for it.
-fn along(slope: f64, change: f64) -> f64 {
-    if change == 0.0 { 0.0 } else { slope * change }
+    gradient.map(|change| if change == 0.0 { 0.0 } else { slope * change })
 }

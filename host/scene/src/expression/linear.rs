@@ -1,7 +1,7 @@
 //! Expressions that are stated as numbers plus numbers times one product: c + k·e.
 
+use super::Expression;
 use super::operation::{Binary, Unary};
-use super::program::Program;
 use super::step::Step;
 
 /// Part of two constants up to which they are the same.
@@ -15,13 +15,13 @@ struct Linear<'a> {
     of: Vec<(&'a [Step], bool)>,
 }
 
-impl Program {
-    /// c and k, where this is c + k times `to` as both are stated.
+impl Expression {
+    /// c and k, where this is c + k times `to`, and both are stated as numbers and numbers times the same product.
     pub fn linear_in(&self, to: &Self) -> Option<[f64; 2]> {
-        if let Some(value) = self.value() {
+        if let Some(value) = self.is_constant() {
             return Some([value, 0.0]);
         }
-        let [own, to] = [self, to].map(|program| Linear::new(&program.steps));
+        let [own, to] = [self, to].map(|expression| Linear::new(&expression.program.steps));
         let slope = own.factor / to.factor;
         let (beside, of_to) = (own.constant, slope * to.constant);
         let is_rounding = (beside - of_to).abs() <= ROUNDING * (beside.abs() + of_to.abs());
@@ -115,15 +115,11 @@ fn operands(steps: &[Step]) -> (&[Step], &[Step]) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Expression, Variables};
+    use super::super::tests::expression;
 
     #[test]
     fn numbers_and_one_product_are_told_apart() {
-        let of = |a: &str, b: &str| {
-            let [a, b] = [a, b]
-                .map(|text| Expression::parse(text, Variables::SpaceTime).expect("an expression"));
-            a.linear_in(&b)
-        };
+        let of = |a: &str, b: &str| expression(a).linear_in(&expression(b));
         let step = "sign(x - 0.3)";
         assert_eq!(of("3", step), Some([3.0, 0.0]));
         assert_eq!(of(&format!("2 + 4*{step}"), step), Some([2.0, 4.0]));

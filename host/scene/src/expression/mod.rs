@@ -25,6 +25,7 @@ mod parser;
 mod program;
 mod rounded;
 mod sharing;
+mod stated;
 mod step;
 #[cfg(test)]
 mod tests;
@@ -55,6 +56,15 @@ pub enum Variables {
     Space,
     /// x, y and the time t.
     SpaceTime,
+}
+
+impl Variables {
+    fn names(self) -> &'static [&'static str] {
+        match self {
+            Self::Space => &["x", "y"],
+            Self::SpaceTime => &["x", "y", "t"],
+        }
+    }
 }
 
 /// The parts of expressions, for help texts.
@@ -141,7 +151,7 @@ impl Expression {
     pub fn rounding(&self, point: [f64; 2], off: f64, t: f64) -> f64 {
         let [x, y] = point.map(|value| Rounded { value: value + 0.0, off });
         let t = Rounded { value: t, off: f64::EPSILON * t.abs() };
-        self.program.run(&Roundings(self.program.folded()), [x, y, t]).off
+        self.program.run(&Roundings(self.program.folded), [x, y, t]).off
     }
 
     /// The value and its derivatives along two ways, on which x and y change so fast.
@@ -158,44 +168,6 @@ impl Expression {
     /// Whether this is the constant 0, as a missing load is.
     pub fn is_zero(&self) -> bool {
         self.is_constant() == Some(0.0)
-    }
-
-    /// The expression of x and y that it is at the time t.
-    #[must_use]
-    pub fn at_time(&self, t: f64) -> Self {
-        Self { program: self.program.at_time(t), ..self.clone() }
-    }
-
-    /// This times `factor`.
-    #[must_use]
-    pub fn times(&self, factor: f64) -> Self {
-        Self { program: self.program.times(factor), ..self.clone() }
-    }
-
-    /// This less `subtracted`.
-    #[must_use]
-    pub fn minus(&self, subtracted: f64) -> Self {
-        Self { program: self.program.minus(subtracted), ..self.clone() }
-    }
-
-    /// c and k, where this is c + k times `to`, and both are stated as numbers and numbers times the same product.
-    pub fn linear_in(&self, to: &Self) -> Option<[f64; 2]> {
-        self.program.linear_in(&to.program)
-    }
-
-    /// Whether no operation of it has a kink, a jump or a pole anywhere: a polynomial, sines, exponentials.
-    pub fn is_smooth(&self) -> bool {
-        self.program.is_smooth()
-    }
-
-    /// How often a device calls `function` to evaluate this once.
-    pub fn calls(&self, function: Elementary) -> usize {
-        self.program.calls(function)
-    }
-
-    /// Whether t occurs.
-    pub fn uses_time(&self) -> bool {
-        self.program.uses_time()
     }
 }
 

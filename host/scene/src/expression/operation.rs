@@ -212,7 +212,7 @@ impl Binary {
 }
 
 /// −1, 0 or 1; NaN stays NaN.
-fn sign(a: f64) -> f64 {
+pub(super) fn sign(a: f64) -> f64 {
     if a == 0.0 { 0.0 } else { a.signum() }
 }
 

@@ -203,19 +203,13 @@ impl Parser<'_> {
 
     /// Whether a name is made of letters and means nothing here.
     fn may_be_unit(&self, name: &str) -> bool {
-        let is_variable = match self.variables {
-            Variables::Space => ["x", "y"].contains(&name),
-            Variables::SpaceTime => ["x", "y", "t"].contains(&name),
-        };
+        let is_variable = self.variables.names().contains(&name);
         let is_function = FUNCTIONS.iter().any(|(function, _)| *function == name);
         !(is_variable || is_function || name == "pi") && name.chars().all(char::is_alphabetic)
     }
 
     fn unknown(&self, name: &str) -> ParseError {
-        let variables = match self.variables {
-            Variables::Space => "x, y",
-            Variables::SpaceTime => "x, y, t",
-        };
+        let variables = self.variables.names().join(", ");
         let functions = FUNCTIONS.map(|(name, _)| name).join(" ");
         ParseError {
             message: format!("unknown name `{name}`"),

@@ -6,7 +6,6 @@
 
 use std::array::from_fn;
 
-use super::elementary::Elementary;
 pub(super) use super::operation::Numbers;
 use super::operation::{Binary, Unary};
 use super::rounded::{Rounded, Roundings};
@@ -25,7 +24,7 @@ pub(super) struct Program {
     /// Places of the stack that it needs for them.
     depth: usize,
     /// How far a constant may be off that was computed from others, at most.
-    folded: f64,
+    pub(super) folded: f64,
 }
 
 impl Program {
@@ -38,36 +37,12 @@ impl Program {
         Self::new(vec![Step::Constant(value)], 0.0)
     }
 
-    /// How far a constant may be off that was computed from others, at most.
-    pub fn folded(&self) -> f64 {
-        self.folded
-    }
-
     /// The value, if the program is a constant.
     pub fn value(&self) -> Option<f64> {
         match self.steps[..] {
             [Step::Constant(value)] => Some(value),
             _ => None,
         }
-    }
-
-    /// Whether no step has a kink or a jump, or a derivative that is infinite somewhere.
-    pub fn is_smooth(&self) -> bool {
-        // The step before an operation is its last operand, where that is a constant.
-        let before = std::iter::once(None).chain(self.steps.iter().map(Some));
-        self.steps.iter().zip(before).all(|(step, before)| match (step, before) {
-            (Step::Constant(_) | Step::Variable(_), _) => true,
-            (Step::Unary(operation), _) => operation.is_smooth(),
-            (Step::Binary(Binary::Divide), Some(Step::Constant(by))) => *by != 0.0,
-            (Step::Binary(Binary::Power), Some(Step::Constant(of))) => {
-                *of >= 0.0 && of.fract() == 0.0
-            }
-            (Step::Binary(operation), _) => operation.is_smooth(),
-        })
-    }
-
-    pub fn uses_time(&self) -> bool {
-        self.steps.contains(&Step::Variable(Variable::T))
     }
 
     /// This program with t replaced by a number.
@@ -80,44 +55,21 @@ impl Program {
         builder.finish()
     }
 
-    /// This program times a number: the stack has room, since one value is all that is left on it.
-    pub fn times(&self, factor: f64) -> Self {
+    /// This program joined with a number, by which a constant is off as `folded` says: the stack has room, since one value is all
+    /// that is left on it.
+    pub fn joined(&self, operation: Binary, number: f64, folded: f64) -> Self {
         match self.value() {
-            Some(value) => {
-                let folded = self.folded * factor.abs();
-                Self { folded, ..Self::constant(value * factor) }
-            }
+            Some(value) => Self { folded, ..Self::constant(operation.apply(value, number)) },
             None => {
-                let mut steps = self.steps.clone();
-                steps.extend([Step::Constant(factor), Step::Binary(Binary::Multiply)]);
-                Self::new(steps, self.folded)
+                let last = [Step::Constant(number), Step::Binary(operation)];
+                Self::new([&self.steps[..], &last].concat(), self.folded)
             }
         }
     }
 
-    /// This program less a number, as [`Program::times`] has room for it.
-    pub fn minus(&self, subtracted: f64) -> Self {
-        match self.value() {
-            Some(value) => {
-                let folded = self.folded + f64::EPSILON * value.abs();
-                Self { folded, ..Self::constant(value - subtracted) }
-            }
-            None => {
-                let mut steps = self.steps.clone();
-                steps.extend([Step::Constant(subtracted), Step::Binary(Binary::Subtract)]);
-                Self::new(steps, self.folded)
-            }
-        }
-    }
-
-    /// How often a device calls `function` to run this.
-    pub fn calls(&self, function: Elementary) -> usize {
-        let calls = |step: &&Step| match step {
-            Step::Unary(operation) => operation.elementary() == Some(function),
-            Step::Binary(operation) => operation.elementary() == Some(function),
-            Step::Constant(_) | Step::Variable(_) => false,
-        };
-        self.steps.iter().filter(calls).count()
+    /// The result at x and y, and at a time that is a number.
+    pub fn at<N: Numbers>(&self, numbers: &N, [x, y]: [N::Number; 2], t: f64) -> N::Number {
+        self.run(numbers, [x, y, numbers.constant(t)])
     }
 
     /// The result at the point (x, y, t).

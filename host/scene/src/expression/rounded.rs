@@ -61,10 +61,10 @@ fn around(value: f64, nearby: &[f64]) -> Rounded {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Expression, Variables};
+    use super::super::tests::expression;
 
     fn rounding(text: &str, x: f64, y: f64) -> f64 {
-        Expression::parse(text, Variables::SpaceTime).expect(text).rounding([x, y], 2e-12, 0.0)
+        expression(text).rounding([x, y], 2e-12, 0.0)
     }
 
     #[test]
@@ -79,9 +79,7 @@ mod tests {
             ("x^2", "(x - 1)*(x + 1) + 1", 0.7, 0.0),
             ("sqrt(y)", "sqrt(2)", 0.0, beside),
         ] {
-            let value =
-                |text| Expression::parse(text, Variables::SpaceTime).expect(text).eval(x, y, 0.0);
-            let off = (value(one) - value(other)).abs();
+            let off = (expression(one).eval(x, y, 0.0) - expression(other).eval(x, y, 0.0)).abs();
             let explained = rounding(one, x, y) + rounding(other, x, y);
             assert!(off > 0.0 || one == "x^2", "{one}: no difference is tried");
             assert!(off <= explained && explained < 1e-8, "{one}, {other}: {off} {explained}");

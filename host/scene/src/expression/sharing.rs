@@ -109,13 +109,11 @@ pub(super) fn orders(steps: &[Step]) -> (Vec<Order>, usize) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::parser::parse;
-    use super::super::{Expression, Variables};
+    use super::super::tests::expression;
     use super::*;
 
     fn count(text: &str) -> [usize; 3] {
-        let program = parse(text, Variables::SpaceTime).expect("an expression");
-        let (orders, _) = orders(&program.steps);
+        let (orders, _) = orders(&expression(text).program.steps);
         let of = |is: fn(&Order) -> bool| orders.iter().filter(|order| is(order)).count();
         [
             of(|order| matches!(order, Order::Step(_))),
@@ -141,18 +139,16 @@ mod tests {
         let text = format!("{} + ({})", sum("+"), sum("-"));
         let [_, kept, recalled] = count(&text);
         assert!(kept == recalled && kept > STACK / 2 && kept < STACK, "{kept} {recalled}");
-        let expression = Expression::parse(&text, Variables::Space).expect("an expression");
         let x = 0.37_f64;
         let terms = || (2..90).map(|n| (f64::from(n) * x).sin());
         let (first, plus) = (terms().next().unwrap_or_default(), terms().skip(1));
         let expected = plus.clone().fold(first, |a, b| a + b) + plus.fold(first, |a, b| a - b);
-        assert_eq!(expression.eval(x, 0.0, 0.0), expected);
+        assert_eq!(expression(&text).eval(x, 0.0, 0.0), expected);
     }
 
     #[test]
     fn a_long_sum_is_no_deep_one() {
         let text = vec!["x"; 2000].join("+");
-        let expression = Expression::parse(&text, Variables::Space).expect("an expression");
-        assert_eq!(expression.eval(2.0, 0.0, 0.0), 4e3);
+        assert_eq!(expression(&text).eval(2.0, 0.0, 0.0), 4e3);
     }
 }

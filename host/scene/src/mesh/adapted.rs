@@ -1,8 +1,9 @@
 //! The mesh that a scene's setting asks for: cells of one kind first, then refined.
 
+use super::adaptive::refined;
+use super::check::MOST_CELLS;
 use super::cut::cut;
 use super::pairing::paired;
-use super::refine::{MOST_CELLS, refined};
 use super::{Mesh, read};
 use crate::error::{InputError, Result};
 use crate::scene::Scene;

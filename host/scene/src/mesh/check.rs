@@ -115,34 +115,10 @@ pub(super) fn check_count(cells: usize, hint: &str) -> Result<()> {
 mod tests {
     use super::*;
 
-    fn mesh(triangles: &[[u32; 3]], quads: &[[u32; 4]]) -> Mesh {
-        Mesh { triangles: triangles.to_vec(), quads: quads.to_vec(), ..Mesh::default() }
-    }
-
     #[test]
     fn edges_of_a_triangle_on_a_quad() {
+        let (triangles, quads) = (vec![[3, 2, 4]], vec![[0, 1, 2, 3]]);
         let expected = vec![[0, 1], [0, 3], [1, 2], [2, 3], [2, 4], [3, 4]];
-        assert_eq!(edges(&mesh(&[[3, 2, 4]], &[[0, 1, 2, 3]])), Ok(expected));
-    }
-
-    #[test]
-    fn three_cells_at_an_edge() {
-        let fault = edges(&mesh(&[[0, 1, 2], [1, 0, 3], [1, 0, 4]], &[])).unwrap_err();
-        assert_eq!(fault, Fault { edge: [0, 1], cells: vec![0, 1, 2] });
-        let text = fault.describe(|c| format!("T{c}"), |v| format!("v{v}"));
-        assert_eq!(text, "T0, T1 and T2 share the edge from v0 to v1, expected two at most");
-    }
-
-    #[test]
-    fn two_cells_on_the_same_side() {
-        let fault = edges(&mesh(&[[0, 1, 2]], &[[0, 1, 3, 4]])).unwrap_err();
-        assert_eq!(fault, Fault { edge: [0, 1], cells: vec![0, 1] });
-    }
-
-    #[test]
-    fn a_fan_of_200_000_triangles_is_quick() {
-        let n = 200_000;
-        let fan: Vec<_> = (1..=n).map(|k| [0, k, k % n + 1]).collect();
-        assert_eq!(edges(&mesh(&fan, &[])).map(|edges| edges.len()), Ok(2 * n as usize));
+        assert_eq!(edges(&Mesh { triangles, quads, ..Mesh::default() }), Ok(expected));
     }
 }

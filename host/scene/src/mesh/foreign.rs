@@ -17,53 +17,39 @@ const SAVE: &str = "save as MSH 4.1 (`gmsh FILE -save -format msh41 -o mesh.msh`
 const UTF16: &str = "save it as UTF-8, or as plain ASCII";
 const SCENE: &str = "give the scene as the command's argument; its key `mesh` names the mesh";
 
-/// Beginnings of files, blanks left out, each with the file's kind and a hint.
-const BEGINNINGS: [(&[u8], &str, &str); 31] = [
-    (b"\xff\xfe", "a text in UTF-16", UTF16),
-    (b"\xfe\xff", "a text in UTF-16", UTF16),
-    (b"$NOD\n", "a Gmsh mesh of format 1 (`$NOD`, `$ELM`)", OLD),
-    (b"$NOD\r", "a Gmsh mesh of format 1 (`$NOD`, `$ELM`)", OLD),
-    (b"$PostFormat", "a Gmsh post-processing view", OLD),
-    (b"<VTKFile", "a VTK file (XML: .vtu, .vtp, .pvd)", SOLUTION),
-    (b"# vtk DataFile", "a VTK file (legacy .vtk)", SOLUTION),
-    (b"<Xdmf", "an XDMF file", SOLUTION),
-    (b"<", "an XML file", SOLUTION),
-    (b"\x89HDF", "an HDF5 file (MED, XDMF's data, CGNS)", CONVERT),
-    (b"CDF\x01", "a NetCDF file (Exodus)", CONVERT),
-    (b"CDF\x02", "a NetCDF file (Exodus)", CONVERT),
-    (b"\x1f\x8b", "compressed by gzip", UNPACK),
-    (b"BZh", "compressed by bzip2", UNPACK),
-    (b"\xfd7zXZ", "compressed by xz", UNPACK),
-    (b"\x28\xb5\x2f\xfd", "compressed by zstd", UNPACK),
-    (b"PK\x03\x04", "a ZIP archive", UNPACK),
-    (b"solid", "an STL surface", SURFACE),
-    (b"ply", "a PLY surface", SURFACE),
-    (b"OFF", "an OFF surface", SURFACE),
-    (b"ISO-10303-21", "a STEP geometry", MESH_IT),
-    (b"DBRep_DrawableShape", "a BREP geometry", MESH_IT),
-    (b"CASCADE Topology", "a BREP geometry", MESH_IT),
-    (b"MeshVersionFormatted", "a Medit mesh (.mesh)", CONVERT),
-    (b"NDIME", "an SU2 mesh", CONVERT),
-    (b"*HEADING", "an Abaqus mesh (.inp)", CONVERT),
-    (b"*NODE", "an Abaqus mesh (.inp)", CONVERT),
-    (b"$#", "an LS-DYNA mesh (.key)", CONVERT),
-    (b"$ ", "a Nastran mesh (.bdf)", CONVERT),
-    (b"BEGIN BULK", "a Nastran mesh (.bdf)", CONVERT),
-    (b"-1\n", "an I-DEAS mesh (.unv)", CONVERT),
+/// Beginnings of files of a kind, blanks left out, with the kind and a hint.
+const BEGINNINGS: [(&[&[u8]], &str, &str); 25] = [
+    (&[b"\xff\xfe", b"\xfe\xff"], "a text in UTF-16", UTF16),
+    (&[b"$NOD\n", b"$NOD\r"], "a Gmsh mesh of format 1 (`$NOD`, `$ELM`)", OLD),
+    (&[b"$PostFormat"], "a Gmsh post-processing view", OLD),
+    (&[b"<VTKFile"], "a VTK file (XML: .vtu, .vtp, .pvd)", SOLUTION),
+    (&[b"# vtk DataFile"], "a VTK file (legacy .vtk)", SOLUTION),
+    (&[b"<Xdmf"], "an XDMF file", SOLUTION),
+    (&[b"<"], "an XML file", SOLUTION),
+    (&[b"\x89HDF"], "an HDF5 file (MED, XDMF's data, CGNS)", CONVERT),
+    (&[b"CDF\x01", b"CDF\x02"], "a NetCDF file (Exodus)", CONVERT),
+    (&[b"\x1f\x8b"], "compressed by gzip", UNPACK),
+    (&[b"BZh"], "compressed by bzip2", UNPACK),
+    (&[b"\xfd7zXZ"], "compressed by xz", UNPACK),
+    (&[b"\x28\xb5\x2f\xfd"], "compressed by zstd", UNPACK),
+    (&[b"PK\x03\x04"], "a ZIP archive", UNPACK),
+    (&[b"solid"], "an STL surface", SURFACE),
+    (&[b"ply"], "a PLY surface", SURFACE),
+    (&[b"OFF"], "an OFF surface", SURFACE),
+    (&[b"ISO-10303-21"], "a STEP geometry", MESH_IT),
+    (&[b"DBRep_DrawableShape", b"CASCADE Topology"], "a BREP geometry", MESH_IT),
+    (&[b"MeshVersionFormatted"], "a Medit mesh (.mesh)", CONVERT),
+    (&[b"NDIME"], "an SU2 mesh", CONVERT),
+    (&[b"*HEADING", b"*NODE"], "an Abaqus mesh (.inp)", CONVERT),
+    (&[b"$#"], "an LS-DYNA mesh (.key)", CONVERT),
+    (&[b"$ ", b"BEGIN BULK"], "a Nastran mesh (.bdf)", CONVERT),
+    (&[b"-1\n"], "an I-DEAS mesh (.unv)", CONVERT),
 ];
 
-/// Beginnings of a text's lines, each with the text's kind and a hint.
-const LINES: [(&str, &str, &str); 9] = [
-    ("SetFactory(", "a Gmsh geometry (.geo)", MESH_IT),
-    ("Point(", "a Gmsh geometry (.geo)", MESH_IT),
-    ("Point (", "a Gmsh geometry (.geo)", MESH_IT),
-    ("Rectangle(", "a Gmsh geometry (.geo)", MESH_IT),
-    ("Disk(", "a Gmsh geometry (.geo)", MESH_IT),
-    ("Merge \"", "a Gmsh geometry (.geo)", MESH_IT),
-    ("Include \"", "a Gmsh geometry (.geo)", MESH_IT),
-    ("[boundary.", "a scene", SCENE),
-    ("[material.", "a scene", SCENE),
-];
+/// Beginnings of lines of a Gmsh geometry, and of a scene.
+const GEOMETRY: [&str; 7] =
+    ["SetFactory(", "Point(", "Point (", "Rectangle(", "Disk(", "Merge \"", "Include \""];
+const TABLES: [&str; 2] = ["[boundary.", "[material."];
 
 /// The error that names what a file of no format that is read is, as far as it is known.
 pub(super) fn refused(bytes: &[u8]) -> InputError {
@@ -85,7 +71,7 @@ fn known(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
     };
     let begins =
         |text: &[u8]| start.get(..text.len()).is_some_and(|start| start.eq_ignore_ascii_case(text));
-    let beginning = BEGINNINGS.iter().find(|(text, ..)| begins(text));
+    let beginning = BEGINNINGS.iter().find(|(texts, ..)| texts.iter().any(|text| begins(text)));
     beginning.map(|&(_, found, hint)| (found, hint)).or_else(|| stl(bytes)).or_else(|| lines(start))
 }
 
@@ -105,6 +91,9 @@ fn lines(start: &[u8]) -> Option<(&'static str, &'static str)> {
         return None;
     }
     let text = String::from_utf8_lossy(&start[..start.len().min(LOOKED_AT)]);
-    let of_line = |line: &str| LINES.iter().find(|(word, ..)| line.trim_start().starts_with(word));
-    text.lines().find_map(of_line).map(|&(_, found, hint)| (found, hint))
+    text.lines().map(str::trim_start).find_map(|line| {
+        let begins = |words: &[&str]| words.iter().any(|word| line.starts_with(word));
+        let geometry = begins(&GEOMETRY).then_some(("a Gmsh geometry (.geo)", MESH_IT));
+        geometry.or(begins(&TABLES).then_some(("a scene", SCENE)))
+    })
 }

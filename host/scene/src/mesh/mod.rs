@@ -13,7 +13,6 @@ mod matching;
 mod outer;
 pub mod pairing;
 mod read;
-pub mod refine;
 pub mod shape;
 pub mod structured;
 #[cfg(test)]

@@ -1,20 +1,15 @@
 //! The boundary of a mesh and the sizes of its groups, before any scene gives them a meaning.
 
-use std::collections::BTreeMap;
-
 use super::Mesh;
+use super::check::sides;
 use super::shape::edge_length;
 
 impl Mesh {
     /// The edges with a cell on one side alone: lower vertex first, ascending.
     pub fn outer_edges(&self) -> Vec<[u32; 2]> {
-        let mut cells = BTreeMap::<[u32; 2], u32>::new();
-        for corners in self.corners() {
-            for (&a, &b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
-                *cells.entry([a.min(b), a.max(b)]).or_default() += 1;
-            }
-        }
-        cells.into_iter().filter(|(_, count)| *count == 1).map(|(edge, _)| edge).collect()
+        let sides = sides(self);
+        let edges = sides.chunk_by(|a, b| a.edge == b.edge);
+        edges.filter(|sides| sides.len() == 1).map(|sides| sides[0].edge).collect()
     }
 
     /// Coordinates of the ends of an edge.

@@ -1,7 +1,7 @@
 //! A mesh file of any format that is read: one that is told by its content.
 //!
 //! A format is a module that tells its own bytes and makes a draft of them, which it lets [`assemble`](super::assemble) check; it
-//! stands in [`FORMATS`]. Bytes of no format are named as what they are ([`foreign`]).
+//! has its branch in [`parse`]. Bytes of no format are named as what they are ([`foreign`]).
 
 use std::io::Read;
 use std::path::Path;
@@ -15,17 +15,6 @@ const SIZE_LIMIT: u64 = 1 << 31;
 
 /// The mark that some editors put before a text in UTF-8.
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
-
-/// A format that is read.
-struct Format {
-    /// Whether bytes are of it.
-    is_of: fn(&[u8]) -> bool,
-    /// The mesh in such bytes.
-    parse: fn(&[u8]) -> Parsed<Mesh>,
-}
-
-/// All formats.
-const FORMATS: [Format; 1] = [Format { is_of: gmsh::is_gmsh, parse: gmsh::parse }];
 
 /// Reads a mesh; every error names the file and, as the file numbers them, what is wrong in it.
 ///
@@ -42,10 +31,7 @@ pub fn read(path: &Path) -> Result<Mesh> {
 /// Those of [`read`], without the name of a file.
 pub fn parse(bytes: &[u8]) -> std::result::Result<Mesh, Box<InputError>> {
     let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
-    match FORMATS.iter().find(|format| (format.is_of)(bytes)) {
-        Some(format) => (format.parse)(bytes),
-        None => Err(foreign::refused(bytes).into()),
-    }
+    if gmsh::is_gmsh(bytes) { gmsh::parse(bytes) } else { Err(foreign::refused(bytes).into()) }
 }
 
 fn load(path: &Path) -> Parsed<Vec<u8>> {

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use super::keys::{Key, SECTIONS, Section, plain};
+use super::keys::{Key, SECTIONS, Section};
 use super::read::MOST_TABLES;
 use super::schema;
 use super::table::header;
@@ -14,11 +14,9 @@ const COMMENT_AT: usize = 26;
 
 /// The text of a scene on `mesh`, which is written as `name` in it. Its faults are exactly its question marks.
 pub fn blank(mesh: &Mesh, title: &str, name: &str) -> String {
-    let outer = mesh.outer_edges();
-    let conditions = SECTIONS.iter().filter(|of| of.header == "boundary.NAME");
-    let conditions: String = conditions
-        .map(|of| format!("#     {:<16}{}\n", of.kind.unwrap_or_default(), of.about))
-        .collect();
+    let condition =
+        |of: &Section| format!("#     {:<16}{}\n", of.kind.unwrap_or_default(), of.about);
+    let conditions: String = Section::all("boundary.NAME").map(condition).collect();
     let mut text = format!(
         "#:schema {}\n# A scene of signorini. Fill in each \"?\", then run `signorini check` on this file.\n\
          #   inside:           −∇·(A∇u) = f\n\
@@ -31,7 +29,7 @@ pub fn blank(mesh: &Mesh, title: &str, name: &str) -> String {
         quoted(name)
     );
     materials(&mut text, mesh);
-    boundaries(&mut text, mesh, &outer);
+    boundaries(&mut text, mesh);
     text.push_str("\n# What else a scene may have; NAME is a name of yours.\n");
     let rest =
         SECTIONS.iter().filter(|of| !["", "material.NAME", "boundary.NAME"].contains(&of.header));
@@ -39,14 +37,13 @@ pub fn blank(mesh: &Mesh, title: &str, name: &str) -> String {
     text
 }
 
-/// Which of these groups get a table: no two that share something, none that reaches beyond `allowed`, and no more than a scene may have.
-fn chosen<T: Ord + Copy>(groups: &[(&str, &[T])], allowed: Option<&BTreeSet<T>>) -> Vec<bool> {
+/// Which of these groups get a table: no two that share something, none that reaches beyond `all`, and no more than a scene may have.
+fn chosen<T: Ord + Copy>(groups: &[(&str, &[T])], all: &BTreeSet<T>) -> Vec<bool> {
     let (mut taken, mut count) = (BTreeSet::new(), 0);
     let mut take = |(name, items): &(&str, &[T])| {
         let is_named = *name != "default" && name.parse::<u64>().is_err();
-        let fits = allowed.is_none_or(|allowed| items.iter().all(|item| allowed.contains(item)));
-        let is_new = items.iter().all(|item| !taken.contains(item));
-        let is_chosen = is_named && fits && is_new && !items.is_empty() && count + 1 < MOST_TABLES;
+        let fits = items.iter().all(|item| all.contains(item) && !taken.contains(item));
+        let is_chosen = is_named && fits && !items.is_empty() && count + 1 < MOST_TABLES;
         if is_chosen {
             taken.extend(items.iter().copied());
             count += 1;
@@ -56,71 +53,61 @@ fn chosen<T: Ord + Copy>(groups: &[(&str, &[T])], allowed: Option<&BTreeSet<T>>)
     groups.iter().map(&mut take).collect()
 }
 
+/// A table for each of the groups that are chosen, a comment on each other one, and a table for what is left of `all`.
+fn tables<T: Ord + Copy>(
+    text: &mut String,
+    kind: &str,
+    groups: &[(&str, &[T])],
+    all: &BTreeSet<T>,
+    size: impl Fn(&[T]) -> String,
+    mut keys: impl FnMut(&mut String),
+) {
+    let mut left = all.clone();
+    for (&(name, items), is_chosen) in groups.iter().zip(chosen(groups, all)) {
+        let (header, size) = (header(kind, name), size(items));
+        if is_chosen {
+            left.retain(|item| items.binary_search(item).is_err());
+            head(text, "", &header, &size);
+            keys(text);
+        } else {
+            let is_inside = items.iter().any(|item| !all.contains(item));
+            head(text, "# ", &header, &(size + why_not(name, is_inside)));
+        }
+    }
+    if !left.is_empty() {
+        let size = size(&left.into_iter().collect::<Vec<_>>());
+        head(text, "", &header(kind, "default"), &format!("all that is left: {size}"));
+        keys(text);
+    }
+}
+
 fn materials(text: &mut String, mesh: &Mesh) {
     let groups: Vec<(&str, &[u32])> =
         mesh.surfaces.iter().map(|Surface { name, cells }| (name.as_str(), &cells[..])).collect();
-    let chosen = chosen(&groups, None);
-    let mut left: BTreeSet<u32> = (0..mesh.cells() as u32).collect();
-    for (&(name, cells), is_chosen) in groups.iter().zip(chosen) {
-        let size = format!(
-            "area {}, {}",
-            shown(mesh.area(cells.iter().copied())),
-            counted(cells.len(), "cell")
-        );
-        if !is_chosen {
-            head(text, "# ", &header("material", name), &format!("{size}{}", why_not(name, false)));
-            continue;
-        }
-        left.retain(|cell| cells.binary_search(cell).is_err());
-        material(text, name, &size);
-    }
-    if !left.is_empty() {
-        let size = format!(
-            "area {}, {}",
-            shown(mesh.area(left.iter().copied())),
-            counted(left.len(), "cell")
-        );
-        material(text, "default", &format!("all that is left: {size}"));
-    }
-}
-
-fn material(text: &mut String, name: &str, size: &str) {
-    head(text, "", &header("material", name), size);
+    let size = |cells: &[u32]| {
+        let area = mesh.area(cells.iter().copied());
+        format!("area {}, {}", shown(area), counted(cells.len(), "cell"))
+    };
     let keys = Section::of("material.NAME", None).map_or(&[][..], |section| section.keys);
-    for key in keys {
-        line(text, None, key, key.default.is_none().then_some("\"?\""));
-    }
+    tables(text, "material", &groups, &(0..mesh.cells() as u32).collect(), size, |text| {
+        keys.iter().for_each(|key| line(text, None, key, key.default.is_none().then_some("\"?\"")));
+    });
 }
 
-fn boundaries(text: &mut String, mesh: &Mesh, outer: &[[u32; 2]]) {
+fn boundaries(text: &mut String, mesh: &Mesh) {
     let groups: Vec<(&str, &[[u32; 2]])> =
         mesh.curves.iter().map(|Curve { name, edges }| (name.as_str(), &edges[..])).collect();
-    let mut left: BTreeSet<[u32; 2]> = outer.iter().copied().collect();
-    let chosen = chosen(&groups, Some(&left));
+    let size = |edges: &[[u32; 2]]| {
+        format!("length {}, {}", shown(mesh.length(edges)), counted(edges.len(), "edge"))
+    };
     let mut is_first = true;
-    for (&(name, edges), is_chosen) in groups.iter().zip(chosen) {
-        let size =
-            format!("length {}, {}", shown(mesh.length(edges)), counted(edges.len(), "edge"));
-        if !is_chosen {
-            let is_inside = edges.iter().any(|edge| outer.binary_search(edge).is_err());
-            let why = why_not(name, is_inside);
-            head(text, "# ", &header("boundary", name), &format!("{size}{why}"));
-            continue;
-        }
-        left.retain(|edge| edges.binary_search(edge).is_err());
-        boundary(text, name, &size, is_first);
-        is_first = false;
-    }
-    if !left.is_empty() {
-        let left: Vec<_> = left.into_iter().collect();
-        let size = format!("length {}, {}", shown(mesh.length(&left)), counted(left.len(), "edge"));
-        boundary(text, "default", &format!("all that is left: {size}"), is_first);
-    }
+    tables(text, "boundary", &groups, &mesh.outer_edges().into_iter().collect(), size, |text| {
+        condition(text, std::mem::replace(&mut is_first, false));
+    });
 }
 
 /// A condition to choose; the keys of each kind stand in the first table alone.
-fn boundary(text: &mut String, name: &str, size: &str, is_first: bool) {
-    head(text, "", &header("boundary", name), size);
+fn condition(text: &mut String, is_first: bool) {
     let kinds = Section::kinds("boundary.NAME").collect::<Vec<_>>().join(", ");
     if !is_first {
         let words = format!("{kinds}: the keys of each stand above");
@@ -128,7 +115,7 @@ fn boundary(text: &mut String, name: &str, size: &str, is_first: bool) {
         return;
     }
     let _ = writeln!(text, "kind = \"?\"{}", comment(10, &kinds));
-    for section in SECTIONS.iter().filter(|section| section.header == "boundary.NAME") {
+    for section in Section::all("boundary.NAME") {
         section.keys.iter().for_each(|key| line(text, section.kind, key, None));
     }
 }
@@ -156,10 +143,7 @@ fn line(text: &mut String, kind: Option<&str>, key: &Key, value: Option<&str>) {
         None => format!("# {} = {}", key.name, key.sample()),
     };
     let kind = kind.map_or_else(String::new, |kind| format!("{kind}: "));
-    let unit = Some(plain(key.unit)).filter(|unit| !unit.is_empty());
-    let unit = unit.map_or_else(String::new, |unit| format!(" [{unit}]"));
-    let default = key.default.map_or_else(String::new, |of| format!("; default {}", plain(of)));
-    let words = format!("{kind}{}{}{unit}{default}", key.words(), plain(key.meaning));
+    let words = format!("{kind}{}", key.described());
     let _ = writeln!(text, "{start}{}", comment(start.chars().count(), &words));
 }
 

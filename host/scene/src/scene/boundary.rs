@@ -5,17 +5,15 @@
 
 use super::entry::Entry;
 use super::table::Table;
-use super::units::Unit;
 use super::{Condition, Datum, Field};
 use crate::error::Result;
-use crate::expression::Variables;
 
 /// A way to read a condition from its table.
 type Read = fn(&Table) -> Option<Condition>;
 
 const KINDS: [(&str, Read); 4] = [
-    ("dirichlet", read_dirichlet),
-    ("neumann", read_neumann),
+    ("dirichlet", |table| Some(Condition::Dirichlet { value: table.load("value")? })),
+    ("neumann", |table| Some(Condition::Neumann { flux: table.load("flux")? })),
     ("robin", read_robin),
     ("contact", read_contact),
 ];
@@ -23,7 +21,7 @@ const KINDS: [(&str, Read); 4] = [
 /// Reads `[boundary.NAME]`; a key of another kind is a fault.
 pub(super) fn read_boundary(table: &Table) -> Option<Condition> {
     let kind = table.require("kind")?;
-    let read = table.keep(kind.choice(&KINDS))?.value;
+    let read = table.keep(kind.choice(&KINDS))?;
     table.only("boundary.NAME", kind.word());
     read(table)
 }
@@ -34,36 +32,18 @@ pub(super) fn kind_of(table: &Table) -> Option<&'static str> {
     KINDS.iter().find(|(kind, _)| *kind == word).map(|(kind, _)| *kind)
 }
 
-fn read_dirichlet(table: &Table) -> Option<Condition> {
-    let value = table.read("value", |entry| entry.expression(Variables::SpaceTime))?;
-    Some(Condition::Dirichlet { value })
-}
-
-fn read_neumann(table: &Table) -> Option<Condition> {
-    let flux = table.read("flux", |entry| entry.expression(Variables::SpaceTime))?;
-    Some(Condition::Neumann { flux })
-}
-
 fn read_robin(table: &Table) -> Option<Condition> {
-    let coefficient = table.read("coefficient", transfer);
-    let ambient = table.read("ambient", |entry| entry.expression(Variables::SpaceTime));
+    // It enters the matrix, which stays the same from tick to tick, so that it has no t.
+    let hint = "(A∇u)·n = coefficient (ambient − u) with coefficient ≥ 0";
+    let coefficient = table.read("coefficient", |entry| entry.not_negative("", hint));
+    let ambient = table.load("ambient");
     Some(Condition::Robin { coefficient: coefficient?, ambient: ambient? })
 }
 
-/// A transfer coefficient: it enters the matrix, which stays the same from tick to tick, so that it has no t.
-fn transfer(entry: &Entry) -> Result<Datum> {
-    let coefficient = entry.expression(Variables::Space)?;
-    if let Some(value) = coefficient.value.is_constant().filter(|&value| value < 0.0) {
-        let error = entry.error(format_args!("{value} is negative"));
-        return Err(error.hint("(A∇u)·n = coefficient (ambient − u) with coefficient ≥ 0").into());
-    }
-    Ok(coefficient)
-}
-
 fn read_contact(table: &Table) -> Option<Condition> {
-    let gap = table.expression_or_zero("gap", Variables::SpaceTime);
-    let flux = table.end_of_range("flux", 0.0, Variables::SpaceTime);
-    let limit = table.end_of_range("limit", f64::INFINITY, Variables::SpaceTime);
+    let gap = table.or_constant("gap", 0.0, Entry::load);
+    let flux = table.or_constant("flux", 0.0, Entry::end_of_range);
+    let limit = table.or_constant("limit", f64::INFINITY, Entry::end_of_range);
     let (gap, flux, limit) = (gap?, flux?, limit?);
     table.keep(check_range(table, [&flux, &limit]))?;
     Some(Condition::Contact { gap, flux, limit })
@@ -96,52 +76,30 @@ fn check_range(table: &Table, ends: [&Datum; 2]) -> Result<()> {
     }
 }
 
-/// The role of a datum in a condition.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Role {
-    /// A load: an input may add to it.
-    Load(Field),
-    /// A coefficient, the same from tick to tick, in this unit.
-    Coefficient(Unit),
-}
-
-impl Role {
-    /// The unit of the datum.
-    pub fn unit(self) -> Unit {
-        match self {
-            Self::Load(field) => field.unit(),
-            Self::Coefficient(unit) => unit,
-        }
-    }
-}
-
-/// The data of a condition with their roles, in the order in which they are visited: one list for `&` and for `&mut`.
+/// The data of a condition with their fields, in the order in which they are visited: one list for `&` and for `&mut`.
 macro_rules! data_of {
     ($condition:expr) => {
         match $condition {
-            Condition::Dirichlet { value } => vec![(Role::Load(Field::Value), value)],
-            Condition::Neumann { flux } => vec![(Role::Load(Field::Flux), flux)],
-            Condition::Robin { coefficient, ambient } => vec![
-                (Role::Coefficient(Unit::Conductivity), coefficient),
-                (Role::Load(Field::Ambient), ambient),
-            ],
-            Condition::Contact { gap, flux, limit } => vec![
-                (Role::Load(Field::Gap), gap),
-                (Role::Load(Field::Flux), flux),
-                (Role::Load(Field::Limit), limit),
-            ],
+            Condition::Dirichlet { value } => vec![(Field::Value, value)],
+            Condition::Neumann { flux } => vec![(Field::Flux, flux)],
+            Condition::Robin { coefficient, ambient } => {
+                vec![(Field::Coefficient, coefficient), (Field::Ambient, ambient)]
+            }
+            Condition::Contact { gap, flux, limit } => {
+                vec![(Field::Gap, gap), (Field::Flux, flux), (Field::Limit, limit)]
+            }
         }
     };
 }
 
 impl Condition {
-    /// Its data, each with what it is.
-    pub fn data(&self) -> Vec<(Role, &Datum)> {
+    /// Its data, each with its field.
+    pub fn data(&self) -> Vec<(Field, &Datum)> {
         data_of!(self)
     }
 
-    /// Its data, to be changed, each with what it is.
-    pub fn data_mut(&mut self) -> Vec<(Role, &mut Datum)> {
+    /// Its data, to be changed, each with its field.
+    pub fn data_mut(&mut self) -> Vec<(Field, &mut Datum)> {
         data_of!(self)
     }
 
@@ -170,21 +128,8 @@ impl Condition {
             || flux.value.is_constant() == Some(f64::NEG_INFINITY)
     }
 
-    /// The `field` of this boundary that an input may add to, if its kind has it.
-    pub fn field(&self, field: Field) -> Option<&Datum> {
-        match field {
-            Field::Coefficient => self.transfer(),
-            Field::Flux
-            | Field::Limit
-            | Field::Value
-            | Field::Gap
-            | Field::Ambient
-            | Field::Source => self.load(field),
-        }
-    }
-
-    /// The load `field` of this boundary, if its kind has it.
+    /// The load or coefficient `field` of this boundary, to which an input may add, if its kind has it.
     pub fn load(&self, field: Field) -> Option<&Datum> {
-        self.data().into_iter().find_map(|(role, data)| (role == Role::Load(field)).then_some(data))
+        self.data().into_iter().find_map(|(of, data)| (of == field).then_some(data))
     }
 }

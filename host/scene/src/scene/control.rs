@@ -1,7 +1,7 @@
 //! Inputs, which a controller sets.
 
 use super::entry::Entry;
-use super::range::InputRange;
+use super::range::read_range;
 use super::table::Table;
 use super::{Boundary, Condition, Field, Input, Located, Named, Scene};
 use crate::error::{InputError, Result};
@@ -30,7 +30,7 @@ pub(super) fn read_input(table: &Table, boundaries: &[Named<Condition>]) -> Opti
     let place = read_place(table, boundaries);
     let pattern = table.read("pattern", |entry| entry.expression(Variables::Space));
     let default = table.read_or("default", 0.0, Entry::number);
-    let range = table.read_some("range", InputRange::read);
+    let range = table.read_some("range", read_range);
     let unit = read_unit(table);
     let (of, field) = place?;
     if field.value == Field::Coefficient {
@@ -51,9 +51,9 @@ fn read_place(
     let (of, entry) = (table.require("of"), table.require("field"));
     let name = of.as_ref().and_then(|of| table.keep(of.text()));
     let field = entry.as_ref().and_then(|entry| table.keep(entry.choice(&FIELDS)));
-    let (name, field) = (name?, field?);
-    table.keep(check_field(&of?, &entry?, field.value, boundaries))?;
-    Some((name, field))
+    let (of, entry, name, field) = (of?, entry?, name?, field?);
+    table.keep(check_field(&of, &entry, field, boundaries))?;
+    Some((name, entry.at.with(field)))
 }
 
 /// Refuses a default outside the range; where none is written the one that counts is 0, and the range is to blame.
@@ -84,8 +84,8 @@ fn check_field(
         }
         _ => {
             // One that could not be read is told of already.
-            let Some(condition) = find_boundary(of, boundaries)? else { return Ok(()) };
-            if let Some(base) = condition.field(field) {
+            let Some(condition) = find(of, BOUNDARIES, boundaries)? else { return Ok(()) };
+            if let Some(base) = condition.load(field) {
                 let infinite = base.value.is_constant().filter(|value| value.is_infinite());
                 return infinite.map_or(Ok(()), |value| {
                     let message = format!("{} is {value}, to which nothing can be added", base.key);
@@ -93,7 +93,7 @@ fn check_field(
                     Err(entry.error(message).hint(hint).into())
                 });
             }
-            let has = |&&(_, field): &&(&str, Field)| condition.field(field).is_some();
+            let has = |&&(_, field): &&(&str, Field)| condition.load(field).is_some();
             let names: Vec<_> = FIELDS.iter().filter(has).map(|(name, _)| *name).collect();
             (format!("a {} boundary", condition.kind()), names.join(", "))
         }
@@ -119,21 +119,30 @@ fn unit(entry: &Entry) -> Result<String> {
     Ok(unit)
 }
 
-/// The condition of the boundary that `of` names; nothing where it could not be read.
-pub(super) fn find_boundary<'a>(
+/// A kind of groups in words: of one, and of several.
+pub(super) type Words = [&'static str; 2];
+
+pub(super) const BOUNDARIES: Words = ["boundary", "boundaries"];
+
+/// The group that `of` names; nothing where it could not be read.
+pub(super) fn find<'a, T>(
     of: &Entry,
-    boundaries: &'a [Named<Condition>],
-) -> Result<Option<&'a Condition>> {
+    [one, many]: Words,
+    groups: &'a [Named<T>],
+) -> Result<Option<&'a T>> {
     let name = of.text()?.value;
-    let found = boundaries.iter().find(|(boundary, _)| boundary.value == name);
-    found.map(|(_, condition)| condition.as_ref()).ok_or_else(|| {
-        let error = of.error(format_args!("no boundary `{name}` in the scene"));
-        let names = list(boundaries.iter().map(|(name, _)| name));
-        error.hint(format!("boundaries of the scene: {names}")).into()
+    let found = groups.iter().find(|(known, _)| known.value == name);
+    found.map(|(_, group)| group.as_ref()).ok_or_else(|| {
+        let error = of.error(format_args!("no {one} `{name}` in the scene"));
+        error.hint(format!("{many} of the scene: {}", names(groups))).into()
     })
 }
 
-pub(super) fn list<'a>(names: impl Iterator<Item = &'a Located<String>>) -> String {
+pub(super) fn names<T>(groups: &[Named<T>]) -> String {
+    list(groups.iter().map(|(name, _)| name))
+}
+
+fn list<'a>(names: impl Iterator<Item = &'a Located<String>>) -> String {
     names.map(|name| name.value.as_str()).collect::<Vec<_>>().join(", ")
 }
 

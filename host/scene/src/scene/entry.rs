@@ -45,14 +45,14 @@ impl<'a> Entry<'a> {
     }
 
     /// One of the words on the left, as what stands on the right.
-    pub fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> Result<Located<T>> {
+    pub fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> Result<T> {
         let names = choices.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
         if self.is_open() {
             return Err(self.expected(&format!("one of: {names}")).into());
         }
         let word = self.text()?.value;
         match choices.iter().find(|(name, _)| *name == word) {
-            Some(&(_, choice)) => Ok(self.at.with(choice)),
+            Some(&(_, choice)) => Ok(choice),
             None => Err(self.error(format_args!("`{word}` is not one of: {names}")).into()),
         }
     }
@@ -137,8 +137,24 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// An expression, or "inf" or "-inf", with quotes or without.
-    pub fn end_of_range(&self, variables: Variables) -> Result<Datum> {
+    /// An expression in x, y and t.
+    pub fn load(&self) -> Result<Datum> {
+        self.expression(Variables::SpaceTime)
+    }
+
+    /// An expression in x and y, not negative where it is a constant; `wanted` ends the message where it is.
+    pub fn not_negative(&self, wanted: &str, hint: &str) -> Result<Datum> {
+        let coefficient = self.expression(Variables::Space)?;
+        match coefficient.value.is_constant() {
+            Some(value) if value < 0.0 => {
+                Err(self.error(format_args!("{value} is negative{wanted}")).hint(hint).into())
+            }
+            _ => Ok(coefficient),
+        }
+    }
+
+    /// An expression in x, y and t, or "inf" or "-inf", with quotes or without.
+    pub fn end_of_range(&self) -> Result<Datum> {
         let word = match self.at.value {
             DeValue::String(text) => text.trim(),
             DeValue::Float(float) => float.as_str(),
@@ -147,7 +163,7 @@ impl<'a> Entry<'a> {
         match word {
             "inf" | "+inf" => Ok(self.at.with(Expression::constant(f64::INFINITY))),
             "-inf" => Ok(self.at.with(Expression::constant(f64::NEG_INFINITY))),
-            _ => self.expression(variables),
+            _ => self.load(),
         }
     }
 

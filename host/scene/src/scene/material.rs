@@ -41,9 +41,8 @@ const ABOUT_CAPACITIES: &str =
 pub(super) fn read_material(table: &Table) -> Option<Material> {
     table.only("material.NAME", None);
     let conductivity = table.read("conductivity", read_tensor);
-    let capacity = table.expression_or_zero("capacity", Variables::Space).and_then(|capacity| {
-        table.keep(check_capacity(table, &capacity))?;
-        Some(capacity)
+    let capacity = table.or_constant("capacity", 0.0, |entry| {
+        entry.not_negative(", expected a capacity of at least 0", ABOUT_CAPACITIES)
     });
     let (conductivity, is_scalar) = conductivity?;
     Some(Material { name: table.name.clone(), conductivity, is_scalar, capacity: capacity? })
@@ -68,12 +67,4 @@ fn read_tensor(entry: &Entry) -> Result<([Datum; 3], bool)> {
         Some(_) => Err(entry.expected("a scalar or an array of three: a_xx, a_xy, a_yy").into()),
         None => read(entry).map(scalar),
     }
-}
-
-fn check_capacity(table: &Table, capacity: &Datum) -> Result<()> {
-    let negative = capacity.value.is_constant().filter(|c| *c < 0.0);
-    negative.map_or(Ok(()), |c| {
-        let message = format_args!("{c} is negative, expected a capacity of at least 0");
-        Err(table.document.error(capacity, message).hint(ABOUT_CAPACITIES).into())
-    })
 }

@@ -41,10 +41,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 pub use blank::blank;
-pub use boundary::Role;
 pub use draft::Draft;
 pub use material::Material;
-pub use range::InputRange;
 
 use crate::error::InputError;
 use crate::expression::Expression;
@@ -172,8 +170,8 @@ pub struct Input {
     pub pattern: Datum,
     /// Its value unless something else is set.
     pub default: f64,
-    /// The range of its value; anything, where the scene does not say.
-    pub range: Option<Located<InputRange>>,
+    /// The least and the largest value that it may have; anything, where the scene does not say.
+    pub range: Option<Located<[f64; 2]>>,
     /// The unit that its value is shown with.
     pub unit: Option<String>,
 }

@@ -2,7 +2,7 @@
 
 use std::mem::discriminant;
 
-use super::control::{find_boundary, list, read_unit};
+use super::control::{BOUNDARIES, Words, find, names, read_unit};
 use super::entry::Entry;
 use super::table::Table;
 use super::{Condition, Located, Material, Named, Output, Quantity};
@@ -23,16 +23,19 @@ const KINDS: [(&str, Quantity); 9] = [
 
 const ABOUT_STORAGE: &str = "give a material a `capacity`: what a unit of u stores per area";
 
+/// The groups that outputs are about.
+#[derive(Clone, Copy)]
+pub(super) struct Groups<'a> {
+    pub boundaries: &'a [Named<Condition>],
+    pub materials: &'a [Named<Material>],
+}
+
 /// Reads `[output.NAME]`.
-pub(super) fn read_output(
-    table: &Table,
-    boundaries: &[Named<Condition>],
-    materials: &[Named<Material>],
-) -> Option<Output> {
+pub(super) fn read_output(table: &Table, groups: Groups) -> Option<Output> {
     let kind = table.require("kind")?;
-    let quantity = table.keep(kind.choice(&KINDS))?.value;
+    let quantity = table.keep(kind.choice(&KINDS))?;
     table.only("output.NAME", kind.word());
-    let (unit, measured) = (read_unit(table), measured(table, quantity, boundaries, materials));
+    let (unit, measured) = (read_unit(table), measured(table, quantity, groups));
     let (quantity, of) = measured?;
     Some(Output { name: table.name.clone(), quantity, of, unit: unit? })
 }
@@ -41,8 +44,7 @@ pub(super) fn read_output(
 fn measured(
     table: &Table,
     quantity: Quantity,
-    boundaries: &[Named<Condition>],
-    materials: &[Named<Material>],
+    groups @ Groups { boundaries, materials }: Groups,
 ) -> Option<(Quantity, Vec<Located<String>>)> {
     match quantity {
         Quantity::Bound => Some((quantity, Vec::new())),
@@ -59,7 +61,7 @@ fn measured(
             Some((Quantity::Probe { at }, Vec::new()))
         }
         Quantity::Mean | Quantity::MeanInside => {
-            table.read("of", |of| Ok((mean(of, boundaries, materials)?, vec![of.text()?])))
+            table.read("of", |of| Ok((mean(of, groups)?, vec![of.text()?])))
         }
         Quantity::Content => {
             let kind = table.require("kind")?;
@@ -67,7 +69,7 @@ fn measured(
             Some((quantity, of))
         }
         Quantity::Flux => {
-            let named = |of: &Entry| find_boundary(of, boundaries).and_then(|_| of.text());
+            let named = |of: &Entry| find(of, BOUNDARIES, boundaries).and_then(|_| of.text());
             let of = table.read("of", |of| one_or_more(of, BOUNDARIES, named))?;
             Some((quantity, of))
         }
@@ -79,13 +81,12 @@ fn measured(
     }
 }
 
-const BOUNDARIES: [&str; 2] = ["boundary", "boundaries"];
-const MATERIALS: [&str; 2] = ["material", "materials"];
+const MATERIALS: Words = ["material", "materials"];
 
 /// The names of one such thing or of a list of them, each once.
 fn one_or_more(
     of: &Entry,
-    [one, many]: [&str; 2],
+    [one, many]: Words,
     named: impl Fn(&Entry) -> Result<Located<String>>,
 ) -> Result<Vec<Located<String>>> {
     let Some(items) = of.array() else { return Ok(vec![named(of)?]) };
@@ -106,7 +107,7 @@ fn one_or_more(
 
 /// The name of a contact boundary.
 fn contact(of: &Entry, boundaries: &[Named<Condition>]) -> Result<Located<String>> {
-    match find_boundary(of, boundaries)? {
+    match find(of, BOUNDARIES, boundaries)? {
         Some(Condition::Contact { .. }) | None => of.text(),
         Some(other) => {
             let message = format!("expected a contact boundary, this one is {}", other.kind());
@@ -116,11 +117,7 @@ fn contact(of: &Entry, boundaries: &[Named<Condition>]) -> Result<Located<String
 }
 
 /// A mean over a boundary or, where none has the name, over a material.
-fn mean(
-    of: &Entry,
-    boundaries: &[Named<Condition>],
-    materials: &[Named<Material>],
-) -> Result<Quantity> {
+fn mean(of: &Entry, Groups { boundaries, materials }: Groups) -> Result<Quantity> {
     let name = of.text()?.value;
     if boundaries.iter().any(|(known, _)| known.value == name) {
         return Ok(Quantity::Mean);
@@ -129,11 +126,7 @@ fn mean(
         return Ok(Quantity::MeanInside);
     }
     let error = of.error(format_args!("no boundary or material `{name}` in the scene"));
-    let names = [
-        list(boundaries.iter().map(|(name, _)| name)),
-        list(materials.iter().map(|(name, _)| name)),
-    ];
-    let [boundaries, materials] = names;
+    let [boundaries, materials] = [names(boundaries), names(materials)];
     Err(error.hint(format!("boundaries: {boundaries}; materials: {materials}")).into())
 }
 
@@ -144,7 +137,8 @@ fn content(
     materials: &[Named<Material>],
 ) -> Result<Vec<Located<String>>> {
     let Some(of) = of else { return stores(kind, materials).map(|()| Vec::new()) };
-    let names = one_or_more(of, MATERIALS, |of| find_material(of, materials))?;
+    let named = |of: &Entry| find(of, MATERIALS, materials).and_then(|_| of.text());
+    let names = one_or_more(of, MATERIALS, named)?;
     let is_named = |(name, _): &&Named<Material>| names.iter().any(|of| of.value == name.value);
     stores(of, materials.iter().filter(is_named))?;
     Ok(names)
@@ -159,17 +153,6 @@ fn stores<'m>(at: &Entry, materials: impl IntoIterator<Item = &'m Named<Material
             Err(error.hint(ABOUT_STORAGE).into())
         }
     }
-}
-
-/// The name of a material.
-fn find_material(of: &Entry, materials: &[Named<Material>]) -> Result<Located<String>> {
-    let name = of.text()?;
-    if materials.iter().any(|(known, _)| known.value == name.value) {
-        return Ok(name);
-    }
-    let error = of.error(format_args!("no material `{}` in the scene", name.value));
-    let names = list(materials.iter().map(|(name, _)| name));
-    Err(error.hint(format!("materials of the scene: {names}")).into())
 }
 
 impl Output {

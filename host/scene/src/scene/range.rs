@@ -11,51 +11,37 @@ use super::entry::Entry;
 use super::{Input, Located};
 use crate::error::Result;
 
-/// A closed interval of finite numbers, in the unit of its input.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct InputRange {
-    /// The least value.
-    pub lo: f64,
-    /// The largest value, not below `lo`.
-    pub hi: f64,
-}
-
-impl InputRange {
-    /// Whether it holds `value`. NaN is in no range.
-    pub fn contains(&self, value: f64) -> bool {
-        self.lo <= value && value <= self.hi
+/// Reads the least and the largest value, finite numbers in the unit of the input.
+pub(super) fn read_range(entry: &Entry) -> Result<Located<[f64; 2]>> {
+    let [first, second] = entry.pair("the least and the largest value")?;
+    let (lo, hi) = (first.number()?, second.number()?);
+    if lo <= hi {
+        return Ok(entry.at.with([lo, hi]));
     }
-
-    pub(super) fn read(entry: &Entry) -> Result<Located<Self>> {
-        let [first, second] = entry.pair("the least and the largest value")?;
-        let (lo, hi) = (first.number()?, second.number()?);
-        if lo <= hi {
-            return Ok(entry.at.with(Self { lo, hi }));
-        }
-        let [lo, hi] = [lo, hi].map(shown);
-        let message = format!("from {lo} to {hi} there is no value");
-        Err(entry
-            .error(message)
-            .hint(format!("write the smaller number first: [{hi}, {lo}]"))
-            .into())
-    }
+    let [lo, hi] = [lo, hi].map(shown);
+    let error = entry.error(format_args!("from {lo} to {hi} there is no value"));
+    Err(error.hint(format!("write the smaller number first: [{hi}, {lo}]")).into())
 }
 
 impl Input {
     /// The least and the largest value that it may have: all numbers where there is no range.
     pub fn interval(&self) -> [f64; 2] {
-        let range = self.range.as_ref().map(|range| [range.value.lo, range.value.hi]);
-        range.unwrap_or([f64::NEG_INFINITY, f64::INFINITY])
+        self.range.as_ref().map_or([f64::NEG_INFINITY, f64::INFINITY], |range| range.value)
+    }
+
+    /// The least or the largest value that it may have; its default where there is no range.
+    pub fn end(&self, is_largest: bool) -> f64 {
+        self.range.as_ref().map_or(self.default, |range| range.value[usize::from(is_largest)])
     }
 
     /// Why the input may not have this value, in a sentence; nothing where it may.
     pub fn refusal(&self, value: f64) -> Option<String> {
-        let range = self.range.as_ref()?.value;
-        let InputRange { lo, hi } = range;
-        let [value_shown, lo, hi] = [value, lo, hi].map(shown);
-        let name = &self.name.value;
-        let message = || format!("{value_shown} is outside the range of `{name}`, [{lo}, {hi}]");
-        (!range.contains(value)).then(message)
+        let [lo, hi] = self.range.as_ref()?.value;
+        if lo <= value && value <= hi {
+            return None;
+        }
+        let ([value, lo, hi], name) = ([value, lo, hi].map(shown), &self.name.value);
+        Some(format!("{value} is outside the range of `{name}`, [{lo}, {hi}]"))
     }
 }
 

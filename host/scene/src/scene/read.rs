@@ -17,7 +17,7 @@ use super::draft::{Draft, bounded, unit, unread};
 use super::entry::Entry;
 use super::keys::{Section, tables};
 use super::material::read_material;
-use super::output::read_output;
+use super::output::{Groups, read_output};
 use super::setting::read_setting;
 use super::table::Table;
 use super::{Condition, Exact, Located, Material, Named, Scene, Target, Time};
@@ -138,7 +138,8 @@ fn read_scene(root: &Table) -> Draft {
     let materials = at_least_one(root, "material", read_material);
     let stores = materials.iter().any(|(_, of)| of.as_ref().is_none_or(Material::stores));
     let inputs = each(root, "input", |table| read_input(table, &boundaries));
-    let outputs = each(root, "output", |table| read_output(table, &boundaries, &materials));
+    let groups = Groups { boundaries: &boundaries, materials: &materials };
+    let outputs = each(root, "output", |table| read_output(table, groups));
     let mesh = read_mesh(root);
     let open = mesh.is_none().then(|| "mesh".to_owned());
     let open = open.into_iter().chain(unread(&boundaries)).chain(unread(&materials)).collect();
@@ -214,7 +215,7 @@ fn read_source(root: &Table) -> Option<Located<Expression>> {
         return Some(Located { value: Expression::constant(0.0), key, span: 0..0 });
     };
     table.only("source", None);
-    table.read("f", |entry| entry.expression(Variables::SpaceTime))
+    table.load("f")
 }
 
 fn read_target(table: &Table) -> Option<Target> {
@@ -242,24 +243,24 @@ fn read_time(table: &Table, stores: bool) -> Option<Time> {
         true => table.read_some("end", late),
         false => table.read("end", late).map(Some),
     };
-    let initial = table.get("initial");
-    if let Some(entry) = initial.as_ref().filter(|_| !stores) {
+    if let Some(entry) = table.get("initial").filter(|_| !stores) {
         let fault = entry.error("no material stores u, so that nothing has a start");
         let hint = "give a material a `capacity`, or remove `initial`";
         table.document.faults.note(fault.hint(hint));
     }
-    let stated = initial.filter(|entry| entry.word() != Some("steady"));
-    let initial = stated.map(|entry| table.keep(entry.expression(Variables::Space)));
-    let initial = initial.map_or(Some(None), |read| read.map(Some));
+    let initial = table.read_or("initial", None, |entry| match entry.word() {
+        Some("steady") => Ok(None),
+        _ => entry.expression(Variables::Space).map(Some),
+    });
     Some(Time { step: step?, end: end?, initial: initial? })
 }
 
 fn read_exact(table: &Table) -> Option<Exact> {
     table.only("exact", None);
-    let u = table.read("u", |entry| entry.expression(Variables::SpaceTime));
+    let u = table.load("u");
     let gradient = table.read("gradient", |entry| {
         let [along_x, along_y] = entry.pair("∂u/∂x, ∂u/∂y")?;
-        Ok([along_x.expression(Variables::SpaceTime)?, along_y.expression(Variables::SpaceTime)?])
+        Ok([along_x.load()?, along_y.load()?])
     });
     Some(Exact { u: u?, gradient: gradient? })
 }

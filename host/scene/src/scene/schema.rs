@@ -6,7 +6,7 @@
 use serde_json::{Map, Value as Json, json};
 
 use super::exclusions;
-use super::keys::{Key, SECTIONS, Section, Value, plain};
+use super::keys::{Key, SECTIONS, Section, Value};
 use super::read::MOST_TABLES;
 
 /// The name of its file beside a scene.
@@ -39,7 +39,7 @@ pub fn schema() -> Json {
 
 /// What stands above all tables.
 fn top_keys() -> impl Iterator<Item = (String, Json)> {
-    SECTIONS.iter().filter(|section| section.header.is_empty()).flat_map(properties)
+    Section::all("").flat_map(properties)
 }
 
 /// The tables: those with names of the user's hold a table per name.
@@ -109,15 +109,8 @@ fn properties(section: &Section) -> impl Iterator<Item = (String, Json)> {
 
 /// The values that a key may have, with what it means.
 fn described(key: &Key) -> Json {
-    let unit = Some(plain(key.unit)).filter(|unit| !unit.is_empty());
-    let unit = unit.map_or_else(String::new, |unit| format!(" [{unit}]"));
-    let default =
-        key.default.map_or_else(String::new, |default| format!("; default {}", plain(default)));
     let mut values = values(key.value);
-    if let Json::Object(fields) = &mut values {
-        let words = format!("{}{}{unit}{default}", key.words(), plain(key.meaning));
-        fields.insert("description".to_owned(), words.into());
-    }
+    values["description"] = key.described().into();
     values
 }
 

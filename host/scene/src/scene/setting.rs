@@ -6,7 +6,7 @@ use toml::de::DeValue;
 use super::entry::Entry;
 use super::exclusions;
 use super::table::Table;
-use crate::error::{InputError, Result};
+use crate::error::Result;
 use crate::goal::Goal;
 use crate::setting::{CellKind, MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
 
@@ -37,48 +37,31 @@ pub(super) const MOST_STATES: u32 = 10_000;
 /// Reads `[setting]`; what is left out is as in [`Setting::default`].
 pub(super) fn read_setting(table: &Table) -> Option<Setting> {
     table.only("setting", None);
-    let default = Setting::default();
-    let refine = table.read_or("refine", default.refine, |entry| entry.whole(0..=FINEST));
-    let error = table.read_some("error", goal);
-    let cells = choice(table, "cells", &CELLS);
-    let element = choice(table, "element", &ELEMENTS);
-    let scalar = choice(table, "scalar", &SCALARS);
-    let math = choice(table, "math", &MATHS);
-    let model = choice(table, "model", &MODELS);
-    let solver = table.read_or("solver", None, solver);
-    let start = choice(table, "start", &STARTS);
-    let omega = table.read_or("omega", default.omega, omega);
-    let sweeps = table.read_some("sweeps", |entry| entry.whole(1..=u32::MAX));
-    let share = table.read_some("share", |entry| entry.inside(0.0, 1.0));
-    let certificate = table.read_or("certificate", default.certificate, Entry::boolean);
-    let memory = table.read_some("memory", |entry| entry.whole(0..=MOST_STATES));
-    let setting = Setting {
-        refine: refine?,
-        error: error?,
-        cells: cells?,
-        element: element?.unwrap_or(default.element),
-        scalar: scalar?,
-        math: math?.unwrap_or(default.math),
-        model: model?,
-        solver: solver?,
-        start: start?.unwrap_or(default.start),
-        omega: omega?,
-        sweeps: sweeps?,
-        share: share?,
-        certificate: certificate?,
-        memory: memory?,
-    };
-    match exclusions::broken(table) {
-        None => Some(setting),
-        Some([key, message, hint]) => {
-            table.document.faults.note(error_at(table, key, message).hint(hint));
-            None
-        }
+    let mut setting = Setting::default();
+    let of = &mut setting;
+    let are_right = [
+        table.set("refine", &mut of.refine, |entry| entry.whole(0..=FINEST)),
+        table.set("error", &mut of.error, goal),
+        table.set("cells", &mut of.cells, |entry| entry.choice(&CELLS)),
+        table.set("element", &mut of.element, |entry| entry.choice(&ELEMENTS)),
+        table.set("scalar", &mut of.scalar, |entry| entry.choice(&SCALARS)),
+        table.set("math", &mut of.math, |entry| entry.choice(&MATHS)),
+        table.set("model", &mut of.model, |entry| entry.choice(&MODELS)),
+        table.set("solver", &mut of.solver, solver),
+        table.set("start", &mut of.start, |entry| entry.choice(&STARTS)),
+        table.set("omega", &mut of.omega, omega),
+        table.set("sweeps", &mut of.sweeps, |entry| entry.whole(1..=u32::MAX)),
+        table.set("share", &mut of.share, |entry| entry.inside(0.0, 1.0)),
+        table.set("certificate", &mut of.certificate, Entry::boolean),
+        table.set("memory", &mut of.memory, |entry| entry.whole(0..=MOST_STATES)),
+    ];
+    if are_right.contains(&false) {
+        return None;
     }
-}
-
-fn choice<T: Copy>(table: &Table, key: &str, choices: &[(&str, T)]) -> Option<Option<T>> {
-    table.read_some(key, |entry| Ok(entry.choice(choices)?.value))
+    let Some([key, message, hint]) = exclusions::broken(table) else { return Some(setting) };
+    let error = table.require(key)?.error(message);
+    table.document.faults.note(error.hint(hint));
+    None
 }
 
 /// A scene says what a device does; what is for the desk alone is told.
@@ -90,7 +73,7 @@ fn solver(entry: &Entry) -> Result<Option<Method>> {
             .hint(hint)
             .into());
     }
-    Ok(entry.choice(&SOLVERS)?.value)
+    entry.choice(&SOLVERS)
 }
 
 fn omega(entry: &Entry) -> Result<Omega> {
@@ -108,9 +91,4 @@ fn goal(entry: &Entry) -> Result<Goal> {
     };
     let expected = || entry.expected("a number > 0, such as 0.01, or a part such as \"5%\"");
     found.ok_or_else(|| expected().into())
-}
-
-/// The error that the value of `key` does not go with another.
-fn error_at(table: &Table, key: &str, message: &str) -> InputError {
-    table.get(key).map_or_else(|| table.absent(key), |entry| entry.error(message))
 }

@@ -15,7 +15,7 @@ use super::entry::Entry;
 use super::keys::Section;
 use super::{Datum, Located};
 use crate::error::{InputError, Result};
-use crate::expression::{Expression, Variables};
+use crate::expression::Expression;
 
 /// A table, its name located at the header.
 pub(super) struct Table<'a> {
@@ -78,6 +78,17 @@ impl<'a> Table<'a> {
         self.read_or(key, None, |entry| read(entry).map(Some))
     }
 
+    /// Puts the value of `key`, read, in its place, where the key is there; says whether nothing is wrong with it.
+    pub fn set<T, V: Into<T>>(
+        &self,
+        key: &str,
+        place: &mut T,
+        read: impl FnOnce(&Entry<'a>) -> Result<V>,
+    ) -> bool {
+        let Some(entry) = self.get(key) else { return true };
+        self.keep(read(&entry)).map(|value| *place = value.into()).is_some()
+    }
+
     /// The value of `key`, if there is one.
     pub fn get(&self, key: &str) -> Option<Entry<'a>> {
         let value = self.entries.get(key)?;
@@ -104,16 +115,20 @@ impl<'a> Table<'a> {
         self.document.error(&self.missing(key, ()), "missing")
     }
 
-    /// An expression in `variables`, 0 if the key is absent.
-    pub fn expression_or_zero(&self, key: &str, variables: Variables) -> Option<Datum> {
-        let zero = self.missing(key, Expression::constant(0.0));
-        self.read_or(key, zero, |entry| entry.expression(variables))
+    /// An expression in x, y and t, which must be there.
+    pub fn load(&self, key: &str) -> Option<Datum> {
+        self.read(key, Entry::load)
     }
 
-    /// An end of a range: an expression in `variables` or an infinity, `default` if the key is absent.
-    pub fn end_of_range(&self, key: &str, default: f64, variables: Variables) -> Option<Datum> {
+    /// The value of `key`, read; a constant if the key is absent.
+    pub fn or_constant(
+        &self,
+        key: &str,
+        default: f64,
+        read: impl FnOnce(&Entry<'a>) -> Result<Datum>,
+    ) -> Option<Datum> {
         let default = self.missing(key, Expression::constant(default));
-        self.read_or(key, default, |entry| entry.end_of_range(variables))
+        self.read_or(key, default, read)
     }
 
     /// The table under `key`, if there is one.

@@ -1,6 +1,6 @@
 //! A scene's loads as a sum: base + Σ input · pattern, and the scene that only some of these terms leave.
 
-use super::{Datum, Field, Located, Output, Quantity, Role, Scene};
+use super::{Datum, Field, Located, Output, Quantity, Scene};
 use crate::expression::Expression;
 
 /// A term of the sum: 0 is the base, 1 + j what one unit of input j adds.
@@ -44,11 +44,8 @@ impl Scene {
 pub fn each_load(scene: &mut Scene, mut each: impl FnMut(&mut Datum)) {
     each(&mut scene.source);
     for boundary in &mut scene.boundaries {
-        for (role, data) in boundary.condition.data_mut() {
-            if matches!(role, Role::Load(_)) {
-                each(data);
-            }
-        }
+        let data = boundary.condition.data_mut().into_iter();
+        data.filter(|(field, _)| *field != Field::Coefficient).for_each(|(_, data)| each(data));
     }
 }
 

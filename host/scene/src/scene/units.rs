@@ -104,8 +104,8 @@ impl Units {
         }
         times(&mut scene.source, Unit::Flux);
         for boundary in &mut scene.boundaries {
-            for (role, data) in boundary.condition.data_mut() {
-                moved(data, role.unit());
+            for (field, data) in boundary.condition.data_mut() {
+                moved(data, field.unit());
             }
         }
         if let Some(initial) = scene.time.as_mut().and_then(|time| time.initial.as_mut()) {

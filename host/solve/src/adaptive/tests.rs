@@ -6,7 +6,7 @@ use crate::{SolverKind, solve};
 use signorini_problem::fixtures::limited::two_transitions;
 use signorini_problem::fixtures::{SMOOTH, distorted, scene, with_four_sides};
 use signorini_scene::mesh;
-use signorini_scene::mesh::refine::refined;
+use signorini_scene::mesh::adaptive::refined;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{Curve, Surface};
 use signorini_tolerances::solve::{CARRIED, GUARANTEE};

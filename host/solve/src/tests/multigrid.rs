@@ -11,7 +11,7 @@ use signorini_problem::Problem;
 use signorini_problem::fixtures::{SMOOTH, changed, on_grid, scene};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
-use signorini_scene::mesh::refine::refined;
+use signorini_scene::mesh::adaptive::refined;
 use signorini_scene::mesh::structured::{Cells, grid};
 
 fn by(solver: SolverKind) -> Options {

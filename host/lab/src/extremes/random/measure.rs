@@ -21,7 +21,7 @@ use signorini_certify::exact::{Distance, distance_on};
 use signorini_certify::robin::missed;
 use signorini_problem::Problem;
 use signorini_problem::quadrature::{gauss, on_panels};
-use signorini_scene::mesh::refine::refined;
+use signorini_scene::mesh::adaptive::refined;
 use signorini_scene::scene::units::Units;
 use signorini_scene::{Mesh, Result};
 use signorini_solve::norms::errors;

@@ -11,7 +11,7 @@ use signorini_condense::stepped;
 use signorini_problem::quadrature::gauss;
 use signorini_problem::{Problem, State};
 use signorini_scene::error::{Error, Result};
-use signorini_scene::mesh::refine::refined;
+use signorini_scene::mesh::adaptive::refined;
 use signorini_session::tick::{Budget, ScheduledTick, TickRecord, play, replay};
 use signorini_solve::{ScalarKind, Solution};
 

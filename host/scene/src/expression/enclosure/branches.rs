@@ -42,8 +42,8 @@ impl Numbers for Branches {
         let Interval { low, high } = match operation {
             // One that is no number passes on.
             _ if !form.is_defined() => Interval::ALL,
-            Binary::Max => a.form.combined(1.0, &b.form, -1.0).range(),
-            Binary::Min => b.form.combined(1.0, &a.form, -1.0).range(),
+            Binary::Max => a.form.minus(&b.form).range(),
+            Binary::Min => b.form.minus(&a.form).range(),
             _ => Interval::ALL,
         };
         let disc = if low >= 0.0 {

@@ -146,7 +146,7 @@ impl Numbers for Discs {
         let (c, r) = (a.centre, a.radius);
         let value = operation.apply(c);
         // The least product of distances from the poles or branch points ±1, ±i.
-        let off = |at: f64| ((c - at).abs() - r) * ((c + at).abs() - r);
+        let off = ((c - 1.0).abs() - r) * ((c + 1.0).abs() - r);
         match operation {
             Unary::Negate => a.combined(-1.0, self.constant(0.0), 0.0, self.0),
             // |sin z − sin c| = 2|sin ½(z − c) cos ½(z + c)|
@@ -154,8 +154,9 @@ impl Numbers for Discs {
             Unary::Tan => {
                 self.binary(Binary::Divide, self.unary(Unary::Sin, a), self.unary(Unary::Cos, a))
             }
-            Unary::Sinh => Disc::new(value, 2.0 * (0.5 * r).sinh() * (c.abs() + 0.5 * r).cosh()),
-            Unary::Cosh => Disc::new(value, 2.0 * (0.5 * r).sinh() * (c.abs() + 0.5 * r).cosh()),
+            Unary::Sinh | Unary::Cosh => {
+                Disc::new(value, 2.0 * (0.5 * r).sinh() * (c.abs() + 0.5 * r).cosh())
+            }
             // No pole within ½π of the real axis.
             Unary::Tanh if r < 1.5 => a.steep(value, r.cos().powi(-2)),
             Unary::Exp if value < FADED => {
@@ -167,7 +168,7 @@ impl Numbers for Discs {
             Unary::Erf | Unary::Erfc => a.bell(value),
             Unary::Ln if c > r => Disc::new(value, -(-a.share()).ln_1p()),
             Unary::Sqrt if c > r => a.power(0.5),
-            Unary::Asin | Unary::Acos if c.abs() + r < 1.0 => a.steep(value, off(1.0).powf(-0.5)),
+            Unary::Asin | Unary::Acos if c.abs() + r < 1.0 => a.steep(value, off.powf(-0.5)),
             Unary::Atan => {
                 let far = c.hypot(1.0) - r;
                 if far > 0.0 { a.steep(value, far.powi(-2)) } else { Disc::unknown() }

@@ -48,7 +48,7 @@ impl Numbers for Switches {
 
     fn binary(&self, operation: Binary, a: Form, b: Form) -> Form {
         if let Binary::Min | Binary::Max = operation {
-            self.see(a.combined(1.0, &b, -1.0));
+            self.see(a.minus(&b));
         }
         self.forms.binary(operation, a, b)
     }

@@ -122,6 +122,12 @@ impl Form {
         )
     }
 
+    /// self − other
+    #[must_use]
+    pub fn minus(&self, other: &Self) -> Self {
+        self.combined(1.0, other, -1.0)
+    }
+
     /// a·self
     #[must_use]
     pub fn scaled(&self, a: f64) -> Self {

@@ -1,6 +1,6 @@
 //! The range of each operation over intervals of its operands, and whether it is a number there.
 
-use super::super::operation::{Binary, Unary};
+use super::super::operation::{Binary, Unary, sign};
 use super::interval::{Interval, is_exact_product};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -207,9 +207,4 @@ fn angle(a: Interval, b: Interval) -> Interval {
     let corners = [[a.low, b.low], [a.low, b.high], [top, b.low], [top, b.high]];
     let hull = Interval::hull(&corners.map(|[a, b]| a.atan2(b + 0.0)));
     Interval::new(widened(a.low, hull.low, -1.0), widened(a.low, hull.high, 1.0))
-}
-
-/// −1, 0 or 1.
-fn sign(a: f64) -> f64 {
-    if a == 0.0 { 0.0 } else { a.signum() }
 }

@@ -10,9 +10,8 @@ use super::super::operation::{Binary, Unary};
 use super::super::program::Numbers;
 use super::form::Form;
 use super::function::{ULP, faded};
-use super::interval::Interval;
 use super::numbers::Forms;
-use super::region::Region;
+use super::region::{Region, cross, dot, from, norm};
 
 /// Where a power of the distance grows without bound.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,16 +46,8 @@ const SAME: f64 = 64.0 * ULP;
 impl Growth {
     fn plain(form: &Form) -> Option<Self> {
         let range = form.range();
-        let sign = if range.low >= 0.0 {
-            1.0
-        } else if range.high <= 0.0 {
-            -1.0
-        } else {
-            0.0
-        };
-        let plain =
-            Self { low: range.distance(), high: range.size(), sign, exponent: 0.0, place: None };
-        range.is_finite().then_some(plain)
+        let [low, high, sign] = [range.distance(), range.size(), range.sign()];
+        range.is_finite().then_some(Self { low, high, sign, exponent: 0.0, place: None })
     }
 
     fn power(self, p: f64) -> Option<Self> {
@@ -174,39 +165,30 @@ impl Grows<'_> {
     /// An affine function that is 0 somewhere: its slope times the distance from there.
     fn beside_zero(&self, form: &Form, affine: [f64; 3]) -> Option<Growth> {
         let (slope, place) = self.0.zero(affine)?;
-        let Interval { low, high } = form.range();
-        let sign = if low >= 0.0 {
-            1.0
-        } else if high <= 0.0 {
-            -1.0
-        } else {
-            0.0
-        };
         let slack = 1e-12;
         let [low, high] = [slope * (1.0 - slack), slope * (1.0 + slack)];
-        Some(Growth { low, high, sign, exponent: 1.0, place: Some(place) })
+        Some(Growth { low, high, sign: form.range().sign(), exponent: 1.0, place: Some(place) })
     }
 
     /// The one place of both, where it is one: a line is seen from a point on it with no lower bound.
     fn joint(&self, a: Growth, b: Growth) -> Option<(Growth, Growth, Option<Place>)> {
-        let norm = |p: [f64; 2]| p[0].hypot(p[1]);
         let corners = self.0.corners().iter().map(|corner| norm(*corner));
         let size = SAME * corners.fold(0.0, f64::max);
-        let is_near = |p: [f64; 2], q: [f64; 2]| norm([p[0] - q[0], p[1] - q[1]]) <= size;
-        let from = |line: Growth, place| Growth { low: 0.0, place: Some(place), ..line };
+        let is_near = |p, q| norm(from(q, p)) <= size;
+        let seen = |line: Growth, place| Growth { low: 0.0, place: Some(place), ..line };
         match (a.place, b.place) {
             (place, None) | (None, place) => Some((a, b, place)),
             (Some(Place::Point(p)), Some(Place::Point(q))) if is_near(p, q) => {
                 Some((a, b, a.place))
             }
             (Some(Place::Line(n, c)), Some(Place::Line(m, d)))
-                if norm([n[0] - m[0], n[1] - m[1]]) <= SAME && (c - d).abs() <= size =>
+                if norm(from(m, n)) <= SAME && (c - d).abs() <= size =>
             {
                 Some((a, b, a.place))
             }
             (Some(Place::Line(n, c)), Some(place @ Place::Point(p))) if a.exponent >= 0.0 => {
-                let is_on = (n[0] * p[0] + n[1] * p[1] - c).abs() <= size;
-                is_on.then(|| (from(a, place), b, Some(place)))
+                let is_on = (dot(n, p) - c).abs() <= size;
+                is_on.then(|| (seen(a, place), b, Some(place)))
             }
             (Some(Place::Point(_)), Some(Place::Line(..))) => {
                 self.joint(b, a).map(|(b, a, place)| (a, b, place))
@@ -259,7 +241,7 @@ impl Grows<'_> {
 
 /// a·dist² + b·dist² of two lines that meet: between the eigenvalues of a nnᵀ + b mmᵀ times the square of the distance to their point.
 fn squares(factors: [Growth; 2], [n, m]: [[f64; 2]; 2], [c, d]: [f64; 2]) -> Option<Growth> {
-    let turn = n[0] * m[1] - n[1] * m[0];
+    let turn = cross(n, m);
     if turn.abs() < 1e-6 {
         return None;
     }

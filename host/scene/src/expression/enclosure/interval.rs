@@ -74,6 +74,11 @@ impl Interval {
         if self.holds(0.0) { 0.0 } else { self.low.abs().min(self.high.abs()) }
     }
 
+    /// −1 or 1 where no number of it has the other sign, else 0.
+    pub(super) fn sign(self) -> f64 {
+        f64::from(self.low >= 0.0) - f64::from(self.low < 0.0 && self.high <= 0.0)
+    }
+
     /// high − low
     pub fn width(self) -> f64 {
         self.high - self.low

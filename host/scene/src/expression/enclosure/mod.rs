@@ -40,7 +40,6 @@ pub use region::Region;
 use region::reach;
 
 use super::Expression;
-use super::operation::Unary;
 use super::program::Numbers;
 use branches::{Branch, Branches};
 use continuation::{Disc, Discs};
@@ -48,27 +47,17 @@ use cut::Switches;
 use degree::{Degree, Degrees};
 use growth::Grows;
 use numbers::Forms;
+pub use numbers::root;
 use slope::{Slope, Slopes};
-
-/// The root of a form.
-pub fn root(form: &Form) -> Form {
-    Forms(form.shape()).unary(Unary::Sqrt, *form)
-}
 
 impl Expression {
     /// All values in `region` at the time t, in f64 arithmetic whatever that of the expression.
     pub fn enclose(&self, region: &Region, t: f64) -> Form {
-        self.enclose_during(region, Interval::point(t))
-    }
-
-    /// All values in `region` at all times in `t`.
-    pub fn enclose_during(&self, region: &Region, t: Interval) -> Form {
-        if let Some(value) = self.is_constant() {
-            return Form::constant(region.shape(), value);
+        let forms = Forms(region.shape());
+        match self.is_constant() {
+            Some(value) => forms.constant(value),
+            None => self.program.at(&forms, region.coordinates(), t),
         }
-        let [x, y] = region.coordinates();
-        let at = [x, y, Form::flat(region.shape(), t, true)];
-        self.program.run(&Forms(region.shape()), at)
     }
 
     /// The largest modulus of its analytic continuation, where one reference coordinate of the region's rule is complex and within
@@ -83,48 +72,42 @@ impl Expression {
     }
 
     fn disc(&self, region: &Region, rho: f64, t: f64) -> Disc {
-        let [x, y] = region.neighbourhood(rho);
+        let ([x, y], discs) = (region.neighbourhood(rho), Discs(reach(rho)));
         if self.is_smooth() {
-            let discs = Discs(reach(rho));
-            return self.program.run(&discs, [x, y, discs.constant(t)]);
+            return self.program.at(&discs, [x, y], t);
         }
-        let branches = Branches(Forms(region.shape()), Discs(reach(rho)));
+        let branches = Branches(Forms(region.shape()), discs);
         let [of_x, of_y] = region.coordinates();
-        let at =
-            [Branch { form: of_x, disc: x }, Branch { form: of_y, disc: y }, branches.constant(t)];
-        self.program.run(&branches, at).disc
+        let at = [Branch { form: of_x, disc: x }, Branch { form: of_y, disc: y }];
+        self.program.at(&branches, at, t).disc
     }
 
     /// The first argument of a kink or a jump whose sign is not known in a region, see [`Region::cut`].
     pub fn switch(&self, region: &Region, t: f64) -> Option<Form> {
         let switches = Switches { forms: Forms(region.shape()), found: None.into() };
-        let [x, y] = region.coordinates();
-        self.program.run(&switches, [x, y, switches.constant(t)]);
+        self.program.at(&switches, region.coordinates(), t);
         switches.found.get()
     }
 
     /// How it grows in a region where it is not bounded, if that is known.
     pub fn growth(&self, region: &Region, t: f64) -> Option<Growth> {
         let grows = Grows(region);
-        let [x, y] = grows.coordinates();
-        self.program.run(&grows, [x, y, grows.constant(t)]).growth
+        self.program.at(&grows, grows.coordinates(), t).growth
     }
 
     /// Its degree as a polynomial in x and y at the time t, infinite where it may be none.
     pub fn degree(&self, t: f64) -> f64 {
         let one = Degree { degree: 1.0, value: f64::NAN };
-        self.program.run(&Degrees, [one, one, Degrees.constant(t)]).degree
+        self.program.at(&Degrees, [one; 2], t).degree
     }
 
     /// All values and all derivatives along a way on which x and y change as fast as `direction` says, where there are any:
     /// at a kink the derivatives of both sides.
     pub fn enclose_slope(&self, region: &Region, t: f64, direction: [f64; 2]) -> [Form; 2] {
-        let constant = |value| Form::constant(region.shape(), value);
-        let [x, y] = region.coordinates();
-        let [dx, dy] = direction.map(constant);
-        let at = [(x, dx), (y, dy), (constant(t), constant(0.0))];
-        let at = at.map(|(value, slope)| Slope { value, slope });
-        let Slope { value, slope } = self.program.run(&Slopes(Forms(region.shape())), at);
+        let forms = Forms(region.shape());
+        let ([x, y], [dx, dy]) = (region.coordinates(), direction.map(|by| forms.constant(by)));
+        let at = [(x, dx), (y, dy)].map(|(value, slope)| Slope { value, slope });
+        let Slope { value, slope } = self.program.at(&Slopes(forms), at, t);
         [value, slope]
     }
 }

@@ -42,11 +42,11 @@ impl Numbers for Forms {
         let natural = (range, is_number && a.is_defined() && b.is_defined());
         match operation {
             Binary::Add => a.combined(1.0, &b, 1.0).within(natural),
-            Binary::Subtract => a.combined(1.0, &b, -1.0).within(natural),
+            Binary::Subtract => a.minus(&b).within(natural),
             Binary::Multiply => a.times_within(&b, natural),
-            Binary::Divide if !b.range().holds(0.0) => a.times_within(&to(&b, -1.0), natural),
+            Binary::Divide if !b.range().holds(0.0) => a.times_within(&b.to(-1.0), natural),
             Binary::Divide => Form::flat(self.0, range, natural.1),
-            Binary::Power if b.is_constant() => to(&a, b.range().low),
+            Binary::Power if b.is_constant() => a.to(b.range().low),
             Binary::Power if a.range().low > 0.0 => {
                 let logarithm = self.unary(Unary::Ln, a);
                 self.unary(Unary::Exp, b.times(&logarithm)).within(natural)
@@ -55,12 +55,12 @@ impl Numbers for Forms {
             Binary::Atan2 => self.angle(a, b, natural),
             // max(a, b) = b + max(a − b, 0), min(a, b) = a − max(a − b, 0)
             Binary::Max => {
-                let above = positive_part(&a.combined(1.0, &b, -1.0));
+                let above = positive_part(&a.minus(&b));
                 above.map_or_else(|| a, |above| b.combined(1.0, &above, 1.0)).within(natural)
             }
             Binary::Min => {
-                let above = positive_part(&a.combined(1.0, &b, -1.0));
-                above.map_or_else(|| b, |above| a.combined(1.0, &above, -1.0)).within(natural)
+                let above = positive_part(&a.minus(&b));
+                above.map_or_else(|| b, |above| a.minus(&above)).within(natural)
             }
         }
     }
@@ -93,20 +93,25 @@ impl Form {
     pub fn over(&self, other: &Self) -> Self {
         Forms(self.shape()).binary(Binary::Divide, *self, *other)
     }
+
+    /// aᵖ
+    pub(super) fn to(&self, p: f64) -> Self {
+        let (range, is_number) = super::function::power(self.range(), p);
+        let natural = (range, is_number && self.is_defined());
+        if p == 1.0 {
+            return *self;
+        }
+        if p == 2.0 {
+            return self.times_within(self, natural);
+        }
+        let lower = |at| Some([0, 1, 2].map(|k| of_power(at, p, k)));
+        composed(self, lower, |at| Some(of_power(at, p, 3)), natural)
+    }
 }
 
-/// aᵖ
-fn to(a: &Form, p: f64) -> Form {
-    let (range, is_number) = super::function::power(a.range(), p);
-    let natural = (range, is_number && a.is_defined());
-    if p == 1.0 {
-        return *a;
-    }
-    if p == 2.0 {
-        return a.times_within(a, natural);
-    }
-    let lower = |at| Some([0, 1, 2].map(|k| of_power(at, p, k)));
-    composed(a, lower, |at| Some(of_power(at, p, 3)), natural)
+/// The root of a form.
+pub fn root(form: &Form) -> Form {
+    Forms(form.shape()).unary(Unary::Sqrt, *form)
 }
 
 /// f(a) = f(m) + f′(m)u + ½f″(m)u² + ⅙f‴(ξ)u³ with u = a − m, m the middle of the range of a and ξ somewhere in it: `lower` has the

@@ -1,7 +1,7 @@
 //! Parts of regions: quarters, and halves of what is thin.
 
 use super::polynomial::Shape;
-use super::region::{Region, centroid, cross, from, middle};
+use super::region::{Region, cross, from, middle};
 
 impl Region {
     /// Halves of a segment; quarters of a triangle or a quad, or halves across its longer direction where it is thin.
@@ -29,19 +29,15 @@ impl Region {
 
     /// Halves across the direction in which a function varies most, if it does so much along each; else [`Region::parts`].
     pub fn parts_across(&self, variations: [f64; 3]) -> Vec<Self> {
-        let ([a, b, c, _], [u, v, beside]) = (self.corners, self.directions());
         let most = variations.iter().copied().fold(0.0, f64::max);
         let [along_u, along_v, _] = variations;
-        let back = |u: [f64; 2]| u.map(|x| -x);
         match self.shape {
             _ if most == 0.0 || !most.is_finite() => self.parts(),
             Shape::Segment => self.halves(0),
             Shape::Quad => self.halves(if along_u >= along_v { 0 } else { 1 }),
-            Shape::Triangle if along_u == most => Self::halved(([a, b, c], [u, v])),
-            Shape::Triangle if along_v == most => {
-                Self::halved(([c, a, b], [back(v), back(beside)]))
-            }
-            Shape::Triangle => Self::halved(([b, c, a], [beside, back(u)])),
+            Shape::Triangle if along_u == most => self.halved(0),
+            Shape::Triangle if along_v == most => self.halved(2),
+            Shape::Triangle => self.halved(1),
         }
     }
 
@@ -70,19 +66,11 @@ impl Region {
     /// Quarters, or halves at the middle of the longest side where its height is less than a quarter of it.
     fn parts_of_triangle(&self) -> Vec<Self> {
         let [a, b, c, _] = self.corners;
-        let [u, v, _] = self.along;
-        let w = [0, 1].map(|k| v[k] - u[k]);
+        let [u, v, w] = self.directions();
         let squares = [u, w, v].map(|[x, y]| x * x + y * y);
         let longest = squares.iter().copied().fold(0.0, f64::max);
         if longest * 0.25 > cross(u, v).abs() {
-            let back = |u: [f64; 2]| u.map(|x| -x);
-            // The longest side from its first corner, and from there to the third.
-            let turned = match squares {
-                [ab, ..] if ab == longest => ([a, b, c], [u, v]),
-                [_, bc, _] if bc == longest => ([b, c, a], [w, back(u)]),
-                _ => ([c, a, b], [back(v), back(w)]),
-            };
-            return Self::halved(turned);
+            return self.halved(squares.iter().position(|&of| of == longest).unwrap_or(2));
         }
         let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
         let corners = [[a, ab, ca], [ab, b, bc], [ca, bc, c], [bc, ca, ab]];
@@ -94,24 +82,22 @@ impl Region {
         parts.map(part).collect()
     }
 
-    fn halved(([a, b, c], [u, v]): ([[f64; 2]; 3], [[f64; 2]; 2])) -> Vec<Self> {
+    /// Halves of a triangle at the middle of a side: 0 from the first corner to the second, and so on.
+    fn halved(&self, side: usize) -> Vec<Self> {
+        let ([a, b, c, _], [u, v, w]) = (self.corners, self.directions());
+        let back = |u: [f64; 2]| u.map(|x| -x);
+        // The side from its first corner, and from there to the third.
+        let ([a, b, c], [u, v]) = match side {
+            0 => ([a, b, c], [u, v]),
+            1 => ([b, c, a], [w, back(u)]),
+            _ => ([c, a, b], [back(v), back(w)]),
+        };
         let (middle, half) = (middle(a, b), u.map(|x| 0.5 * x));
         let other = [0, 1].map(|k| v[k] - half[k]);
         vec![
             Self::in_triangle([a, middle, c], [half, v]),
             Self::in_triangle([middle, b, c], [half, other]),
         ]
-    }
-
-    /// A part of a triangle, whose sides are known better than its corners.
-    fn in_triangle([a, b, c]: [[f64; 2]; 3], [u, v]: [[f64; 2]; 2]) -> Self {
-        let corners = [a, b, c, c];
-        Self {
-            shape: Shape::Triangle,
-            corners,
-            centre: centroid([a, b, c]),
-            along: [u, v, [0.0; 2]],
-        }
     }
 }
 

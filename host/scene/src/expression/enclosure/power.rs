@@ -3,7 +3,7 @@
 use super::growth::{Growth, Place};
 use super::interval::Interval;
 use super::polynomial::Shape;
-use super::region::{Region, cross, from};
+use super::region::{Region, cross, dot, from, norm};
 
 impl Region {
     /// ∫|f|ᵏ over the region, f as it grows.
@@ -113,12 +113,4 @@ impl Region {
 /// ∞ where a pole is proved to lie in the region, else anything.
 fn infinite(is_proved: bool) -> Interval {
     Interval { low: if is_proved { f64::INFINITY } else { 0.0 }, high: f64::INFINITY }
-}
-
-fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-fn norm(a: [f64; 2]) -> f64 {
-    a[0].hypot(a[1])
 }

@@ -45,8 +45,13 @@ impl Region {
 
     /// The triangle of three corners.
     pub fn triangle([a, b, c]: [[f64; 2]; 3]) -> Self {
-        let along = [from(a, b), from(a, c), [0.0; 2]];
-        Self { shape: Shape::Triangle, corners: [a, b, c, c], centre: centroid([a, b, c]), along }
+        Self::in_triangle([a, b, c], [from(a, b), from(a, c)])
+    }
+
+    /// A triangle, or a part of one, whose sides are known better than its corners.
+    pub(super) fn in_triangle([a, b, c]: [[f64; 2]; 3], [u, v]: [[f64; 2]; 2]) -> Self {
+        let centre = [0, 1].map(|k| (a[k] + b[k] + c[k]) / 3.0);
+        Self { shape: Shape::Triangle, corners: [a, b, c, c], centre, along: [u, v, [0.0; 2]] }
     }
 
     /// The convex quad of four corners in their order, bilinear.
@@ -145,10 +150,7 @@ impl Region {
         let stretch = match self.shape {
             Shape::Segment => 0.5,
             Shape::Triangle => 1.0 + reach,
-            Shape::Quad => {
-                let [u, v, w] = self.along;
-                1.0 + reach * (cross(u, w).abs() + cross(w, v).abs()) / cross(u, v).abs()
-            }
+            Shape::Quad => 1.0 + self.bent(reach),
         };
         let rate = rho.powi(-2 * points as i32) / (1.0 - rho.powi(-2));
         64.0 / 15.0 * stretch * self.measure() * rate * modulus
@@ -156,13 +158,16 @@ impl Region {
 
     /// The least modulus of the area element in the ellipse of ρ over that in the middle; not positive where it may vanish.
     pub fn least_density(&self, rho: f64) -> f64 {
-        let [u, v, w] = self.along;
         match self.shape {
-            Shape::Quad => {
-                1.0 - reach(rho) * (cross(u, w).abs() + cross(w, v).abs()) / cross(u, v).abs()
-            }
+            Shape::Quad => 1.0 - self.bent(reach(rho)),
             Shape::Segment | Shape::Triangle => 1.0,
         }
+    }
+
+    /// How far a quad's area element differs from that in the middle, as a part of it, so far from there.
+    fn bent(&self, reach: f64) -> f64 {
+        let [u, v, w] = self.along;
+        reach * (cross(u, w).abs() + cross(w, v).abs()) / cross(u, v).abs()
     }
 
     /// The area element over that of the reference square, or of a part of it, as a form: what [`Region::measure`] is the mean of.
@@ -251,14 +256,18 @@ pub(super) fn middle(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [0, 1].map(|k| 0.5 * (a[k] + b[k]))
 }
 
-pub(super) fn centroid([a, b, c]: [[f64; 2]; 3]) -> [f64; 2] {
-    [0, 1].map(|k| (a[k] + b[k] + c[k]) / 3.0)
-}
-
 pub(super) fn from(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [0, 1].map(|k| b[k] - a[k])
 }
 
 pub(super) fn cross(u: [f64; 2], v: [f64; 2]) -> f64 {
     u[0] * v[1] - u[1] * v[0]
+}
+
+pub(super) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+pub(super) fn norm(a: [f64; 2]) -> f64 {
+    a[0].hypot(a[1])
 }

@@ -14,7 +14,7 @@ fn parse(text: &str) -> Result<Expression, ParseError> {
     Expression::parse(text, Variables::SpaceTime)
 }
 
-fn expression(text: &str) -> Expression {
+pub(super) fn expression(text: &str) -> Expression {
     parse(text).unwrap_or_else(|error| panic!("{text}: {error}"))
 }
 

@@ -9,8 +9,7 @@
 use super::forest::Edges;
 use super::stage::Places;
 use crate::mesh::Mesh;
-use crate::mesh::shape::direction;
-use crate::mesh::shape::mean;
+use crate::mesh::shape::{direction, mean};
 
 /// For every part of the new mesh the part of the old one that it came from.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,10 +87,7 @@ impl Before<'_> {
 
     /// The distance of a point to the nearest line along a side, negative outside.
     fn depth(&self, cell: u32, point: [f64; 2]) -> f64 {
-        let corners: &[u32] = match (cell as usize).checked_sub(self.mesh.triangles.len()) {
-            None => &self.mesh.triangles[cell as usize],
-            Some(quad) => &self.mesh.quads[quad],
-        };
+        let corners = self.mesh.corners_of(cell as usize);
         let at = |vertex: u32| self.mesh.vertices[vertex as usize];
         let after = corners.iter().cycle().skip(1);
         let distance = |(&from, &to): (&u32, &u32)| {

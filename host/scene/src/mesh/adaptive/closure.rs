@@ -119,10 +119,11 @@ fn least_sine(vertices: &[[f64; 2]], triangle: Triangle) -> f64 {
 mod tests {
     use super::*;
     use crate::mesh::shape::{Orientation, orientation};
+    use crate::mesh::tests::Draw;
 
     /// Corners on a circle of radius 1 at random angles, then the midpoints of the sides.
-    fn drawn<const N: usize>(draw: &mut impl FnMut() -> f64) -> Vec<[f64; 2]> {
-        let mut angles: [f64; N] = std::array::from_fn(|_| std::f64::consts::TAU * draw());
+    fn drawn<const N: usize>(draw: &mut Draw) -> Vec<[f64; 2]> {
+        let mut angles: [f64; N] = std::array::from_fn(|_| std::f64::consts::TAU * draw.unit());
         angles.sort_by(f64::total_cmp);
         let mut points: Vec<[f64; 2]> = angles.map(|angle| [angle.cos(), angle.sin()]).to_vec();
         for k in 0..N {
@@ -166,13 +167,7 @@ mod tests {
 
     #[test]
     fn every_set_of_nodes_in_polygons_at_random() {
-        let mut state = 1_u64;
-        let mut draw = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 53) as f64
-        };
+        let mut draw = Draw(1);
         for _ in 0..200 {
             let points = drawn::<3>(&mut draw);
             for mask in 0..8 {

@@ -23,6 +23,7 @@ pub use self::carried::{Carried, CarriedEdge};
 use self::red::Grown;
 use self::stage::{Stage, curves_of};
 use super::Mesh;
+use super::check::check_count;
 use crate::error::{InputError, Result};
 
 /// A mesh with what refining it again and again needs to know.
@@ -35,7 +36,12 @@ pub struct Hierarchy {
 }
 
 /// `mesh` with every cell refined: vertices stay, then come the midpoints of edges in their order, then the centres of quads.
-pub(super) fn uniformly(mesh: &Mesh) -> Result<Mesh> {
+/// Cells 4k … 4k + 3 are those of cell k.
+///
+/// # Errors
+/// Cells that don't meet as they may, curves off the edges, or more than [`MOST_CELLS`](super::check::MOST_CELLS).
+pub fn refined(mesh: &Mesh) -> Result<Mesh> {
+    check_count(4 * mesh.cells(), "refine less often")?;
     let (forest, curves) = Stage::forest(mesh)?;
     let Grown { vertices, forest, parents } = red::all(&mesh.vertices, &forest);
     let curves: Vec<_> = curves.iter().map(|of| forest.edges.halved(of)).collect();
@@ -73,7 +79,7 @@ impl Hierarchy {
     /// two hanging nodes: it comes back as a cell of its own, which the next round divides if it is marked again.
     ///
     /// # Errors
-    /// A mark too few or too many, more than [`MOST_CELLS`](super::refine::MOST_CELLS), or cells so small that
+    /// A mark too few or too many, more than [`MOST_CELLS`](super::check::MOST_CELLS), or cells so small that
     /// rounding hides their shape: the mesh is as before then.
     pub fn refine(&mut self, marked: &[bool]) -> Result<Carried> {
         let now = &self.now;

@@ -3,12 +3,13 @@
 //! ```text
 //!         c                 d ──n── c
 //!        ╱ ╲                │   │   │       children in the order of their corners a, b, c, d;
-//!       n───m               o───z───m       in a triangle then the middle one. The corners of each
-//!      ╱ ╲ ╱ ╲              │   │   │       are listed as in `refine`.
+//!       n───m               o───z───m       in a triangle then the middle one
+//!      ╱ ╲ ╱ ╲              │   │   │
 //!     a───l───b             a ──l── b
 //! ```
-//! The children of a triangle are similar to it. Those of a quad are images of quarters of the unit
-//! square under the map of the whole, so that no Jacobian of theirs is less than a quarter of its least.
+//! z is the mean of the corners, where both lines between opposite midpoints meet: quads remain strictly convex. The children of a
+//! triangle are similar to it. Those of a quad are images of quarters of the unit square under the map of the whole, so that no
+//! Jacobian of theirs is less than a quarter of its least.
 
 use super::forest::{Cell, Edges, Forest, NONE};
 use crate::mesh::shape::mean;

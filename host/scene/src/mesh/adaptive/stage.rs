@@ -5,10 +5,8 @@ use super::closure::Pieces;
 use super::forest::{Cell, Edges, Forest, NONE};
 use super::red::Grown;
 use crate::error::{InputError, Result};
-use crate::mesh::check::check_count;
-use crate::mesh::check::{edge_number, numbered_edges};
-use crate::mesh::shape::mean;
-use crate::mesh::shape::{Orientation, orientation};
+use crate::mesh::check::{check_count, edge_number, numbered_edges};
+use crate::mesh::shape::{Orientation, mean, orientation};
 use crate::mesh::{Curve, Mesh};
 
 /// The state that a round begins with.

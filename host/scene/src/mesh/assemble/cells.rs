@@ -33,23 +33,23 @@ impl NodeIndex {
         Some(self.sorted[found].1)
     }
 
-    /// The places of the element's nodes, which must all be there and differ.
-    fn resolve(&self, draft: &Draft, element: &Element) -> Parsed<[u32; 4]> {
-        let mut places = [0; 4];
+    /// The element with the places of its nodes, which must all be there and differ.
+    pub(super) fn resolve<'a>(&self, draft: &Draft, element: &'a Element) -> Parsed<Resolved<'a>> {
+        let mut corners = [0; 4];
         let tags = &element.nodes[..element.kind.corners()];
         for (k, &tag) in tags.iter().enumerate() {
             let problem = match self.get(tag) {
                 None => "which is not in the file",
                 Some(_) if tags[..k].contains(&tag) => "and that twice",
                 Some(place) => {
-                    places[k] = place;
+                    corners[k] = place;
                     continue;
                 }
             };
             let message = format!("{} has the corner node {tag}, {problem}", element.title());
             return Err(draft.error(element.at, message).into());
         }
-        Ok(places)
+        Ok(Resolved { element, corners })
     }
 }
 
@@ -59,11 +59,7 @@ pub(super) struct Resolved<'a> {
     corners: [u32; 4],
 }
 
-impl<'a> Resolved<'a> {
-    pub(super) fn new(draft: &Draft, index: &NodeIndex, element: &'a Element) -> Parsed<Self> {
-        Ok(Self { element, corners: index.resolve(draft, element)? })
-    }
-
+impl Resolved<'_> {
     pub(super) fn corners(&self) -> &[u32] {
         &self.corners[..self.element.kind.corners()]
     }

@@ -50,7 +50,7 @@ pub(super) fn assemble(draft: &Draft) -> Parsed<Mesh> {
 
 fn resolved<'a>(draft: &'a Draft, index: &NodeIndex, dimension: u8) -> Parsed<Vec<Resolved<'a>>> {
     let chosen = draft.elements.iter().filter(|element| element.kind.dimension() == dimension);
-    chosen.map(|element| Resolved::new(draft, index, element)).collect()
+    chosen.map(|element| index.resolve(draft, element)).collect()
 }
 
 /// All vertices have the same z, up to a part of the extent in x or y.

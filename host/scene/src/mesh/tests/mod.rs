@@ -13,28 +13,49 @@ use super::read;
 use super::shape::{Orientation, orientation};
 use super::{Curve, Mesh, Surface};
 
-/// The files of this extension in a folder of standard scenes, in the order of their names.
-fn files(folder: &str, extension: &str) -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes").join(folder);
-    let entries = std::fs::read_dir(&folder).expect("a folder");
-    let mut files: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
-    files.retain(|path| path.extension().is_some_and(|found| found == extension));
-    files.sort();
-    files
+/// The generator splitmix64: a counter, scrambled.
+pub(super) struct Draw(pub u64);
+
+impl Draw {
+    /// 64 random bits.
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// A whole number below another one.
+    pub fn below(&mut self, count: usize) -> usize {
+        (self.bits() % count as u64) as usize
+    }
+
+    /// A number of [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
+    }
 }
 
-/// Every mesh of the standard scenes.
+/// The folder of standard scenes.
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes")
+}
+
+/// Every mesh of the standard scenes, in the order of their names.
 fn meshes() -> Vec<(String, Mesh)> {
-    let files = ["catalogue", "scenes"].into_iter().flat_map(|folder| files(folder, "msh"));
-    let named = files.map(|path| (path.display().to_string(), read(&path).expect("a mesh")));
-    let meshes: Vec<_> = named.collect();
+    let entries = |of: &str| std::fs::read_dir(folder().join(of)).expect("a folder");
+    let entries = ["catalogue", "scenes"].into_iter().flat_map(entries);
+    let mut files: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
+    files.retain(|path| path.extension().is_some_and(|found| found == "msh"));
+    files.sort();
+    let named = |path: PathBuf| (path.display().to_string(), read(&path).expect("a mesh"));
+    let meshes: Vec<_> = files.into_iter().map(named).collect();
     assert!(meshes.len() >= 8);
     meshes
 }
 
-fn catalogue(name: &str) -> Mesh {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/catalogue");
-    read(&folder.join(name)).expect("a mesh")
+fn standard(name: &str) -> Mesh {
+    read(&folder().join(name)).expect("a mesh")
 }
 
 fn cells(mesh: &Mesh) -> Vec<Vec<u32>> {
@@ -112,23 +133,36 @@ fn assert_same_domain(what: &str, before: &Mesh, after: &Mesh) {
 
 type Place = [i64; 2];
 
+/// The items from the least one on, in their order around.
+fn from_least<T: Ord>(mut items: Vec<T>) -> Vec<T> {
+    let least = (0..items.len()).min_by_key(|&k| &items[k]).expect("items");
+    items.rotate_left(least);
+    items
+}
+
 /// A mesh whatever its numbering: cells from their least corner on with their surfaces, edges with
-/// their curves; in multiples of 2⁻²⁰.
-fn shape(mesh: &Mesh) -> [BTreeSet<(Vec<Place>, Vec<String>)>; 2] {
-    let place = |[x, y]: [f64; 2]| [x, y].map(|x| (x * f64::from(1 << 20)).round() as i64);
-    let cell = |(number, corners): (u32, &Vec<u32>)| {
-        let mut corners: Vec<_> = points(mesh, corners).into_iter().map(place).collect();
-        let least = (0..corners.len()).min_by_key(|&k| corners[k]).expect("corners");
-        corners.rotate_left(least);
-        let surfaces = mesh.surfaces.iter().filter(|surface| surface.cells.contains(&number));
-        (corners, surfaces.map(|surface| surface.name.clone()).collect())
+/// their curves; coordinates as `written`.
+fn in_places(mesh: &Mesh, written: fn(f64) -> i64) -> [Vec<(Vec<Place>, Vec<String>)>; 2] {
+    let places = |corners: &[u32]| -> Vec<Place> {
+        points(mesh, corners).into_iter().map(|point| point.map(written)).collect()
     };
-    let curves = mesh.curves.iter().flat_map(|curve| {
-        curve.edges.iter().map(|edge| {
-            let mut ends: Vec<_> = points(mesh, edge).into_iter().map(place).collect();
-            ends.sort_unstable();
-            (ends, vec![curve.name.clone()])
-        })
-    });
-    [(0..).zip(&cells(mesh)).map(cell).collect(), curves.collect()]
+    let cell = |(number, corners): (u32, &[u32])| {
+        let surfaces = mesh.surfaces.iter();
+        let inside = surfaces.filter(|surface| surface.cells.binary_search(&number).is_ok());
+        (from_least(places(corners)), inside.map(|surface| surface.name.clone()).collect())
+    };
+    let edges = mesh.curves.iter().flat_map(|curve| curve.edges.iter().map(move |of| (curve, of)));
+    let edge = |(curve, ends): (&Curve, &[u32; 2])| {
+        let mut ends = places(ends);
+        ends.sort_unstable();
+        (ends, vec![curve.name.clone()])
+    };
+    let mut all = [(0..).zip(mesh.corners()).map(cell).collect(), edges.map(edge).collect()];
+    all.iter_mut().for_each(|all: &mut Vec<_>| all.sort_unstable());
+    all
+}
+
+/// The mesh in multiples of 2⁻²⁰.
+fn shape(mesh: &Mesh) -> [Vec<(Vec<Place>, Vec<String>)>; 2] {
+    in_places(mesh, |x| (x * f64::from(1 << 20)).round() as i64)
 }

@@ -8,7 +8,7 @@ use crate::mesh::structured::{Cells, grid};
 #[test]
 fn triangles_of_the_catalogue_pair_into_its_squares_and_back() {
     let [triangles, quads, mixed] =
-        ["tri", "quad", "mixed"].map(|kind| catalogue(&format!("square-{kind}-16.msh")));
+        ["tri", "quad", "mixed"].map(|kind| standard(&format!("catalogue/square-{kind}-16.msh")));
     assert_eq!(paired(&triangles), quads);
     assert_eq!(shape(&paired(&mixed)), shape(&quads));
     assert_eq!(cut(&quads), triangles);
@@ -45,8 +45,7 @@ fn every_mesh_keeps_its_domain_and_few_triangles_stay_alone() {
 /// No matching leaves fewer alone between 45° and 135°: blossoms, elsewhere, found the same number.
 #[test]
 fn the_matching_of_an_unstructured_mesh_is_a_largest_one() {
-    let path = files("scenes", "msh").into_iter().find(|path| path.ends_with("levee.msh"));
-    let mesh = read(&path.expect("the levee")).expect("a mesh");
+    let mesh = standard("scenes/levee.msh");
     let pairs = paired(&mesh);
     assert_eq!((mesh.triangles.len(), pairs.triangles.len(), pairs.quads.len()), (1515, 107, 704));
 }

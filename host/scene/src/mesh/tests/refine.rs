@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::mesh::adapted::adapted;
-use crate::mesh::refine::{MOST_CELLS, refined};
+use crate::mesh::adaptive::refined;
+use crate::mesh::check::MOST_CELLS;
 use crate::mesh::structured::{Cells, grid};
 
 #[test]

@@ -21,23 +21,18 @@ const fn table(header: &'static str, what: &'static str, keys: &'static [Key]) -
     Section { header, kind: None, what, about: "", keys }
 }
 
-const fn boundary(
+const fn kind(
+    header: &'static str,
     kind: &'static str,
     what: &'static str,
     about: &'static str,
     keys: &'static [Key],
 ) -> Section {
-    Section { header: "boundary.NAME", kind: Some(kind), what, about, keys }
+    Section { header, kind: Some(kind), what, about, keys }
 }
 
-const fn output(
-    kind: &'static str,
-    what: &'static str,
-    about: &'static str,
-    keys: &'static [Key],
-) -> Section {
-    Section { header: "output.NAME", kind: Some(kind), what, about, keys }
-}
+const BOUNDARY: &str = "boundary.NAME";
+const OUTPUT: &str = "output.NAME";
 
 /// The words of choices.
 macro_rules! words {
@@ -75,17 +70,17 @@ pub const SECTIONS: &[Section] = &[
     table("source", "the source", &[
         key("f", V::Expression, "f, what is produced inside, in x, y and t; `[source]` may be left out", "flux per length", REQUIRED),
     ]),
-    boundary("dirichlet", "a dirichlet boundary", "u is given", &[
+    kind(BOUNDARY, "dirichlet", "a dirichlet boundary", "u is given", &[
         key("value", V::Expression, "u = value, in x, y and t", "u", REQUIRED),
     ]),
-    boundary("neumann", "a neumann boundary", "the flux is given", &[
+    kind(BOUNDARY, "neumann", "a neumann boundary", "the flux is given", &[
         key("flux", V::Expression, "σ·n = flux, outward, in x, y and t", "flux", REQUIRED),
     ]),
-    boundary("robin", "a robin boundary", "heat passes to what is around", &[
+    kind(BOUNDARY, "robin", "a robin boundary", "heat passes to what is around", &[
         key("coefficient", V::Expression, "σ·n = coefficient (ambient − u), at least 0, in x and y", "flux per u", REQUIRED),
         key("ambient", V::Expression, "what u relaxes to, in x, y and t", "u", REQUIRED),
     ]),
-    boundary("contact", "a contact boundary", "u ≥ gap: a heater that only heats, a face that only drains", &[
+    kind(BOUNDARY, "contact", "a contact boundary", "u ≥ gap: a heater that only heats, a face that only drains", &[
         key("gap", V::Expression, "u ≥ gap, and σ·n = flux where u > gap; in x, y and t", "u", Some("0")),
         key("flux", V::End, "σ·n ≥ flux, or \"-inf\" for no least flux; in x, y and t", "flux", Some("0")),
         key("limit", V::End, "σ·n ≤ limit, and σ·n = limit where u < gap; in x, y and t", "flux", Some("\"inf\": u ≥ gap")),
@@ -98,23 +93,23 @@ pub const SECTIONS: &[Section] = &[
         key("range", V::Pair, "`[lo, hi]`: the values that it may take; others are refused ([what ranges buy](firmware.md#ranges)). A coefficient needs one", "", Some("any")),
         key("unit", V::Unit, "a text that a baked module's documentation has for it, such as \"m/s\"", "", NONE),
     ]),
-    output("flux", "a flux", "∫σ·n over boundaries: heat that comes in, water that goes out", &[
+    kind(OUTPUT, "flux", "a flux", "∫σ·n over boundaries: heat that comes in, water that goes out", &[
         key("of", V::Names, "its boundary, or a list of boundaries: the sum over these, with one interval", "", REQUIRED), UNIT,
     ]),
-    output("force", "a force", "∫(σ·n − flux) over contact, never below 0", &[OF_CONTACT, UNIT]),
-    output("length", "a length", "how much of contact touches", &[OF_CONTACT, UNIT]),
-    output("saturated", "a saturated length", "how much of contact is at its limit", &[OF_CONTACT, UNIT]),
-    output("probe", "a probe", "u at a point", &[
+    kind(OUTPUT, "force", "a force", "∫(σ·n − flux) over contact, never below 0", &[OF_CONTACT, UNIT]),
+    kind(OUTPUT, "length", "a length", "how much of contact touches", &[OF_CONTACT, UNIT]),
+    kind(OUTPUT, "saturated", "a saturated length", "how much of contact is at its limit", &[OF_CONTACT, UNIT]),
+    kind(OUTPUT, "probe", "a probe", "u at a point", &[
         key("at", V::Pair, "the point [x, y]", "length", REQUIRED), UNIT,
     ]),
-    output("mean", "a mean", "the mean of u over a boundary or a material", &[
+    kind(OUTPUT, "mean", "a mean", "the mean of u over a boundary or a material", &[
         key("of", V::Name, "its boundary or, where none has the name, its material", "", REQUIRED), UNIT,
     ]),
-    output("content", "a content", "∫ capacity · u", &[
+    kind(OUTPUT, "content", "a content", "∫ capacity · u", &[
         key("of", V::Names, "a material, or a list of materials", "", Some("the domain")), UNIT,
     ]),
-    output("bound", "a bound", "the error bound", &[UNIT]),
-    output("window", "a window", "the error bound over time", &[UNIT]),
+    kind(OUTPUT, "bound", "a bound", "the error bound", &[UNIT]),
+    kind(OUTPUT, "window", "a window", "the error bound over time", &[UNIT]),
     table("target", "the target", &[
         key("ram", V::Bytes, "RAM that the controller may take", "bytes", Some("no limit")),
         key("flash", V::Bytes, "flash that it may take", "bytes", Some("no limit")),

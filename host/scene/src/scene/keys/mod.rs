@@ -103,6 +103,15 @@ impl Key {
         text.to_owned()
     }
 
+    /// Its meaning in plain text, with unit and default.
+    pub fn described(&self) -> String {
+        let unit = Some(plain(self.unit)).filter(|unit| !unit.is_empty());
+        let unit = unit.map_or_else(String::new, |unit| format!(" [{unit}]"));
+        let default =
+            self.default.map_or_else(String::new, |of| format!("; default {}", plain(of)));
+        format!("{}{}{unit}{default}", self.words(), plain(self.meaning))
+    }
+
     /// The words that its value may be, where its meaning does not tell them: "a, b or c: ".
     pub fn words(&self) -> String {
         match self.value {
@@ -123,12 +132,17 @@ pub fn listed(words: &[&str]) -> String {
 impl Section {
     /// The section of this table: of this kind, where it has kinds.
     pub fn of(header: &str, kind: Option<&str>) -> Option<&'static Self> {
-        SECTIONS.iter().find(|section| section.header == header && section.kind == kind)
+        Self::all(header).find(|section| section.kind == kind)
+    }
+
+    /// All sections of this table.
+    pub fn all(header: &str) -> impl Iterator<Item = &'static Self> {
+        SECTIONS.iter().filter(move |section| section.header == header)
     }
 
     /// The kinds of this table.
     pub fn kinds(header: &str) -> impl Iterator<Item = &'static str> {
-        SECTIONS.iter().filter(move |section| section.header == header).filter_map(|of| of.kind)
+        Self::all(header).filter_map(|of| of.kind)
     }
 
     /// The names of its keys.

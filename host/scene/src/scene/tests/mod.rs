@@ -5,9 +5,7 @@ mod setting;
 
 use std::path::{Path, PathBuf};
 
-use super::{
-    Condition, Field, InputRange, Located, Material, Output, Quantity, Scene, Target, Time,
-};
+use super::{Condition, Field, Located, Material, Output, Quantity, Scene, Target, Time};
 use crate::error::{Error, Result};
 use crate::expression::Expression;
 
@@ -31,18 +29,21 @@ fn parse(text: &str) -> Result<Scene> {
     Scene::parse(text, Path::new("scenes/levee.toml"))
 }
 
+/// The error of a text that is wrong input, with this message behind the name of its file.
+fn refused(text: &str, message: &str) -> Error {
+    let error = parse(text).expect_err(message);
+    assert_eq!(error.to_string(), format!("scenes/levee.toml:{message}"));
+    assert_eq!(error.exit_status(), 2);
+    error
+}
+
 fn scene(text: &str) -> Scene {
     parse(text).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The value of a constant, the text of anything else, and the key.
-fn shown(expression: &Located<Expression>) -> (String, &str) {
-    let value = &expression.value;
-    (value.is_constant().map_or(value.to_string(), |value| value.to_string()), &expression.key)
-}
-
-fn pair<'a>(value: &str, key: &'a str) -> (String, &'a str) {
-    (value.to_owned(), key)
+/// The key, and the value of a constant or the text of anything else.
+fn shown(Located { key, value, .. }: &Located<Expression>) -> String {
+    format!("{key} = {}", value.is_constant().map_or(value.to_string(), |value| value.to_string()))
 }
 
 #[test]
@@ -53,7 +54,7 @@ fn a_complete_scene_is_read_in_the_order_of_the_file() {
     assert_eq!(scene.time, Some(Time { step: 0.01, end: Some(1.0), initial: None }));
     let (ram, flash, tick, clock) = (Some(196_608), Some(1 << 20), Some(1e-3), Some(168e6));
     assert_eq!(scene.target, Some(Target { ram, flash, tick, clock }));
-    assert_eq!(shown(&scene.source), pair("0", "source.f"));
+    assert_eq!(shown(&scene.source), "source.f = 0");
 
     let [clay, sand] = &scene.materials[..] else { panic!("two materials") };
     let entries = |of: &Material| {
@@ -65,27 +66,30 @@ fn a_complete_scene_is_read_in_the_order_of_the_file() {
     assert_eq!(entries(sand), [1e-4, 0.0, 1e-4]);
 
     let exact = scene.exact.expect("an exact solution");
-    assert_eq!(shown(&exact.u), pair("x + t", "exact.u"));
+    assert_eq!(shown(&exact.u), "exact.u = x + t");
     assert_eq!(exact.gradient.each_ref().map(|d| d.value.is_constant()), [Some(1.0), Some(0.0)]);
 }
 
 #[test]
 fn each_kind_of_boundary_holds_its_data() {
     let scene = scene(LEVEE);
-    let [river, base, face, air] = &scene.boundaries[..] else { panic!("four boundaries") };
-    let Condition::Dirichlet { value } = &river.condition else { panic!("dirichlet") };
-    assert_eq!(shown(value), pair("-4", "boundary.river.value"));
-    assert_eq!(&scene.text[value.span.clone()], "\"-4.0\"");
-    let Condition::Neumann { flux } = &base.condition else { panic!("neumann") };
-    assert_eq!(shown(flux), pair("0", "boundary.base.flux"));
-    let Condition::Contact { gap, flux, .. } = &face.condition else { panic!("contact") };
-    assert_eq!(shown(gap), pair("-y", "boundary.face.gap"));
-    assert_eq!(shown(flux), pair("0", "boundary.face.flux"));
-    let Condition::Robin { coefficient, ambient, .. } = &air.condition else { panic!("robin") };
-    assert_eq!(shown(coefficient), pair("15", "boundary.air.coefficient"));
-    assert_eq!(shown(ambient), pair("-10", "boundary.air.ambient"));
-    assert_eq!(river.name.value, "river");
-    assert_eq!(&scene.text[river.name.span.clone()], "river");
+    let kinds: Vec<_> = scene.boundaries.iter().map(|of| of.condition.kind()).collect();
+    assert_eq!(kinds, ["dirichlet", "neumann", "contact", "robin"]);
+    let data: Vec<_> = scene.boundaries.iter().flat_map(|of| of.condition.data()).collect();
+    let expected = [
+        "boundary.river.value = -4",
+        "boundary.base.flux = 0",
+        "boundary.face.gap = -y",
+        "boundary.face.flux = 0",
+        "boundary.face.limit = inf",
+        "boundary.air.coefficient = 15",
+        "boundary.air.ambient = -10",
+    ];
+    assert_eq!(data.iter().map(|(_, of)| shown(of)).collect::<Vec<_>>(), expected);
+    let written = |span: &std::ops::Range<usize>| &scene.text[span.clone()];
+    let river = &scene.boundaries[0].name;
+    assert_eq!((written(&data[0].1.span), written(&river.span)), ("\"-4.0\"", "river"));
+    assert_eq!(river.value, "river");
 }
 
 #[test]
@@ -120,8 +124,7 @@ fn an_input_stays_within_its_range() {
     let text = LEVEE.replacen("default = 0.0", "default = 0.5\nrange = [0, 5.0]", 1);
     let mut scene = scene(&text);
     let range = scene.inputs[0].range.as_ref().expect("a range");
-    let expected = InputRange { lo: 0.0, hi: 5.0 };
-    assert_eq!((range.value, range.key.as_str()), (expected, "input.rain.range"));
+    assert_eq!((range.value, range.key.as_str()), ([0.0, 5.0], "input.rain.range"));
     for inside in ["0", "5", "0.1"] {
         scene.set_input(&format!("rain={inside}")).expect(inside);
     }
@@ -219,9 +222,7 @@ fn an_output_may_be_over_a_list() {
 fn names_may_be_any_text_and_lines_may_end_as_they_like() {
     let text = format!("\u{feff}{SMALL}[boundary.'nördlich \"A\"=1.x']\nkind = 'robin'\n")
         .replace('\n', "\r\n");
-    let message = parse(&text).expect_err("no coefficient").to_string();
-    let key = r#"boundary."nördlich \"A\"=1.x".coefficient"#;
-    assert_eq!(message, format!("scenes/levee.toml:5: {key}: missing"));
+    refused(&text, r#"5: boundary."nördlich \"A\"=1.x".coefficient: missing"#);
 }
 
 #[test]

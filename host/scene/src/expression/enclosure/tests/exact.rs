@@ -1,13 +1,10 @@
 //! Enclosures whose ranges, remainders or integrals are known.
 
-use super::super::super::{Expression, Variables};
+use super::super::super::Expression;
+pub(super) use super::super::super::tests::expression as parse;
 use super::super::{Interval, Region};
 use super::T;
 use signorini_tolerances::scene::ENCLOSED;
-
-pub fn parse(text: &str) -> Expression {
-    Expression::parse(text, Variables::SpaceTime).unwrap_or_else(|error| panic!("{text}: {error}"))
-}
 
 pub fn square(x: f64, y: f64, size: f64) -> Region {
     Region::quad([[x, y], [x + size, y], [x + size, y + size], [x, y + size]])

@@ -7,7 +7,6 @@ mod rules;
 
 use super::super::operation::{Binary, Unary};
 use super::super::program::Numbers;
-use super::Interval;
 use super::form::Form;
 use super::numbers::Forms;
 use random::Random;
@@ -59,22 +58,6 @@ fn no_derivative_of_random_trees_lies_outside() {
     }
 }
 
-#[test]
-fn every_time_of_an_interval_is_enclosed() {
-    let mut random = Random(0x71e);
-    for _ in 0..TREES / 10 {
-        let (expression, region) = (random.expression(), random.region());
-        let form = expression.enclose_during(&region, Interval::new(0.25, 0.75));
-        for _ in 0..POINTS / 10 {
-            let at = random.point(&region);
-            let ([x, y], t) = (region.place(at), random.between(0.25, 0.75));
-            let value = expression.eval(x, y, t);
-            let is_outside = is_outside(&form, at, value);
-            assert!(!is_outside, "{expression} at {x}, {y}, {t}: {value}, {form:?}");
-        }
-    }
-}
-
 /// Forms that forget Lagrange's remainder of functions.
 struct Planted(Forms);
 
@@ -102,9 +85,8 @@ fn forms_without_their_third_derivative_are_found() {
     let mut found = 0;
     for _ in 0..200 {
         let (expression, region) = (random.expression(), random.region());
-        let [x, y] = region.coordinates();
         let numbers = Planted(Forms(region.shape()));
-        let form = expression.program.run(&numbers, [x, y, numbers.constant(T)]);
+        let form = expression.program.at(&numbers, region.coordinates(), T);
         let mut outside = || {
             let at = random.point(&region);
             let [x, y] = region.place(at);

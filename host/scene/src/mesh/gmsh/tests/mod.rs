@@ -17,14 +17,6 @@ fn error(bytes: &[u8]) -> String {
     text.strip_prefix("m.msh:").expect("the file is named").trim_start().to_owned()
 }
 
-/// Whether the error of the first `length` bytes of a file says what is missing.
-fn says_what_is_missing(file: &[u8], length: usize) {
-    let said = error(&file[..length]);
-    let words = ["expected", "is never closed", "at most can follow"];
-    let missing = words.iter().any(|words| said.contains(words));
-    assert!(missing, "cut at {length} of {}: {said}", file.len());
-}
-
 fn mesh(bytes: &[u8]) -> Mesh {
     parse(bytes).unwrap_or_else(|error| panic!("refused: {error}"))
 }

@@ -92,9 +92,7 @@ fn older_formats() {
         text.replace("$PhysicalNames\n0\n$EndPhysicalNames", &section)
     };
     let mesh = mesh(named("2\n8 \"wall\"\n3 \"left half\"\n").as_bytes());
-    let curves: Vec<_> = mesh.curves.iter().map(|curve| curve.name.as_str()).collect();
-    let surfaces: Vec<_> = mesh.surfaces.iter().map(|surface| surface.name.as_str()).collect();
-    assert_eq!((curves, surfaces), (vec!["1", "wall"], vec!["1", "left half"]));
+    assert_eq!(names(mesh), ["1", "left half", "1", "wall"]);
     let said = super::error(named("2\n8 \"wall\"\n8 \"half\"\n").as_bytes());
     assert!(said.contains("physical group 8 of dimension 0 is named twice"), "{said}");
     let said = super::error(named("1\n8 \"wall\"\n").replace("2 0 8", "2.1 0 8").as_bytes());
@@ -138,13 +136,15 @@ fn sections_in_another_order_and_unknown_ones() {
     }
 }
 
+/// The names of surfaces, then of curves.
+fn names(mesh: Mesh) -> Vec<String> {
+    let surfaces = mesh.surfaces.into_iter().map(|surface| surface.name);
+    surfaces.chain(mesh.curves.into_iter().map(|curve| curve.name)).collect()
+}
+
 #[test]
 fn without_names_groups_go_by_number() {
     let unnamed = Model { names: Vec::new(), ..model() };
-    let names = |mesh: Mesh| {
-        let surfaces = mesh.surfaces.into_iter().map(|surface| surface.name);
-        surfaces.chain(mesh.curves.into_iter().map(|curve| curve.name)).collect::<Vec<_>>()
-    };
     assert_eq!(names(mesh(&unnamed.v22(Coding::Ascii))), ["1", "3", "1", "8"]);
     assert_eq!(names(mesh(&unnamed.v41(Coding::Big))), ["1", "3", "1", "8"]);
 }

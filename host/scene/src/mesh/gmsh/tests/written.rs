@@ -5,6 +5,7 @@ use super::encode::Coding;
 use super::mesh;
 use super::valid::model;
 use crate::mesh::structured::{Cells, grid};
+use crate::mesh::tests::Draw;
 use crate::mesh::{Curve, Mesh, Surface};
 
 fn assert_kept(mesh: &Mesh) {
@@ -45,11 +46,8 @@ fn the_file_of_two_cells() {
 
 #[test]
 fn groups_that_overlap_at_random() {
-    let mut state = 1_u32;
-    let mut chance = || {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        state >> 30 == 0
-    };
+    let mut draw = Draw(1);
+    let mut chance = || draw.below(4) == 0;
     let mut mesh = grid(5, Cells::Mixed);
     let edges = crate::mesh::check::edges(&mesh).expect("a mesh");
     for number in 0..12 {

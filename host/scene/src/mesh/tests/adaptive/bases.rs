@@ -1,26 +1,8 @@
 //! Base meshes: the standard scenes', grids moved at random, corners, slits with and without common ends.
 
 use crate::mesh::structured::{Cells, grid};
-use crate::mesh::tests::meshes;
+use crate::mesh::tests::{Draw, meshes};
 use crate::mesh::{Curve, Mesh, Surface};
-
-/// The generator splitmix64: a counter, scrambled.
-pub struct Draw(pub u64);
-
-impl Draw {
-    /// 64 random bits.
-    pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// A number of [0, 1).
-    pub fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
 
 /// Every base mesh, by name.
 pub fn all() -> Vec<(String, Mesh)> {

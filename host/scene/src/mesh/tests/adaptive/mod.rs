@@ -8,7 +8,7 @@ mod shapes;
 use super::*;
 use crate::mesh::adaptive::{Carried, Hierarchy};
 
-use self::bases::{Draw, all};
+use self::bases::all;
 
 /// Which cells to refine in a round.
 #[derive(Debug, Clone, Copy)]

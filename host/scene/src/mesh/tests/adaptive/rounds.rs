@@ -2,9 +2,10 @@
 
 use super::bases::corner;
 use super::*;
+use crate::mesh::adaptive::refined;
+use crate::mesh::check::MOST_CELLS;
 use crate::mesh::gmsh::write;
 use crate::mesh::parse;
-use crate::mesh::refine::{MOST_CELLS, refined};
 use crate::mesh::structured::{Cells, grid};
 
 /// How many cells all rounds together may add for each that was marked: towards a point in a quad a round adds 43.
@@ -39,33 +40,9 @@ fn everything_marked_is_uniform_refinement() {
             assert_eq!(hierarchy.mesh().cells(), uniform.cells(), "{what}");
             assert_eq!(hierarchy.mesh().vertices.len(), uniform.vertices.len(), "{what}");
         }
+        let exact = |mesh: &Mesh| in_places(mesh, |x| x.to_bits().cast_signed());
         assert_eq!(exact(hierarchy.mesh()), exact(&uniform), "{what}");
     }
-}
-
-/// Cells and edges of curves as their places, to the last bit of the coordinates.
-fn exact(mesh: &Mesh) -> [Vec<(String, Vec<[u64; 2]>)>; 2] {
-    let place = |&vertex: &u32| mesh.vertices[vertex as usize].map(f64::to_bits);
-    let cells = cells(mesh);
-    let cell = |name: &str, corners: &[u32]| {
-        let mut corners: Vec<_> = corners.iter().map(place).collect();
-        let least = (0..corners.len()).min_by_key(|&k| corners[k]).expect("corners");
-        corners.rotate_left(least);
-        (name.to_owned(), corners)
-    };
-    let in_surface = |surface: &Surface| {
-        let members = surface.cells.iter();
-        members.map(|&at| cell(&surface.name, &cells[at as usize])).collect::<Vec<_>>()
-    };
-    let mut of_cells: Vec<_> = mesh.surfaces.iter().flat_map(in_surface).collect();
-    of_cells.extend(cells.iter().map(|corners| cell("", corners)));
-    let edges = mesh.curves.iter().flat_map(|curve| {
-        curve.edges.iter().map(|edge| cell(&curve.name, edge)).collect::<Vec<_>>()
-    });
-    let mut of_edges: Vec<_> = edges.collect();
-    of_cells.sort_unstable();
-    of_edges.sort_unstable();
-    [of_cells, of_edges]
 }
 
 #[test]
@@ -89,15 +66,9 @@ fn equal_marks_give_equal_meshes_and_no_marks_change_nothing() {
 
 /// The rest of the marked cells.
 fn left(before: &Mesh, marks: &[bool], after: &Mesh) -> BTreeSet<Vec<u32>> {
-    let known = |cell: &Vec<u32>| {
-        let mut turned = cell.clone();
-        let least = (0..cell.len()).min_by_key(|&k| cell[k]).expect("corners");
-        turned.rotate_left(least);
-        turned
-    };
-    let after: BTreeSet<_> = cells(after).iter().map(known).collect();
+    let after: BTreeSet<_> = cells(after).into_iter().map(from_least).collect();
     let marked = cells(before).into_iter().zip(marks).filter(|(_, marked)| **marked);
-    marked.map(|(cell, _)| known(&cell)).filter(|cell| after.contains(cell)).collect()
+    marked.map(|(cell, _)| from_least(cell)).filter(|cell| after.contains(cell)).collect()
 }
 
 #[test]
@@ -112,14 +83,8 @@ fn marked_cells_are_gone_after_one_round_or_two() {
             let left_over = left(&before, &marks, hierarchy.mesh());
             assert!(left_over.iter().all(|cell| cell.len() == 3), "{what}");
             let again = hierarchy.mesh().clone();
-            let is_left = |cell: &Vec<u32>| {
-                (0..3).any(|turn| {
-                    let mut turned = cell.clone();
-                    turned.rotate_left(turn);
-                    left_over.contains(&turned)
-                })
-            };
-            let marks: Vec<_> = cells(&again).iter().map(is_left).collect();
+            let is_left = |cell| left_over.contains(&from_least(cell));
+            let marks: Vec<_> = cells(&again).into_iter().map(is_left).collect();
             hierarchy.refine(&marks).expect("a finer mesh");
             assert!(left(&again, &marks, hierarchy.mesh()).is_empty(), "{what}");
         }
