@@ -95,7 +95,7 @@ impl Certified {
             let bound = ErrorBound::new(found);
             // Where all cells are seen by their own points, what is open is as small as rounding.
             let of_tensor = if problem.cuts().is_empty() { 0.0 } else { bound.open() };
-            ErrorBound { unresolved: data.unresolved() + of_tensor, ..bound }
+            ErrorBound { unresolved: data.evaluated.unresolved + of_tensor, ..bound }
         });
         let no_bound = certifier.no_bound(data);
         Ok(Self { bound, no_bound, answer: certifier.answer() })

@@ -9,12 +9,10 @@ use signorini_bound::equilibrium::Iterate;
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::mesh::components::Support;
 
-use super::admissible::{Admissible, Following};
+use super::admissible::Following;
 use super::data::Data;
-use super::evolution::StepTerms;
-use super::fields::Fields;
+use super::fields::CertifiedFields;
 use super::forest::EquilibrationForest;
-use super::lifted::Lifts;
 use super::metric::Metric;
 use super::no_bound::NoBound;
 use super::relaxed::relaxed;
@@ -30,50 +28,11 @@ pub struct Certifier<R: Scalar> {
     follows_contact: bool,
     /// Whether the last search has found ways.
     found_ways: bool,
-    /// See [`CertifiedFields::evolution`].
-    evolution: Vec<StepTerms<f64>>,
     /// Whether steps in time may hand on along the ways found.
     hands_on: bool,
-    /// Where s has extensions, and what these are.
-    followed: (Following, Lifts),
-    fields: Fields<R>,
+    fields: CertifiedFields<R>,
     /// Why the last iterate has no bound, apart from its data.
     refusal: Option<NoBound>,
-}
-
-/// The admissible pair of a certificate, in f64.
-#[derive(Debug, Clone, Default)]
-pub struct CertifiedFields {
-    /// s at the vertices.
-    pub vertices: Vec<f64>,
-    /// The bubbles of s, one an edge.
-    pub bubbles: Vec<f64>,
-    /// ∫_E τ·n of every edge, along its direction.
-    pub tau: Vec<f64>,
-    /// Each cell's part of gap², triangles first.
-    pub indicators: Vec<f64>,
-    /// The means of (s − ψ)⁺ and (ψ − s)⁺ along each contact edge, where materials store u.
-    pub openings: Vec<[f64; 2]>,
-    /// The terms of a step in the bound of the evolution, one for each way to balance its cells.
-    pub evolution: Vec<StepTerms<f64>>,
-    /// Where s has extensions.
-    pub following: Following,
-    /// What these are, where materials store u.
-    pub lifts: Lifts,
-}
-
-impl CertifiedFields {
-    /// S and τ as the exact norms take them.
-    pub fn admissible(&self) -> Admissible<'_> {
-        let Self { vertices, bubbles, tau, following, .. } = self;
-        Admissible { vertices, bubbles, tau, following }
-    }
-}
-
-/// A cell of a part that nothing holds.
-fn floating(parts: &Parts) -> usize {
-    let held_by_nothing = |&part: &usize| parts.support(part) == Support::None;
-    parts.roots().find(held_by_nothing).unwrap_or(0)
 }
 
 impl<R: Scalar> Certifier<R> {
@@ -91,10 +50,8 @@ impl<R: Scalar> Certifier<R> {
             ways: EquilibrationForest::new(problem),
             follows_contact: parts.counts.contact > 0,
             found_ways: false,
-            evolution: Vec::new(),
             hands_on: true,
-            followed: (Following::WhereNeeded, Lifts::default()),
-            fields: Fields::new(problem),
+            fields: CertifiedFields::new(problem),
             refusal: None,
         };
         if !certifier.follows_contact && parts.counts.floating == 0 {
@@ -127,22 +84,17 @@ impl<R: Scalar> Certifier<R> {
         data: &Data<R>,
         u: &[R],
     ) -> Result<Option<Certificate<R>>, KernelError> {
-        let following = match assembled.step() {
+        self.fields.following = match assembled.step() {
             Some(_) => Following::default(),
             None => Following::WhereNeeded,
         };
-        self.followed = (following, data.lifts().clone());
+        self.fields.lifts = data.evaluated.lifts.clone();
         if !self.has_ways(parts, assembled, u)? || !data.has_bound() {
             self.average(assembled, data, u)?;
             return Ok(None);
         }
         let verdict = self.verdict(assembled, data, u, |_, _| ())?;
-        self.refusal = match verdict {
-            Verdict::Certified(_) => None,
-            Verdict::Pulled { edge } => Some(NoBound::pulled(assembled.problem(), edge)),
-            Verdict::NotAsked => Some(NoBound::not_asked()),
-            _ => Some(NoBound::overflow::<R>()),
-        };
+        self.refusal = NoBound::of_verdict(&verdict, assembled.problem(), || None);
         Ok(verdict.certificate().copied())
     }
 
@@ -205,17 +157,7 @@ impl<R: Scalar> Certifier<R> {
 
     /// The fields of the last certificate.
     pub fn answer(&self) -> CertifiedFields {
-        let wide = |numbers: &[R]| numbers.iter().map(|x| x.wide()).collect();
-        CertifiedFields {
-            vertices: wide(&self.fields.vertices),
-            bubbles: wide(&self.fields.bubbles),
-            tau: wide(&self.fields.tau),
-            indicators: wide(&self.fields.indicators),
-            openings: self.fields.openings.iter().map(|pair| pair.map(|x| x.wide())).collect(),
-            evolution: self.evolution.clone(),
-            following: self.followed.0.clone(),
-            lifts: self.followed.1.clone(),
-        }
+        self.fields.widened()
     }
 
     /// The discretization that a tick certifies on, whose surplus can leave every cell whatever the iterate.
@@ -237,8 +179,9 @@ impl<R: Scalar> Certifier<R> {
         u: &[R],
     ) -> Result<bool, KernelError> {
         if parts.counts.floating > 0 {
-            let cell = floating(parts);
-            self.refusal = Some(NoBound::held_by_nothing(assembled.problem(), cell));
+            let cell = parts.roots().find(|&part| parts.support(part) == Support::None);
+            let reason = NoBound::held_by_nothing(assembled.problem(), cell.unwrap_or(0));
+            self.refusal = Some(reason);
             return Ok(false);
         }
         if !self.follows_contact {
@@ -286,7 +229,7 @@ impl<R: Scalar> Certifier<R> {
     ) -> Result<(), KernelError> {
         self.ways.find(assembled, &self.metric, |_| true)?;
         let discretization = self.ways.discretization(assembled, &self.metric)?;
-        let Fields { vertices: s, tau, .. } = &mut self.fields;
+        let CertifiedFields { vertices: s, tau, .. } = &mut self.fields;
         let (law, given) = (assembled.law(), data.given(assembled, &[])?);
         let distortions = discretization.metric.distortions;
         averages::fill(&discretization.cells, (assembled.cells(), None), distortions, u, s, tau)?;

@@ -5,16 +5,16 @@ use signorini_kernel::Tensor;
 use signorini_problem::Problem;
 use signorini_problem::cell::Cell;
 use signorini_problem::pieces::{PiecePoint, Pieces};
-use signorini_problem::quadrature::Point;
-use signorini_scene::expression::Expression;
-use signorini_scene::scene::Located;
+use signorini_problem::quadrature::{DATA_POINTS, Point};
+use signorini_problem::tensors::{self, scaled};
+use signorini_scene::scene::Material;
 
 /// A ν that is as good as nothing: functions with a lift are integrated less exactly.
 const SAME: f64 = 1e-9;
 
 /// The tensor A on one cell.
 pub struct Conductivity<'s> {
-    entries: &'s [Located<Expression>; 3],
+    material: &'s Material,
     constant: Option<Tensor<f64>>,
     pieces: Option<&'s Pieces>,
 }
@@ -22,14 +22,9 @@ pub struct Conductivity<'s> {
 impl<'s> Conductivity<'s> {
     /// The tensor of cell `cell`, triangles first.
     pub fn of(problem: &'s Problem, cell: usize) -> Self {
-        let entries =
-            &problem.scene.materials[problem.binding.materials[cell] as usize].conductivity;
-        let [xx, xy, yy] = entries.each_ref().map(|entry| entry.value.is_constant());
-        let constant = match (xx, xy, yy) {
-            (Some(xx), Some(xy), Some(yy)) => Some(Tensor { xx, xy, yy }),
-            _ => None,
-        };
-        Self { entries, constant, pieces: problem.coefficients.pieces.get(&cell) }
+        let material = &problem.scene.materials[problem.binding.materials[cell] as usize];
+        let constant = tensors::constant(material);
+        Self { material, constant, pieces: problem.coefficients.pieces.get(&cell) }
     }
 
     /// Whether A is the same all over the cell.
@@ -63,11 +58,25 @@ impl<'s> Conductivity<'s> {
         self.constant.map(|a| vec![a]).or(pieces).unwrap_or_default()
     }
 
+    /// A lower bound of the eigenvalues of A in the cell.
+    pub fn alpha(&self) -> f64 {
+        self.floors().iter().map(smallest_eigenvalue).fold(f64::INFINITY, f64::min)
+    }
+
     /// The points of a rule on the cell, with A there; where they do not resolve A those of its pieces, with what is below A.
     pub fn points(&self, cell: &Cell, rule: &[[f64; 2]]) -> Vec<PiecePoint> {
         match self.cut() {
             Some(pieces) => pieces.points(*cell).collect(),
             None => cell.points(rule).into_iter().map(|point| self.resolved(point)).collect(),
+        }
+    }
+
+    /// Points a direction that polynomials inside the cell need: of degree 2 on quads, and so many on a triangle.
+    pub fn points_for(&self, cell: &Cell, on_triangle: usize) -> usize {
+        match cell {
+            Cell::Triangle(_) if self.is_constant() => on_triangle,
+            Cell::Quad(_) if self.is_constant() && cell.is_affine() => 3,
+            _ => DATA_POINTS,
         }
     }
 
@@ -80,16 +89,12 @@ impl<'s> Conductivity<'s> {
     /// A tensor above A all over the cell.
     pub fn ceiling(&self, cell: &Cell) -> Tensor<f64> {
         let middle = self.at(cell.middle());
-        let most = self.pieces.map_or(1.0, |pieces| pieces.most(&middle));
-        Tensor { xx: most * middle.xx, xy: most * middle.xy, yy: most * middle.yy }
+        scaled(&middle, self.pieces.map_or(1.0, |pieces| pieces.most(&middle)))
     }
 
     /// A at a point.
-    pub fn at(&self, [x, y]: [f64; 2]) -> Tensor<f64> {
-        self.constant.unwrap_or_else(|| {
-            let [xx, xy, yy] = self.entries.each_ref().map(|entry| entry.value.eval(x, y, 0.0));
-            Tensor { xx, xy, yy }
-        })
+    pub fn at(&self, point: [f64; 2]) -> Tensor<f64> {
+        self.constant.unwrap_or_else(|| tensors::at(self.material, point))
     }
 }
 

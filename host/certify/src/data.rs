@@ -27,10 +27,8 @@ pub struct Data<R> {
     curved: Vec<Curved<R, u32>>,
     transfer: Vec<[[R; 2]; 8]>,
     forms: Forms<R>,
-    oscillation: R,
-    lifts: Lifts,
-    unresolved: f64,
-    no_bound: Option<NoBound>,
+    /// The data in f64.
+    pub evaluated: Evaluated,
 }
 
 /// Data of the certificate in f64, as the expressions have them: they may be narrowed, or added up over inputs.
@@ -118,12 +116,11 @@ impl Evaluated {
     }
 
     fn with(problem: &Problem, of: Of, enclosed: &mut Enclosed) -> Result<Self> {
-        let time = problem.time;
-        let ends = Ends::at_time(problem, time)?;
+        let ends = Ends::of(problem)?;
         let stores = !problem.capacities.is_empty();
         let of_ends = (problem, &[Field::Gap, Field::Value][..]);
         let (mut curved_edges, traces) = enclosed.ends.of(of_ends, || {
-            let deviations = Deviations::at_time(problem, time)?;
+            let deviations = Deviations::of(problem)?;
             let curved = CurvedEdges::new(problem, &deviations)?;
             let traces = if stores { traces(problem, &deviations, &curved)? } else { Vec::new() };
             Ok((curved, traces))
@@ -148,7 +145,7 @@ impl Evaluated {
         let whole = norm(&mut of_cells.iter().copied());
         let resolved =
             norm(&mut of_cells.iter().zip(&unresolved).map(|(all, missed)| all - missed));
-        let transfer = robin(problem, time)?;
+        let transfer = robin(problem)?;
         let rough = pole.map(|(field, at, is_proved)| NoBound::not_square(field, at, is_proved));
         let forms = Forms::new(&[problem])?;
         let vanishes = || forms.vanishing.map(|edge| NoBound::transfer_vanishes(problem, edge));
@@ -191,54 +188,35 @@ impl<R: Scalar> Data<R> {
 
     fn narrowed(data: Evaluated) -> Self {
         let pairs = |all: &[[f64; 2]]| all.iter().map(|pair| pair.map(R::narrow)).collect();
-        let curved = data.curved.into_iter().map(|of| Curved {
-            edge: of.edge,
-            mean: R::narrow(of.mean),
-            peak: R::narrow(of.peak),
-            energy: R::narrow(of.energy),
-            coupling: of.coupling.map(R::narrow),
-        });
-        let mut transfer = data.transfer;
-        if transfer.iter().all(|edge| edge.iter().all(|point| *point == edge[0])) {
-            transfer.clear();
-        }
+        let is_uniform = |edge: &RobinPoints| edge.iter().all(|point| *point == edge[0]);
+        let transfer = match data.transfer.iter().all(is_uniform) {
+            true => &[],
+            false => &data.transfer[..],
+        };
         Self {
             gap: pairs(&data.ends.gap),
             given: pairs(&data.ends.given),
-            curved: curved.collect(),
+            curved: data.curved.iter().map(Bent::narrowed).collect(),
             transfer: transfer.iter().map(|edge| edge.map(|point| point.map(R::narrow))).collect(),
             forms: data.forms.narrowed(),
-            oscillation: R::narrow(data.oscillation),
-            lifts: data.lifts,
-            unresolved: data.unresolved,
-            no_bound: data.no_bound,
+            evaluated: data,
         }
     }
 
     /// Whether these data allow for a bound: u_D is continuous, ψ is along each edge, and no transfer coefficient nearly
     /// vanishes on a part of an edge.
     pub fn has_bound(&self) -> bool {
-        self.no_bound.is_none()
+        self.evaluated.no_bound.is_none()
     }
 
     /// Oscillation: the part of f, g, q, ψ and u_D that their means leave out.
     pub fn oscillation(&self) -> R {
-        self.oscillation
-    }
-
-    /// Extensions of curved data, where materials store u.
-    pub fn lifts(&self) -> &Lifts {
-        &self.lifts
-    }
-
-    /// The part of the oscillation that was enclosed and not resolved.
-    pub fn unresolved(&self) -> f64 {
-        self.unresolved
+        R::narrow(self.evaluated.oscillation)
     }
 
     /// Why these data allow for none.
     pub fn no_bound(&self) -> Option<&NoBound> {
-        self.no_bound.as_ref()
+        self.evaluated.no_bound.as_ref()
     }
 
     /// The forms of transfer laws whose points do not see h, where there is one.
@@ -264,7 +242,7 @@ impl<R: Scalar> Data<R> {
             curved: &self.curved,
             transfer: &self.transfer,
             forms,
-            oscillation: self.oscillation + R::narrow(self.lifts.moved),
+            oscillation: self.oscillation() + R::narrow(self.evaluated.lifts.moved),
         })
     }
 }

@@ -57,9 +57,9 @@ pub struct Deviations<'s> {
 }
 
 impl<'s> Deviations<'s> {
-    /// Finds them at time `time`.
-    pub fn at_time(problem: &'s Problem, time: f64) -> Result<Self> {
-        let ends = Ends::at_time(problem, time)?;
+    /// Finds them at the time of `problem`.
+    pub fn of(problem: &'s Problem) -> Result<Self> {
+        let ends = Ends::of(problem)?;
         let counts = problem.topology.counts;
         let contact = (counts.free..).zip(ends.gap.iter().map(|&pair| (Field::Gap, pair)));
         let given = (counts.unknowns()..).zip(ends.given.iter().map(|&pair| (Field::Value, pair)));
@@ -70,7 +70,7 @@ impl<'s> Deviations<'s> {
             let (at, side) = problem.topology.first_side(edge);
             let energy = CellEnergy::of(problem, at);
             largest = largest.max(energy.of_vertices() * ends[0].abs().max(ends[1].abs()));
-            let data = Sum::on_edge(problem, edge, field, time);
+            let data = Sum::on_edge(problem, edge, field);
             let segment = problem.segment(edge);
             let Some(data) = data.filter(|data| data.constant().is_none()) else { continue };
             let (level, parts) = (problem.units.level(), OnceLock::new());
@@ -205,12 +205,12 @@ impl Deviation<'_> {
     }
 
     /// ∫w′² over a part by its points; singular ones have none.
-    fn energy(&self, [from, to]: [f64; 2]) -> f64 {
-        let square = |&[t, weight]: &[f64; 2]| {
-            let slope = self.at(from + (to - from) * t).map_or(0.0, |[_, slope]| slope);
-            (to - from) * weight * slope * slope
+    fn energy(&self, part: [f64; 2]) -> f64 {
+        let square = |[t, weight]: [f64; 2]| {
+            let slope = self.at(t).map_or(0.0, |[_, slope]| slope);
+            weight * slope * slope
         };
-        f64::GAUSS[DATA_POINTS - 1].iter().map(square).sum()
+        on_part(part, f64::GAUSS[DATA_POINTS - 1]).map(square).sum()
     }
 
     /// Second differences of w, which rounding that follows the data in steps shows as well, and first ones of w′ at once beside
@@ -292,7 +292,7 @@ mod tests {
         let (_, problem) = fixtures::on_grid(&text, grid(4, Cells::Triangles))?;
         let free = problem.topology.counts.free;
         let contact = free..problem.topology.counts.unknowns();
-        let found = Deviations::at_time(&problem, 0.0)?;
+        let found = Deviations::of(&problem)?;
         Ok(found.found.iter().filter(|deviation| contact.contains(&deviation.edge)).count())
     }
 

@@ -19,6 +19,7 @@ use signorini_kernel::mesh::geometry::triangle_area;
 use super::cell::Cell;
 use super::conductivity::{apply, dot, inverse, product};
 use super::legendre::{DEGREES, integrated, legendre};
+use super::weighed::minus;
 
 /// ρ on one side of a cell.
 #[derive(Debug, Clone)]
@@ -101,10 +102,6 @@ fn factors(rule: &[[f64; 2]], values: &[f64]) -> [f64; DEGREES] {
 
 fn dot_all(a: &[f64; DEGREES], b: &[f64; DEGREES]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [a[0] - b[0], a[1] - b[1]]
 }
 
 /// Where a way from a point of a convex cell leaves it.

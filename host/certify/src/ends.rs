@@ -22,15 +22,19 @@ pub struct Ends {
 }
 
 impl Ends {
-    /// Evaluates the data, inputs included, at time `time`.
+    /// Evaluates the data, inputs included, at the time of `problem`.
     ///
     /// # Errors
     /// Data that are not finite at the end of an edge.
-    pub fn at_time(problem: &Problem, time: f64) -> Result<Self> {
+    pub fn of(problem: &Problem) -> Result<Self> {
         let counts = problem.topology.counts;
         let pairs = |edges: std::ops::Range<usize>, field: Field| -> Result<Vec<_>> {
-            let data = |edge| Sum::on_edge(problem, edge, field, time).map(|sum| (edge, sum));
-            edges.filter_map(data).map(|(edge, sum)| pair(&sum, problem.segment(edge))).collect()
+            let data = |edge| Sum::on_edge(problem, edge, field).map(|sum| (edge, sum));
+            let pair = |(edge, sum): (usize, Sum)| {
+                let [a, b] = problem.segment(edge);
+                Ok([sum.finite_at(a)?, sum.finite_at(b)?])
+            };
+            edges.filter_map(data).map(pair).collect()
         };
         Ok(Self {
             gap: pairs(counts.free..counts.unknowns(), Field::Gap)?,
@@ -62,37 +66,18 @@ impl Ends {
     /// what one edge asks from below lies above what another asks from above ([`Problem::asks`]), by rounding or in two sectors of
     /// a pinch. s takes one value between both there, which moves it by the difference at most in all cells around.
     pub fn moved(&self, problem: &Problem) -> f64 {
-        let mut asked = self.asked(problem);
-        for (edge, pair) in (problem.topology.counts.free..).zip(&self.gap) {
-            let [below, above] = problem.asks(edge);
-            for (vertex, &psi) in problem.ends[edge].into_iter().zip(pair) {
-                let [most, least] = asked.entry(vertex).or_insert(ANYTHING);
-                if below {
-                    *most = most.max(psi);
-                }
-                if above {
-                    *least = least.min(psi);
-                }
-            }
-        }
-        of_excluded(problem, asked)
+        let contact = (problem.topology.counts.free..).zip(&self.gap);
+        of_excluded(problem, self.on_dirichlet(problem).chain(contact))
     }
 
     /// Largest move between Dirichlet edges alone: one term of a sum may have u_D and ψ on any side.
     pub fn moved_on_dirichlet(&self, problem: &Problem) -> f64 {
-        of_excluded(problem, self.asked(problem))
+        of_excluded(problem, self.on_dirichlet(problem))
     }
 
-    /// The most that Dirichlet edges ask from below at each vertex, and the least that they ask from above.
-    fn asked(&self, problem: &Problem) -> BTreeMap<u32, [f64; 2]> {
-        let mut asked = BTreeMap::<u32, [f64; 2]>::new();
-        for (edge, pair) in (problem.topology.counts.unknowns()..).zip(&self.given) {
-            for (vertex, &value) in problem.ends[edge].into_iter().zip(pair) {
-                let [most, least] = asked.entry(vertex).or_insert(ANYTHING);
-                (*most, *least) = (most.max(value), least.min(value));
-            }
-        }
-        asked
+    /// The Dirichlet edges with their pairs.
+    fn on_dirichlet(&self, problem: &Problem) -> impl Iterator<Item = (usize, &[f64; 2])> {
+        (problem.topology.counts.unknowns()..).zip(&self.given)
     }
 
     /// The largest modulus of all these numbers.
@@ -115,11 +100,21 @@ impl Ends {
     }
 }
 
-/// Asked from below and from above where nothing is.
-const ANYTHING: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
-
-/// ‖A^½∇·‖ of what s misses where the most that is asked from below lies above the least from above.
-fn of_excluded(problem: &Problem, asked: BTreeMap<u32, [f64; 2]>) -> f64 {
+/// ‖A^½∇·‖ of what s misses where the most that these edges ask from below lies above the least that they ask from above.
+fn of_excluded<'e>(problem: &Problem, edges: impl Iterator<Item = (usize, &'e [f64; 2])>) -> f64 {
+    let mut asked = BTreeMap::new();
+    for (edge, pair) in edges {
+        let [below, above] = problem.asks(edge);
+        for (vertex, &value) in problem.ends[edge].into_iter().zip(pair) {
+            let [most, least] = asked.entry(vertex).or_insert([f64::NEG_INFINITY, f64::INFINITY]);
+            if below {
+                *most = most.max(value);
+            }
+            if above {
+                *least = least.min(value);
+            }
+        }
+    }
     let excluded = asked.into_iter().filter(|(_, [most, least])| most > least);
     of_moved(problem, &excluded.map(|(vertex, [most, least])| (vertex, most - least)).collect())
 }
@@ -138,11 +133,6 @@ pub fn of_moved(problem: &Problem, moved: &BTreeMap<u32, f64>) -> f64 {
     2.0 * (0..problem.cells()).map(of_cell).fold(0.0_f64, f64::hypot)
 }
 
-fn pair(sum: &Sum, segment: [[f64; 2]; 2]) -> Result<[f64; 2]> {
-    let value = |[x, y]: [f64; 2]| sum.finite(sum.at(x, y), [x, y]);
-    Ok([value(segment[0])?, value(segment[1])?])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -153,7 +143,7 @@ mod tests {
     #[test]
     fn each_pair_is_the_data_at_its_edges_ends() -> Result<()> {
         let (_, problem) = fixtures::on_grid(SMOOTH, grid(4, Cells::Mixed))?;
-        let ends = Ends::at_time(&problem, 0.0)?;
+        let ends = Ends::of(&problem)?;
         let counts = problem.topology.counts;
         assert_eq!((ends.gap.len(), ends.given.len()), (counts.contact, counts.dirichlet));
         for (edge, pair) in (counts.free..).zip(&ends.gap) {
@@ -171,7 +161,7 @@ mod tests {
         let input =
             "[input.lift]\nof = \"contact\"\nfield = \"gap\"\npattern = \"x\"\ndefault = -2.0\n";
         let (_, problem) = fixtures::on_grid(&format!("{SMOOTH}{input}"), grid(2, Cells::Quads))?;
-        let ends = Ends::at_time(&problem, 0.0)?;
+        let ends = Ends::of(&problem)?;
         for (at, pair) in ends.gap.iter().enumerate() {
             let edge = problem.topology.counts.free + at;
             assert_eq!(*pair, problem.segment(edge).map(|[x, _]| x.powi(3) - 2.0 * x));
@@ -183,7 +173,7 @@ mod tests {
     fn an_infinite_value_names_its_place_in_the_file() -> Result<()> {
         let scene = fixtures::scene(&SMOOTH.replace("gap = \"x^3\"", "gap = \"-1/abs(x)\""))?;
         let problem = Problem::new(&scene, fixtures::with_four_sides(grid(2, Cells::Triangles)))?;
-        let error = Ends::at_time(&problem, 0.0).expect_err("ψ is infinite at x = 0");
+        let error = Ends::of(&problem).expect_err("ψ is infinite at x = 0");
         assert!(error.to_string().contains("boundary.contact.gap"), "{error}");
         Ok(())
     }

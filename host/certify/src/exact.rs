@@ -10,11 +10,9 @@
 //! clipped: where S or τ are not admissible, single terms are negative.
 
 mod along;
-mod fewer;
 mod in_energy;
 mod two_sided;
 
-pub use fewer::of_fewer_points;
 pub use in_energy::in_energy;
 
 use std::borrow::Cow;
@@ -70,6 +68,16 @@ pub fn distance_on(
     let deviations = &curved::followed(problem, admissible)?;
     let (u, lift) = (&Solution { exact, problem }, &Lifted { problem, deviations });
     Integrands { exact, problem, admissible, deviations, u, lift, panels, fewer: 1 }.distance()
+}
+
+/// [`Distance::combined`] with half of the points a direction.
+///
+/// # Errors
+/// As for [`distance`].
+pub fn of_fewer_points(exact: &Exact, problem: &Problem, admissible: &Admissible) -> Result<f64> {
+    let deviations = &curved::followed(problem, admissible)?;
+    let (u, lift) = (&Solution { exact, problem }, &Lifted { problem, deviations });
+    Integrands { exact, problem, admissible, deviations, u, lift, panels: 1, fewer: 2 }.combined()
 }
 
 /// Fields that a distance is integrated from.
@@ -214,8 +222,7 @@ impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
         }
         let mean = q.mean(self.problem.segment(edge))?;
         let term = |point: EdgePoint| {
-            let [x, y] = point.x;
-            let (q, psi) = (q.finite(q.at(x, y), point.x)?, gap.finite(gap.at(x, y), point.x)?);
+            let (q, psi) = (q.finite_at(point.x)?, gap.finite_at(point.x)?);
             let EdgePoint { weight, u, s, sigma, tau, .. } = point;
             let contact =
                 plus(twice(weight, [sigma, q], [s, psi]), twice(weight, [tau, mean], [u, psi]));
@@ -231,8 +238,7 @@ impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
         };
         let mean = g.mean(self.problem.segment(edge))?;
         let term = |point: EdgePoint| {
-            let own = g.finite(g.at(point.x[0], point.x[1]), point.x)?;
-            Ok(twice(point.weight, [point.s, point.u], [own, mean]))
+            Ok(twice(point.weight, [point.s, point.u], [g.finite_at(point.x)?, mean]))
         };
         self.on_edge(edge, term)
     }
@@ -240,10 +246,10 @@ impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
     /// ∫[h(u − S)² + ((σ − τ)·n)²/h] over an edge of R, 0 on others.
     fn robin(&self, edge: usize) -> Result<Weighed> {
         let problem = self.problem;
-        let h = Sum::transfer(problem, edge, problem.time);
+        let h = Sum::transfer(problem, edge);
         let Some(coefficient) = h else { return Ok([0.0; 2]) };
         let term = |point: EdgePoint| {
-            let h = coefficient.finite(coefficient.at(point.x[0], point.x[1]), point.x)?;
+            let h = coefficient.finite_at(point.x)?;
             let EdgePoint { weight, u, s, sigma, tau, .. } = point;
             let square = weight * on_robin(h, u - s, sigma - tau);
             let [_, size] = twice(weight, [u, s], [u, s]);
@@ -254,6 +260,6 @@ impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
     }
 
     fn data(&self, edge: usize, field: Field) -> Option<Sum<'_>> {
-        Sum::on_edge(self.problem, edge, field, self.problem.time)
+        Sum::on_edge(self.problem, edge, field)
     }
 }

@@ -26,15 +26,11 @@ pub fn coefficients(problem: &Problem, at: usize, of: &Admissible) -> [Vec<f64>;
     let value = |vertex: u32| of.vertices[vertex as usize];
     let mut v: Vec<_> =
         vertices[1..].iter().map(|&vertex| value(vertex) - value(vertices[0])).collect();
-    let tau = match CellField::new(problem, at, of.tau, of.tau) {
-        CellField::Triangle(_, _, fluxes) => fluxes.to_vec(),
-        CellField::Quad(_, _, fluxes, _) => {
-            v.extend(problem.topology.edges_of(at).iter().map(|&edge| of.bubbles[edge as usize]));
-            v.push(0.0);
-            fluxes.to_vec()
-        }
-    };
-    [v, tau]
+    if vertices.len() == 4 {
+        v.extend(problem.topology.edges_of(at).iter().map(|&edge| of.bubbles[edge as usize]));
+        v.push(0.0);
+    }
+    [v, CellField::new(problem, at, of.tau, of.tau).fluxes().to_vec()]
 }
 
 /// Rows of a triangular factor as the kernel keeps its columns. A row begins where its column does.

@@ -1,30 +1,58 @@
 //! The fields that a certificate is about, in the scalar that it is computed in.
 
-use signorini_bound::certificate::{Buffers, Discretization, Handed, LoadCase, openings};
+use signorini_bound::certificate::{Buffers, Discretization, LoadCase, openings};
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::law::Law;
 
+use super::admissible::{Admissible, Following};
+use super::evolution::StepTerms;
+use super::lifted::Lifts;
 use signorini_problem::Problem;
-use signorini_problem::scalar::Scalar;
+use signorini_problem::scalar::{Scalar, widened};
 
-/// Memory of a certificate: s at the vertices and its bubbles, τ, and each cell's part.
-#[derive(Debug, Clone)]
-pub struct Fields<R> {
-    /// See [`Buffers`].
+/// The admissible pair of a certificate.
+#[derive(Debug, Clone, Default)]
+pub struct CertifiedFields<R = f64> {
+    /// s at the vertices.
     pub vertices: Vec<R>,
-    /// See [`Buffers`].
+    /// The bubbles of s, one an edge.
     pub bubbles: Vec<R>,
-    /// See [`Buffers`].
+    /// ∫_E τ·n of every edge, along its direction.
     pub tau: Vec<R>,
-    /// See [`Buffers`].
+    /// Each cell's part of gap², triangles first.
     pub indicators: Vec<R>,
-    /// One per contact edge where materials store u.
+    /// The means of (s − ψ)⁺ and (ψ − s)⁺ along each contact edge, where materials store u.
     pub openings: Vec<[R; 2]>,
+    /// The terms of a step in the bound of the evolution, one for each way to balance its cells.
+    pub evolution: Vec<StepTerms<f64>>,
+    /// Where s has extensions.
+    pub following: Following,
+    /// Its extensions, where materials store u.
+    pub lifts: Lifts,
 }
 
-impl<R: Scalar> Fields<R> {
+/// A column of s and τ, where these are sums over inputs and unknowns.
+#[derive(Debug, Clone)]
+pub struct Column {
+    /// The problem in which this column is left alone.
+    pub problem: Problem,
+    /// s and τ.
+    pub certified: CertifiedFields,
+    /// The flux of each transfer law, ∫h (u_ext − u), where a coefficient changes: in a sum of columns that is ∫τ·n. Else nothing.
+    pub laws: Vec<f64>,
+}
+
+impl CertifiedFields {
+    /// S and τ as the exact norms take them.
+    pub fn admissible(&self) -> Admissible<'_> {
+        let Self { vertices, bubbles, tau, following, .. } = self;
+        Admissible { vertices, bubbles, tau, following }
+    }
+}
+
+impl<R: Scalar> CertifiedFields<R> {
     /// Of `problem`.
-    pub fn new(problem: &Problem) -> Self {
+    pub(super) fn new(problem: &Problem) -> Self {
         let zeros = |length| vec![R::ZERO; length];
         let edges = problem.topology.counts.edges();
         let (vertices, cells) = (problem.mesh.vertices.len(), problem.cells());
@@ -37,6 +65,9 @@ impl<R: Scalar> Fields<R> {
                 true => Vec::new(),
                 false => vec![[R::ZERO; 2]; problem.topology.counts.contact],
             },
+            evolution: Vec::new(),
+            following: Following::WhereNeeded,
+            lifts: Lifts::default(),
         }
     }
 
@@ -44,7 +75,7 @@ impl<R: Scalar> Fields<R> {
     ///
     /// # Errors
     /// Never for fields of this problem.
-    pub fn open(
+    pub(super) fn open(
         &mut self,
         of: &Discretization<R, u32>,
         given: &LoadCase<R, u32>,
@@ -56,14 +87,23 @@ impl<R: Scalar> Fields<R> {
         }
     }
 
-    /// The field in the kernel's form.
-    pub fn buffers(&mut self) -> Buffers<'_, R> {
+    /// The fields in the kernel's form.
+    pub(super) fn buffers(&mut self) -> Buffers<'_, R> {
         let Self { vertices, bubbles, tau, indicators, .. } = self;
         Buffers { vertices, bubbles, tau, indicators }
     }
 
-    /// As the kernel takes it for cells that hand on what they lack.
-    pub fn handed(&mut self) -> Handed<'_, R> {
-        Handed { tau: &mut self.tau, indicators: &mut self.indicators }
+    /// These fields in f64.
+    pub(super) fn widened(&self) -> CertifiedFields {
+        CertifiedFields {
+            vertices: widened(&self.vertices),
+            bubbles: widened(&self.bubbles),
+            tau: widened(&self.tau),
+            indicators: widened(&self.indicators),
+            openings: self.openings.iter().map(|pair| pair.map(R::wide)).collect(),
+            evolution: self.evolution.clone(),
+            following: self.following.clone(),
+            lifts: self.lifts.clone(),
+        }
     }
 }

@@ -74,12 +74,8 @@ fn may_move(problem: &Problem, edge: usize) -> bool {
         Condition::Contact { gap, .. } => gap,
         Condition::Neumann { .. } | Condition::Robin { .. } => return false,
     };
-    let mut inputs = problem.scene.inputs.iter();
-    let has_input = inputs.any(|input| {
-        let is_own = input.of.value == boundary.name.value;
-        is_own && matches!(input.field.value, Field::Value | Field::Gap)
-    });
-    datum.value.uses_time() || has_input
+    let mut inputs = problem.inputs_of(boundary, &[Field::Value, Field::Gap]);
+    datum.value.uses_time() || inputs.next().is_some()
 }
 
 fn trace((deviation, (points, missed)): (&Deviation, (Vec<[f64; 2]>, f64))) -> Result<Trace> {

@@ -83,18 +83,17 @@ impl<R: Scalar> Metric<R> {
 
     /// Adds B at the points of a cell where it varies, and what A has above what the points see.
     fn add(&mut self, problem: &Problem, cell: usize) {
-        let pieces = problem.coefficients.pieces.get(&cell);
-        if pieces.is_some_and(|pieces| !pieces.is_resolved()) {
+        let a = Conductivity::of(problem, cell);
+        if a.cut().is_some() {
             return;
         }
-        let Some(points) = self.varying(problem, cell) else { return };
+        let Some(points) = varying(problem, cell, &a) else { return };
         self.place[cell] = self.at_points.len() as u32;
         self.at_points.push(points);
         // ‖A^{−½}(τ − A∇s)‖ ≤ √(1 + ν) of what the points see and 2ν‖A^½∇s‖.
-        let share = pieces.map_or(0.0, |pieces| pieces.share());
-        self.above.push([4.0 * share * share, 0.0].map(R::narrow));
-        self.missed =
-            self.missed.max(pieces.map_or(0.0, |pieces| pieces.slack(Cell::of(problem, cell))));
+        self.above.push([4.0 * a.share() * a.share(), 0.0].map(R::narrow));
+        let [missed, _] = a.missed(Cell::of(problem, cell));
+        self.missed = self.missed.max(missed);
     }
 
     /// Adds the factors of the cells whose points do not resolve A.
@@ -111,37 +110,36 @@ impl<R: Scalar> Metric<R> {
             self.above.clear();
         }
     }
+}
 
-    /// B at the points, where it is not the same in the whole cell.
-    fn varying(&self, problem: &Problem, cell: usize) -> Option<Points<R>> {
-        let mesh = &problem.mesh;
-        let corner = |vertex: u32| mesh.vertices[vertex as usize];
-        let rule = f64::GAUSS[POINTS - 1];
-        let a = Conductivity::of(problem, cell);
-        let tensors: Vec<Tensor<f64>> = match cell.checked_sub(mesh.triangles.len()) {
-            None if a.is_constant() => return None,
-            None => {
-                let corners = mesh.triangles[cell].map(corner);
-                let points = on_triangle(corners, rule);
-                points.map(|point| of_triangle(corners, a.at(point.x))).collect()
-            }
-            Some(quad) => {
-                let corners = mesh.quads[quad].map(corner);
-                let here = |reference: [f64; 3]| place(corners, [reference[0], reference[1]]);
-                if a.is_constant() && is_parallelogram(corners) {
-                    let middle = here([0.5, 0.5, 0.0]);
-                    if is_told(of_quad(&middle, a.at(middle.x)), R::EPSILON.wide()) {
-                        return None;
-                    }
+/// B at the points, where it is not the same in the whole cell.
+fn varying<R: Scalar>(problem: &Problem, cell: usize, a: &Conductivity) -> Option<Points<R>> {
+    let mesh = &problem.mesh;
+    let corner = |vertex: u32| mesh.vertices[vertex as usize];
+    let rule = f64::GAUSS[POINTS - 1];
+    let tensors: Vec<Tensor<f64>> = match cell.checked_sub(mesh.triangles.len()) {
+        None if a.is_constant() => return None,
+        None => {
+            let corners = mesh.triangles[cell].map(corner);
+            let points = on_triangle(corners, rule);
+            points.map(|point| of_triangle(corners, a.at(point.x))).collect()
+        }
+        Some(quad) => {
+            let corners = mesh.quads[quad].map(corner);
+            let here = |reference: [f64; 3]| place(corners, [reference[0], reference[1]]);
+            if a.is_constant() && is_parallelogram(corners) {
+                let middle = here([0.5, 0.5, 0.0]);
+                if is_told(of_quad(&middle, a.at(middle.x)), R::EPSILON.wide()) {
+                    return None;
                 }
-                // The element matrices have the same points.
-                let known = &problem.coefficients.quads[quad];
-                let points = on_quad(corners, rule).enumerate();
-                points.map(|(at, p)| of_quad(&here(p.reference), known.at(at))).collect()
             }
-        };
-        Some(std::array::from_fn(|point| narrowed(&tensors[point])))
-    }
+            // The element matrices have the same points.
+            let known = &problem.coefficients.quads[quad];
+            let points = on_quad(corners, rule).enumerate();
+            points.map(|(at, p)| of_quad(&here(p.reference), known.at(at))).collect()
+        }
+    };
+    Some(std::array::from_fn(|point| narrowed(&tensors[point])))
 }
 
 /// The distortion of every quad, where u_h is nonparametric and there is a quad on which that matters.

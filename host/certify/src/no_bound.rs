@@ -10,7 +10,7 @@ use super::ends::Ends;
 use signorini_problem::pieces::Pieces;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Problem, excess_within_ranges};
-use signorini_scene::scene::{Field, Input};
+use signorini_scene::scene::Field;
 
 /// Why there is no bound: one sentence that names boundary and place.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -54,15 +54,13 @@ impl NoBound {
             |edge: &usize| excess_within_ranges(problem, *edge).is_some_and(f64::is_infinite);
         let mut edges = free..free + if has_input { problem.topology.counts.contact } else { 0 };
         let edge = edges.find(is_open)?;
-        let name = boundary(problem, edge);
-        let is_culprit = |input: &&Input| {
-            let is_end = matches!(input.field.value, Field::Flux | Field::Limit);
-            is_end && input.of.value == name && input.range.is_none()
-        };
-        let input = problem.scene.inputs.iter().find(is_culprit)?;
+        let boundary = problem.boundary_of(edge)?;
+        let mut inputs = problem.inputs_of(boundary, &[Field::Flux, Field::Limit]);
+        let input = inputs.find(|input| input.range.is_none())?;
         Some(Self(format!(
-            "limit − flux of boundary.{name} varies along the edge around {}, and input.{} changes it without a range: \
+            "limit − flux of boundary.{} varies along the edge around {}, and input.{} changes it without a range: \
              with a range that leaves it room there is a bound",
+            boundary.name.value,
             middle(problem, edge),
             input.name.value
         )))
@@ -101,14 +99,12 @@ impl NoBound {
     pub fn of_changed_transfer(problem: &Problem, laws: &[u32]) -> Option<Self> {
         laws.iter().find_map(|&law| {
             let edge = problem.loads.robin.get(law as usize)?.edge as usize;
-            let name = boundary(problem, edge);
-            let changes = |input: &&Input| {
-                input.field.value == Field::Coefficient && input.of.value == name
-            };
-            let input = problem.scene.inputs.iter().find(changes)?;
+            let boundary = problem.boundary_of(edge)?;
+            let input = problem.inputs_of(boundary, &[Field::Coefficient]).next()?;
             Some(Self(format!(
-                "the transfer coefficient of boundary.{name} varies inside the edge around {} in a way that 8 points do not \
+                "the transfer coefficient of boundary.{} varies inside the edge around {} in a way that 8 points do not \
                  see, and input.{} changes it: a vertex where it jumps or a finer mesh gives a controller a bound",
+                boundary.name.value,
                 middle(problem, edge),
                 input.name.value
             )))

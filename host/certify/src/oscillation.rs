@@ -11,7 +11,6 @@
 //! with the diameters h and the smallest eigenvalue α_T of A on T. q counts like g; of u_ext what 8 points do not see
 //! ([`super::robin`]). Where a cell is stretched, or A is, fluxes inside it bound both closer (`stretched`).
 
-mod alpha;
 mod edges;
 mod parts;
 mod rules;
@@ -22,16 +21,16 @@ mod tests;
 use std::f64::consts::PI;
 
 use super::cell::Cell;
+use super::conductivity::Conductivity;
 use super::robin::missed;
 use super::stretch::is_even;
-pub use alpha::alpha;
 pub use edges::off_mean;
 use edges::{of_flux, pole_on_edge};
 use parts::square;
 use rules::{ELLIPSES, LEFT, POINTS, RESOLVED, differences};
 use signorini_problem::quadrature::enclosed::{self, Integral, pole};
 use signorini_problem::quadrature::gauss;
-use signorini_problem::quadrature::refined::{Part, refined};
+use signorini_problem::quadrature::refined::refined;
 use signorini_problem::threads::in_portions;
 use signorini_problem::{EdgeKind, Problem, Sum};
 use signorini_scene::error::Result;
@@ -108,7 +107,10 @@ pub fn of_source(problem: &Problem) -> Result<OfSource> {
     }
     let weights = in_portions(cells, |portion| {
         Ok(portion
-            .map(|at| Cell::of(problem, at).diameter() / PI / alpha(problem, at).sqrt())
+            .map(|at| {
+                let alpha = Conductivity::of(problem, at).alpha();
+                Cell::of(problem, at).diameter() / PI / alpha.sqrt()
+            })
             .collect::<Vec<_>>())
     })?;
     let weights = weights.concat();
@@ -141,17 +143,13 @@ fn squares(problem: &Problem, f: &Sum, weights: &[f64]) -> Result<Vec<Integral>>
         let (at, weight) = (open[of], weights[open[of]].powi(2));
         deviation(problem, at, f, region).map(|square| weight * square)
     };
-    let whole = open.iter().enumerate().map(|(of, &at)| {
-        let region = enclosed::region(Cell::of(problem, at));
-        let [value, missed] = deviation(of, &region);
-        Part { of, region, value, missed }
-    });
+    let regions = open.iter().map(|&at| enclosed::region(Cell::of(problem, at)));
     let all = squares.iter().zip(weights);
     let known: f64 = all.map(|(of, weight)| of.value * weight * weight).sum();
     let is_enough = |size: f64, missed: f64| missed <= LEFT * size.max(known);
     let parts = refined(
         |region| f.cut(region),
-        whole.collect(),
+        regions.enumerate(),
         MOST + EACH * open.len(),
         is_enough,
         deviation,

@@ -30,7 +30,9 @@ pub fn profiles(problem: &Problem, quads: &[Option<InRows>]) -> Vec<Profile> {
     let mut profiles = vec![[0.0; DEGREES]; problem.kinds.len()];
     let mut seen = vec![[false; 2]; quads.len()];
     let is_open = |edge: usize| match problem.kinds[edge] {
-        EdgeKind::Interior => problem.topology.cells_of(edge).iter().all(|&at| quads[at].is_some()),
+        EdgeKind::Interior => {
+            problem.topology.cells_of(edge).iter().flatten().all(|&at| quads[at].is_some())
+        }
         kind => kind == EdgeKind::Dirichlet,
     };
     // Rows that end first; what is left are rings, cut anywhere.

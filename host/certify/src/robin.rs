@@ -16,31 +16,25 @@ use signorini_problem::quadrature::refined::{Part, refined};
 use signorini_problem::{Problem, Sum};
 use signorini_scene::error::Result;
 use signorini_scene::expression::enclosure::{Region, root};
-use signorini_scene::scene::Field;
 
 /// \[h |E|, u_ext\] at the 8 Gauss points of an edge, in its direction.
 pub type RobinPoints = [[f64; 2]; DATA_POINTS];
 
-/// Evaluates the data of each record of `problem.loads.robin`, in that order, at time `time`.
+/// Evaluates the data of each record of `problem.loads.robin`, in that order, at its time.
 ///
 /// # Errors
 /// Data that are not finite at a point.
-pub fn robin(problem: &Problem, time: f64) -> Result<Vec<RobinPoints>> {
-    let records = problem.loads.robin.iter();
-    let edges = records.filter_map(|record| {
-        let edge = record.edge as usize;
-        let ambient = Sum::on_edge(problem, edge, Field::Ambient, time)?;
-        Some((edge, Sum::transfer(problem, edge, time)?, ambient))
-    });
-    edges.map(|(edge, h, ambient)| points(problem, edge, &h, &ambient)).collect()
+pub fn robin(problem: &Problem) -> Result<Vec<RobinPoints>> {
+    let edges = problem.loads.robin.iter().map(|record| record.edge as usize);
+    let laws = edges.filter_map(|edge| Some((edge, Sum::of_law(problem, edge)?)));
+    laws.map(|(edge, [h, ambient])| points(problem, edge, &h, &ambient)).collect()
 }
 
 fn points(problem: &Problem, edge: usize, h: &Sum, ambient: &Sum) -> Result<RobinPoints> {
     let mut values = RobinPoints::default();
     for (value, &[t, _]) in values.iter_mut().zip(f64::GAUSS[DATA_POINTS - 1]) {
-        let [x, y] = problem.along(edge, t);
-        let coefficient = h.finite(h.at(x, y), [x, y])?;
-        *value = [problem.lengths[edge] * coefficient, ambient.finite(ambient.at(x, y), [x, y])?];
+        let at = problem.along(edge, t);
+        *value = [problem.lengths[edge] * h.finite_at(at)?, ambient.finite_at(at)?];
     }
     Ok(values)
 }
@@ -57,11 +51,8 @@ const LEFT: [f64; 2] = [1e-3, 1e-5];
 /// # Errors
 /// Data that are not finite at a point.
 pub fn missed(problem: &Problem, edge: usize) -> Result<[f64; 2]> {
-    let data = (
-        Sum::transfer(problem, edge, problem.time),
-        Sum::on_edge(problem, edge, Field::Ambient, problem.time),
-    );
-    let (Some(h), Some(ambient)) = &data else { return Ok([0.0; 2]) };
+    let law = Sum::of_law(problem, edge);
+    let Some([h, ambient]) = &law else { return Ok([0.0; 2]) };
     let (unseen, is_even) = (unseen(problem, edge)?, h.constant().is_some());
     if ambient.constant().is_some() && (is_even || unseen.is_some()) {
         return Ok([0.0; 2]);
@@ -78,18 +69,13 @@ pub fn missed(problem: &Problem, edge: usize) -> Result<[f64; 2]> {
     let pieces = ranges.into_iter().map(|(range, factor)| weighed.piece(range, factor));
     let pieces = pieces.collect::<Result<Vec<_>>>()?;
     let spread: f64 = pieces.iter().map(Piece::spread).sum();
-    let whole = pieces.iter().enumerate().map(|(of, piece)| {
-        let [a, b] = piece.range.map(|t| problem.along(edge, t));
-        let region = Region::segment([a, b]);
-        let [value, missed] = weighed.square(piece, &region);
-        Part { of, region, value, missed }
-    });
+    let regions = pieces.iter().map(|of| Region::segment(of.range.map(|t| problem.along(edge, t))));
     let is_enough = |size: f64, missed: f64| {
         missed <= LEFT[0].powi(2) * size || missed <= LEFT[1].powi(2) * spread
     };
     let parts = refined(
         |region| ambient.cut(region),
-        whole.collect(),
+        regions.enumerate(),
         MOST + pieces.len(),
         is_enough,
         |of, region| weighed.square(&pieces[of], region),
@@ -202,10 +188,11 @@ mod tests {
     use signorini_scene::mesh::structured::{Cells, grid};
     use signorini_tolerances::solve::{NARROW_BUMP, POINTS};
 
+    /// And they run in the direction of the edge.
     #[test]
     fn the_points_add_up_to_the_loads() -> Result<()> {
         let (_, problem) = fixtures::on_grid(SMOOTH, grid(4, Cells::Mixed))?;
-        let data = robin(&problem, 0.0)?;
+        let data = robin(&problem)?;
         assert_eq!(data.len(), 4);
         for (record, points) in problem.loads.robin.iter().zip(&data) {
             let rule = f64::GAUSS[DATA_POINTS - 1];
@@ -214,6 +201,13 @@ mod tests {
             let both: f64 = weighted().map(|([h, u], weight)| weight * h * u).sum();
             POINTS.check("coefficient", h - record.coefficient);
             POINTS.check("ambient", both - record.ambient);
+            let [[_, start], [_, end]] = problem.segment(record.edge as usize);
+            for ([h, ambient], [t, _]) in points.iter().zip(rule) {
+                let y = start + t * (end - start);
+                let outside = y + y * y - 1.0 + (3.0 * y - 6.5) / (2.0 + y);
+                POINTS.check("coefficient", h - 0.25 * (2.0 + y));
+                POINTS.check("outside", ambient - outside);
+            }
         }
         Ok(())
     }
@@ -248,21 +242,6 @@ mod tests {
         // A layer that no point of the first panels sees: √2 (4 ∫ exp(−2y/ℓ) dy)^½ = 2√ℓ.
         let found = missed_of("4", "exp(-y/1e-5)")?;
         NARROW_BUMP.check_relative("a layer", found, 2.0 * 1e-5_f64.sqrt());
-        Ok(())
-    }
-
-    #[test]
-    fn the_points_run_in_the_direction_of_the_edge() -> Result<()> {
-        let (_, problem) = fixtures::on_grid(SMOOTH, grid(4, Cells::Mixed))?;
-        for (record, points) in problem.loads.robin.iter().zip(robin(&problem, 0.0)?) {
-            let [[_, start], [_, end]] = problem.segment(record.edge as usize);
-            for ([h, ambient], [t, _]) in points.into_iter().zip(f64::GAUSS[DATA_POINTS - 1]) {
-                let y = start + t * (end - start);
-                let outside = y + y * y - 1.0 + (3.0 * y - 6.5) / (2.0 + y);
-                POINTS.check("coefficient", h - 0.25 * (2.0 + y));
-                POINTS.check("outside", ambient - outside);
-            }
-        }
         Ok(())
     }
 }

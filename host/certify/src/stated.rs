@@ -15,7 +15,7 @@ use super::cell::Cell;
 use super::deviation::Deviations;
 use super::lifted::share;
 use signorini_problem::quadrature::enclosed::region;
-use signorini_problem::quadrature::refined::{Part, refined};
+use signorini_problem::quadrature::refined::refined;
 use signorini_problem::quadrature::{DATA_POINTS, gauss};
 use signorini_problem::{Problem, Sum};
 use signorini_scene::error::Result;
@@ -34,15 +34,11 @@ const MOST: usize = 20_000;
 /// Data that are not finite.
 pub fn distance(problem: &Problem, s: &Admissible, stated: &Sum) -> Result<f64> {
     let all: Vec<_> = (0..problem.cells()).map(|at| OnCell::new(problem, s, at)).collect();
-    let part = |(of, cell): (usize, &OnCell)| {
-        let region = region(cell.cell);
-        let [value, missed] = cell.square(stated, &region);
-        Part { of, region, value, missed }
-    };
-    let parts = all.iter().enumerate().filter(|(_, cell)| cell.capacity > 0.0).map(part).collect();
+    let storing = all.iter().enumerate().filter(|(_, cell)| cell.capacity > 0.0);
+    let regions = storing.map(|(of, cell)| (of, region(cell.cell)));
     let is_enough = |size: f64, missed: f64| missed <= LEFT * size;
     let square = |of: usize, region: &Region| all[of].square(stated, region);
-    let parts = refined(|_| None, parts, MOST, is_enough, square);
+    let parts = refined(|_| None, regions, MOST, is_enough, square);
     let square: f64 = parts.iter().map(|part| part.value + part.missed).sum();
     Ok(square.sqrt() + followed(problem)?)
 }
@@ -50,7 +46,7 @@ pub fn distance(problem: &Problem, s: &Admissible, stated: &Sum) -> Result<f64> 
 /// ‖c^½L‖ at most.
 fn followed(problem: &Problem) -> Result<f64> {
     let mut of_cells = BTreeMap::new();
-    for deviation in &Deviations::at_time(problem, problem.time)?.found {
+    for deviation in &Deviations::of(problem)?.found {
         let (mut square, mut missed) = (0.0, 0.0);
         for part in deviation.parts() {
             missed += part.missed[0];

@@ -54,19 +54,19 @@ fn stored<R: Scalar>(problem: &Problem, at: usize, content: R, keep: f64) -> Sto
 /// Each corner of a triangle may be a.
 fn stiffness(problem: &Problem, at: usize, (cell, is_affine): (&Cell, bool)) -> f64 {
     let h = cell.diameter();
-    let floors = Conductivity::of(problem, at).floors();
-    let least =
-        |of: &dyn Fn(&Tensor<f64>) -> f64| floors.iter().map(of).fold(f64::INFINITY, f64::min);
-    let by_diameter = least(&smallest_eigenvalue) / (h * h);
+    let conductivity = Conductivity::of(problem, at);
+    let floors = conductivity.floors();
+    let by_diameter = conductivity.alpha() / (h * h);
     let in_coordinates = |[a, b, c]: [[f64; 2]; 3]| {
         let [p, q] = [minus(b, a), minus(c, a)];
         let determinant = p[0] * q[1] - p[1] * q[0];
         // The rows of F⁻¹.
         let [m, n] = [[q[1], -q[0]], [-p[1], p[0]]].map(|row| row.map(|x| x / determinant));
-        least(&|floor: &Tensor<f64>| {
+        let least = floors.iter().map(|floor| {
             let [xx, xy, yy] = [product(floor, m, m), product(floor, m, n), product(floor, n, n)];
             smallest_eigenvalue(&Tensor { xx, xy, yy })
-        })
+        });
+        least.fold(f64::INFINITY, f64::min)
     };
     let best = match *cell {
         Cell::Triangle([a, b, c]) => {

@@ -5,6 +5,7 @@ use signorini_kernel::Tensor;
 use super::cell::Cell;
 use super::conductivity::{Conductivity, eigenvalues, product, smallest_eigenvalue};
 use signorini_problem::Problem;
+use signorini_problem::tensors::scaled;
 
 /// Where d²/|T| in the metric of A is larger than for squares and their halves by no more than what their distortion makes of it,
 /// Poincaré's inequality costs a factor of 2 at most. On triangles ρ is not much better where they are longer either: a v that
@@ -34,8 +35,7 @@ pub fn floor(problem: &Problem, at: usize) -> Tensor<f64> {
     }
     let floors = a.floors().into_iter();
     let parts = floors.map(|floor| smallest_eigenvalue(&relative(&floor, &middle)));
-    let part = parts.fold(1.0, f64::min);
-    Tensor { xx: part * middle.xx, xy: part * middle.xy, yy: part * middle.yy }
+    scaled(&middle, parts.fold(1.0, f64::min))
 }
 
 /// L⁻¹ A L⁻ᵀ, LLᵀ = `to`: its eigenvalues λ are those of A v = λ `to` v.

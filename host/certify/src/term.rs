@@ -69,7 +69,7 @@ pub fn full_terms(problem: &Problem) -> Result<Vec<TermData>> {
         }
         let input = term.checked_sub(1).filter(|&at| changes_transfer(&problem.scene.inputs[at]));
         Ok(TermData {
-            transfer: robin(&alone, alone.time)?,
+            transfer: robin(&alone)?,
             coefficient: input.map(|at| problem.transfer_pattern(at)).transpose()?,
             ..TermData::new(problem, term, alone, data)?
         })
@@ -204,5 +204,5 @@ pub fn corners(scene: &Scene) -> impl Iterator<Item = Scene> {
 /// Data that are not finite.
 pub fn curved_pair(problem: &Problem, pair: [Term; 2]) -> Result<Vec<Curved>> {
     // They have no use for loads.
-    curved(&problem.restated(left_with(&problem.scene, &pair)), 0.0)
+    curved(&problem.restated(left_with(&problem.scene, &pair)))
 }

@@ -82,7 +82,7 @@ fn exact_flux(problem: &Problem, edge: usize) -> Result<f64> {
     let (cell, _) = problem.topology.first_side(edge);
     let conductivity = Conductivity::of(problem, cell);
     on_panels(8, &gauss(8)).into_iter().try_fold(0.0, |sum, [t, weight]| {
-        let x = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
+        let x = problem.along(edge, t);
         let (_, gradient) = exact_at(&problem.scene, exact, x, 0.0)?;
         Ok(sum + weight * dot(apply(&conductivity.at(x), gradient), normal))
     })
@@ -121,13 +121,12 @@ fn edge_term(
     let at = problem.binding.boundary(problem.ends[edge]).expect("a boundary edge");
     let length = problem.lengths[edge];
     let tau = numbers.tau[edge] / length;
-    let segment @ [a, b] = problem.segment(edge);
     on_panels(8, &gauss(8)).into_iter().try_fold(0.0, |sum, [t, weight]| {
-        let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
+        let [x, y] = problem.along(edge, t);
         let s = numbers.admissible().on_edge(problem, edge, deviations.on(edge), t)?;
         let value = match &problem.scene.boundaries[at].condition {
             Condition::Contact { gap, flux, .. } => {
-                let mean = Sum::alone(&problem.scene, flux, 0.0).mean(segment)?;
+                let mean = Sum::alone(&problem.scene, flux, 0.0).mean(problem.segment(edge))?;
                 2.0 * (tau - mean) * (s - gap.value.eval(x, y, 0.0))
             }
             Condition::Robin { coefficient, ambient, .. } => {
@@ -200,7 +199,7 @@ fn singular_solutions_and_a_curved_gap() -> Result<()> {
 #[test]
 fn the_fields_of_a_boundary_are_its_own() -> Result<()> {
     let (_, problem) = fixtures::on_grid(SMOOTH, grid(2, Cells::Quads))?;
-    let has = |edge: usize, field| Sum::on_edge(&problem, edge, field, 0.0).is_some();
+    let has = |edge: usize, field| Sum::on_edge(&problem, edge, field).is_some();
     for edge in 0..problem.ends.len() {
         let found = [Field::Value, Field::Flux, Field::Ambient, Field::Gap].map(|f| has(edge, f));
         let expected = match problem.kinds[edge] {

@@ -7,7 +7,6 @@ use signorini_problem::quadrature::DATA_POINTS;
 use signorini_problem::{Problem, Sum};
 use signorini_scene::error::Result;
 use signorini_scene::expression::enclosure::{Interval, Region};
-use signorini_scene::scene::Field;
 
 /// Part of an integral that points may miss: a ten-thousandth of the norm.
 const MISSED: f64 = 1e-8;
@@ -61,10 +60,7 @@ impl EdgePoint {
 /// # Errors
 /// Data that are not finite.
 pub fn unseen(problem: &Problem, edge: usize) -> Result<Option<Vec<EdgePoint>>> {
-    let Some(h) = Sum::transfer(problem, edge, problem.time) else { return Ok(None) };
-    let Some(ambient) = Sum::on_edge(problem, edge, Field::Ambient, problem.time) else {
-        return Ok(None);
-    };
+    let Some([h, ambient]) = Sum::of_law(problem, edge) else { return Ok(None) };
     if h.constant().is_some() {
         return Ok(None);
     }
@@ -159,9 +155,9 @@ impl Data<'_> {
             to_all.push(EdgePoint {
                 t,
                 weight,
-                h: length * self.h.finite(self.h.at(x[0], x[1]), x)?,
+                h: length * self.h.finite_at(x)?,
                 between: [length * (low - rounding), length * (high + rounding)],
-                ambient: self.ambient.finite(self.ambient.at(x[0], x[1]), x)?,
+                ambient: self.ambient.finite_at(x)?,
             });
         }
         Ok(())

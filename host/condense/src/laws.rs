@@ -59,7 +59,7 @@ impl Laws {
 /// # Errors
 /// Data that are not finite.
 pub(super) fn transfer(patterns: &[TermData]) -> Result<Vec<Vec<RobinPoints>>> {
-    patterns.iter().map(|pattern| robin(&pattern.problem, 0.0)).collect()
+    patterns.iter().map(|pattern| robin(&pattern.problem)).collect()
 }
 
 /// The rows of a transfer edge whose flux is its law's, h(ū_ext − u_E), where h is constant: τ·n + h(s − u_ext) is

@@ -12,14 +12,16 @@ use super::block::{Block, Functions};
 use super::chain::is_left_out;
 use super::laws::{Laws, of_law, of_robin, points_of, transfer};
 use signorini_certify::TermData;
-use signorini_certify::cell::{Cell, Local};
+use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::Conductivity;
-use signorini_certify::curved::{FINE, POINTS, between_smooth_rays, of_rough_sides};
-use signorini_certify::deviation::Deviations;
+use signorini_certify::curved::{
+    FINE, POINTS, between_smooth_rays, of_rough_sides, on_side, square,
+};
+use signorini_certify::deviation::{Deviations, Lift};
 use signorini_problem::Problem;
 use signorini_problem::field::CellField;
 use signorini_problem::pieces::{PiecePoint, Root};
-use signorini_problem::quadrature::{DATA_POINTS, Point, gauss, on_panels};
+use signorini_problem::quadrature::{Point, gauss, on_panels};
 use signorini_problem::triangular::triangular;
 use signorini_scene::error::Result;
 
@@ -94,7 +96,7 @@ fn deviations<'p>(
     released: &BTreeSet<u32>,
 ) -> Result<Vec<Deviations<'p>>> {
     let followed = |pattern: &'p TermData| {
-        let mut deviations = Deviations::at_time(&pattern.problem, 0.0)?;
+        let mut deviations = Deviations::of(&pattern.problem)?;
         deviations.found.retain(|of| !is_left_out(problem.ends[of.edge], released));
         Ok(deviations)
     };
@@ -145,16 +147,11 @@ fn of_cell(
     deviations: &[Deviations],
     of: Of,
 ) -> Result<Block> {
-    let (mesh, topology) = (&problem.mesh, &problem.topology);
-    let quad = at.checked_sub(mesh.triangles.len());
-    let (vertices, edges): (&[u32], &[u32]) = match quad {
-        None => (&mesh.triangles[at], &topology.of_triangles[at]),
-        Some(quad) => (&mesh.quads[quad], &topology.of_quads[quad]),
-    };
+    let (vertices, edges) = (problem.vertices_of(at), problem.topology.edges_of(at));
     let bubbles: Vec<(usize, u32)> = edges
         .iter()
         .enumerate()
-        .filter(|_| quad.is_some())
+        .filter(|_| edges.len() == 4)
         .filter_map(|(side, &edge)| Some((side, functions.bubble(edge as usize)?)))
         .collect();
     let on_side = |side: usize| deviations.iter().map(move |all| all.on(edges[side] as usize));
@@ -162,10 +159,11 @@ fn of_cell(
         (0..edges.len()).filter(|&side| on_side(side).any(|of| of.is_some())).collect();
     let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
     let fields = unit_fields(problem, at, edges);
+    let lifts: Vec<_> = deviations.iter().map(|of| Lift::on_cell(problem, at, of)).collect();
     let width = vertices.len() + bubbles.len() + fields.len() + deviations.len();
     let mut columns = vec![Vec::new(); width];
     let rough = of_rough_sides(problem, at, deviations, &gauss(POINTS))?;
-    let smooth = || points(&cell, points_for(&cell, &conductivity), &curved);
+    let smooth = || points(&cell, conductivity.points_for(&cell, 2), &curved);
     let seen = |(reference, weight): ([f64; 3], f64)| {
         let local = cell.local(reference);
         conductivity.resolved(Point { x: local.x, reference, weight: weight * local.determinant })
@@ -190,8 +188,8 @@ fn of_cell(
         });
         let mut entries: Vec<_> =
             vertices.chain(bubbles.map(Entry::Gradient)).chain(fields).collect();
-        for of_pattern in deviations {
-            entries.push(Entry::Gradient(extension(&local, of_pattern, edges, &curved)?));
+        for lift in &lifts {
+            entries.push(Entry::Gradient(lift.at(&local)?.gradient));
         }
         for (column, entry) in columns.iter_mut().zip(entries) {
             column.extend(entry.rows(&at, of, missed));
@@ -207,55 +205,12 @@ fn of_cell(
 
 /// For each edge the field of a unit flux along its direction and a unit mean over it.
 fn unit_fields(problem: &Problem, at: usize, edges: &[u32]) -> Vec<CellField> {
-    let cell = Cell::of(problem, at);
-    let outward = |side: usize| {
-        let first = problem.topology.first_side(edges[side] as usize) == (at, side);
-        if first { 1.0 } else { -1.0 }
-    };
-    let only = |side: usize, k: usize| if k == side { outward(side) } else { 0.0 };
-    let unit = |side: usize| match cell {
-        Cell::Triangle(corners) => {
-            let out = std::array::from_fn(|k| only(side, k));
-            CellField::Triangle(corners, mean(side), out)
-        }
-        Cell::Quad(corners) => {
-            let out = std::array::from_fn(|k| only(side, k));
-            CellField::Quad(corners, mean(side), out, problem.element)
-        }
+    let unit = |side: usize| {
+        let only = |value: f64| std::array::from_fn(|k| if k == side { value } else { 0.0 });
+        let is_along = problem.topology.first_side(edges[side] as usize) == (at, side);
+        CellField::of_sides(problem, at, only(1.0), only(if is_along { 1.0 } else { -1.0 }))
     };
     (0..edges.len()).map(unit).collect()
-}
-
-fn mean<const SIDES: usize>(side: usize) -> [f64; SIDES] {
-    std::array::from_fn(|k| if k == side { 1.0 } else { 0.0 })
-}
-
-/// ∇ of what a pattern's boundary data have above their chords, carried inside.
-fn extension(
-    local: &Local,
-    deviations: &Deviations,
-    edges: &[u32],
-    curved: &[usize],
-) -> Result<[f64; 2]> {
-    let mut sum = [0.0; 2];
-    for &side in curved {
-        let Some(deviation) = deviations.on(edges[side] as usize) else { continue };
-        let coordinates = &local.sides[side];
-        let [w, slope] = deviation.at(coordinates.t)?;
-        let gradient = coordinates.extension(w, slope).gradient;
-        sum = [sum[0] + gradient[0], sum[1] + gradient[1]];
-    }
-    Ok(sum)
-}
-
-/// Points a direction that a cell needs where its boundary data are affine; gradients of bubbles are
-/// of degree 2.
-fn points_for(cell: &Cell, conductivity: &Conductivity) -> usize {
-    match cell {
-        Cell::Triangle(_) if conductivity.is_constant() => 2,
-        Cell::Quad(_) if conductivity.is_constant() && cell.is_affine() => 3,
-        _ => DATA_POINTS,
-    }
 }
 
 /// Reference coordinates with weights that lack the area element, with `rule` points a direction or,
@@ -263,8 +218,8 @@ fn points_for(cell: &Cell, conductivity: &Conductivity) -> usize {
 pub(super) fn points(cell: &Cell, rule: usize, curved: &[usize]) -> Vec<([f64; 3], f64)> {
     let along = on_panels(FINE, &gauss(POINTS));
     match (cell, curved) {
-        (Cell::Triangle(_), []) => on_triangle(cell, 0, &gauss(rule), &gauss(rule)),
-        (Cell::Triangle(_), [side]) => on_triangle(cell, *side, &along, &gauss(POINTS)),
+        (Cell::Triangle(_), []) => on_side(cell, 0, &gauss(rule), &gauss(rule)),
+        (Cell::Triangle(_), [side]) => on_side(cell, *side, &along, &gauss(POINTS)),
         (Cell::Triangle(_), [one, other, ..]) => between_smooth_rays([*one, *other]),
         (Cell::Quad(_), _) => {
             // Sides 0 and 2 run along x̂, 1 and 3 along ŷ.
@@ -276,22 +231,4 @@ pub(super) fn points(cell: &Cell, rule: usize, curved: &[usize]) -> Vec<([f64; 3
             square(&axis(0), &axis(1))
         }
     }
-}
-
-/// The points (t, η) of one side of a triangle.
-fn on_triangle(
-    cell: &Cell,
-    side: usize,
-    along: &[[f64; 2]],
-    away: &[[f64; 2]],
-) -> Vec<([f64; 3], f64)> {
-    let point = |[t, weight]: [f64; 2], [eta, weight_away]: [f64; 2]| {
-        (cell.side_point(side, t, eta), weight * weight_away * (1.0 - eta))
-    };
-    along.iter().flat_map(|&along| away.iter().map(move |&away| point(along, away))).collect()
-}
-
-fn square(along_x: &[[f64; 2]], along_y: &[[f64; 2]]) -> Vec<([f64; 3], f64)> {
-    let point = |[x, wx]: [f64; 2], [y, wy]: [f64; 2]| ([x, y, 0.0], wx * wy);
-    along_y.iter().flat_map(|&y| along_x.iter().map(move |&x| point(x, y))).collect()
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::ScenePanel;
 use super::plane::View;
+use super::scale::extent;
 use super::svg::Path;
 
 /// Pixels from one arrow to the next.
@@ -69,10 +70,8 @@ fn samples(panel: &ScenePanel, view: &View, origin: [f64; 2]) -> BTreeMap<[i32; 
 /// The grid points in a convex cell.
 fn inside(corners: &[[f64; 2]], origin: [f64; 2]) -> Vec<[i32; 2]> {
     let range = |axis: usize| {
-        let (low, high) =
-            corners.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |range, point| {
-                (range.0.min(point[axis]), range.1.max(point[axis]))
-            });
+        let ends = extent(corners.iter().map(|point| point[axis]));
+        let [low, high] = ends.unwrap_or([f64::INFINITY, f64::NEG_INFINITY]);
         let position = |pixel: f64| (pixel - origin[axis]) / SPACING - 0.5;
         position(low).ceil() as i32..=position(high).floor() as i32
     };

@@ -14,7 +14,7 @@
 //! cells. A quad is four triangles around its centre, where u is the mean of its corners.
 
 use super::ScenePanel;
-use super::outline::{Node, Segments, crossing, rim};
+use super::outline::{Node, Segments, around, crossing, rim};
 use super::plane::View;
 
 /// The cells of a scene as triangles in pixels, with values at their corners.
@@ -84,11 +84,7 @@ impl Surface {
     /// The outlines of the cells that are `chosen` by number.
     pub fn around(&self, chosen: impl Fn(usize) -> bool) -> Vec<Vec<[f64; 2]>> {
         let inside = self.triangles.iter().filter(|triangle| chosen(triangle.cell));
-        let mut segments = Segments::default();
-        for [a, b] in rim(inside.map(|triangle| triangle.corners)) {
-            segments.add([a, a], [b, b]);
-        }
-        segments.outlines(|[vertex, _]| self.points[vertex])
+        around(inside.map(|triangle| triangle.corners), |vertex| self.points[vertex])
     }
 
     fn point(&self, [a, b]: Node, level: f64) -> [f64; 2] {

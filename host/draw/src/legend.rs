@@ -36,14 +36,15 @@ pub fn row<'a>(
     }
 }
 
-/// Class and words of each state and each kind of boundary that a solved scene has.
-pub fn boundary_looks(scene: &ScenePanel) -> impl Iterator<Item = [&'static str; 2]> {
+/// Key of each state and each kind of boundary that a solved scene has.
+pub fn boundary_keys(scene: &ScenePanel) -> impl Iterator<Item = (Key<'static>, &'static str)> {
     let states = [ContactState::Touching, ContactState::Open, ContactState::Saturated];
     let states =
         states.into_iter().filter(|state| scene.contact.iter().any(|of| of.state == *state));
     let kinds = [BoundaryKind::Dirichlet, BoundaryKind::Neumann, BoundaryKind::Robin];
     let kinds = kinds.into_iter().filter(|kind| scene.boundary.iter().any(|of| of.kind == *kind));
-    states.map(ContactState::look).chain(kinds.map(BoundaryKind::look))
+    let looks = states.map(ContactState::look).chain(kinds.map(BoundaryKind::look));
+    looks.map(|[class, words]| (Key::Line(class), words))
 }
 
 /// Keys of the diagrams along the contact of a solved scene.

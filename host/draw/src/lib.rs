@@ -56,7 +56,7 @@ pub use scale::plain;
 pub use solution::solution_file;
 pub use svg::escape;
 pub use table::{Column, Heading, Mark, Table, TableRow};
-pub use tradeoff::{TradePanel, TradeStudy, TradeTarget, Tradeoff};
+pub use tradeoff::{TradePanel, TradeStudy, Tradeoff};
 
 /// Everything the page shows, in the order it shows it.
 #[derive(Debug, Clone, Default)]

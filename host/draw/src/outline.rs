@@ -23,6 +23,16 @@ pub fn rim(triangles: impl IntoIterator<Item = [usize; 3]>) -> Vec<[usize; 2]> {
     sides.into_values().filter(|&(count, _)| count == 1).map(|(_, side)| side).collect()
 }
 
+/// The outlines of triangles, all of the same orientation; `point` says where a vertex lies.
+pub fn around(
+    triangles: impl IntoIterator<Item = [usize; 3]>,
+    point: impl Fn(usize) -> [f64; 2],
+) -> Vec<Vec<[f64; 2]>> {
+    let mut segments = Segments::default();
+    rim(triangles).into_iter().for_each(|[a, b]| segments.add([a, a], [b, b]));
+    segments.outlines(|[vertex, _]| point(vertex))
+}
+
 /// Directed pieces of outlines, to be joined.
 #[derive(Debug, Default)]
 pub struct Segments {

@@ -4,7 +4,7 @@
 use super::ScenePanel;
 use super::contact::contact;
 use super::field::{errors, field};
-use super::legend::{Key, boundary_looks, contact_keys};
+use super::legend::{Key, boundary_keys, contact_keys};
 use super::markup::{enclosed, folded, list, mark, typeset};
 use super::scale::plain;
 use super::svg::escape;
@@ -46,25 +46,24 @@ fn body(scene: &ScenePanel) -> String {
 
 fn solution_figure(scene: &ScenePanel) -> String {
     let Some((picture, notes)) = field(scene) else { return String::new() };
-    let picture = picture.finish();
     let notes: String = notes.iter().map(|note| format!("<li>{}</li>", escape(note))).collect();
-    let legend = entries(boundary_looks(scene));
-    format!("<figure>\n{picture}<ul class=\"legend\">{legend}{notes}</ul>\n</figure>\n")
+    figure(&picture.finish(), &(entries(boundary_keys(scene)) + &notes))
 }
 
 fn contact_figure(scene: &ScenePanel) -> String {
     let Some(picture) = contact(scene) else { return String::new() };
-    let picture = picture.finish();
-    let keys = contact_keys(scene).into_iter();
-    let legend = entries(keys.map(|(Key::Line(class) | Key::Area(class), words)| [class, words]));
-    format!("<figure>\n{picture}<ul class=\"legend\">{legend}</ul>\n</figure>\n")
+    figure(&picture.finish(), &entries(contact_keys(scene)))
 }
 
 fn error_figure(scene: &ScenePanel) -> String {
     let Some(map) = errors(scene) else { return String::new() };
     let notes = "<li>Colour shows each cell’s part of the gap, which tells where to refine.</li>\
                  <li>The squares of the parts add up to gap².</li>";
-    format!("<figure>\n{map}<ul class=\"legend\">{notes}</ul>\n</figure>\n")
+    figure(&map, notes)
+}
+
+fn figure(picture: &str, legend: &str) -> String {
+    format!("<figure>\n{picture}<ul class=\"legend\">{legend}</ul>\n</figure>\n")
 }
 
 /// The caption of a panel's bound.
@@ -125,6 +124,9 @@ fn facts(scene: &ScenePanel) -> String {
 }
 
 /// Keys with their words.
-fn entries<'a>(looks: impl Iterator<Item = [&'a str; 2]>) -> String {
-    looks.map(|[class, words]| format!("<li><i class=\"{class}-key\"></i>{words}</li>")).collect()
+fn entries<'a>(keys: impl IntoIterator<Item = (Key<'a>, &'a str)>) -> String {
+    let entry = |(Key::Line(class) | Key::Area(class), words): (Key, &str)| {
+        format!("<li><i class=\"{class}-key\"></i>{words}</li>")
+    };
+    keys.into_iter().map(entry).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::legend::{Key, LETTERS, ROW, row};
 use super::lettering::shortened;
-use super::outline::{Segments, rim};
+use super::outline::around;
 use super::plane::{MOST_CELLS_WITH_LINES, View, mesh_lines};
 use super::svg::{Anchor, MARGIN, Path, Svg};
 use super::{BoundaryKind, ScenePanel};
@@ -93,12 +93,10 @@ pub fn plan_file(plan: &Plan) -> Option<String> {
 
 fn materials(svg: &mut Svg, plan: &Plan, view: &View) {
     for (at, (_, cells)) in plan.materials.iter().enumerate() {
-        let mut segments = Segments::default();
         let triangles = cells.iter().flat_map(|&cell| triangles(&plan.panel, cell));
-        rim(triangles).into_iter().for_each(|[a, b]| segments.add([a, a], [b, b]));
+        let outlines = around(triangles, |vertex| view.at(plan.panel.vertices[vertex]));
         let mut path = Path::default();
-        let point = |[vertex, _]: [usize; 2]| view.at(plan.panel.vertices[vertex]);
-        segments.outlines(point).iter().for_each(|outline| path.polygon(outline));
+        outlines.iter().for_each(|outline| path.polygon(outline));
         svg.path(&ground(at), &path);
     }
 }
@@ -111,9 +109,8 @@ fn ground(at: usize) -> String {
 fn boundaries(svg: &mut Svg, plan: &Plan, view: &View) {
     for kind in PlanKind::ALL {
         for of in plan.boundaries.iter().filter(|of| of.kind == kind) {
-            let mut path = Path::default();
-            let point = |vertex: u32| view.at(plan.panel.vertices[vertex as usize]);
-            of.edges.iter().for_each(|ends| path.line(&ends.map(point)));
+            let point = |vertex: u32| plan.panel.vertices[vertex as usize];
+            let path = view.lines(of.edges.iter().map(|ends| ends.map(point)));
             svg.explained(kind.look()[0], &path, &format!("{}: {}", of.name, kind.look()[1]));
         }
     }

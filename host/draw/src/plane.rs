@@ -92,18 +92,13 @@ impl Plane {
 
     /// Draws the rest of the boundary first, so that the contact zone lies on top.
     fn boundary(&mut self, panel: &ScenePanel) {
-        let draw = |ends: &mut dyn Iterator<Item = [[f64; 2]; 2]>| {
-            let mut path = Path::default();
-            ends.for_each(|ends| path.line(&ends.map(|end| self.view.at(end))));
-            path
-        };
         for kind in [BoundaryKind::Neumann, BoundaryKind::Robin, BoundaryKind::Dirichlet] {
             let edges = panel.boundary.iter().filter(|edge| edge.kind == kind);
-            self.svg.path(kind.look()[0], &draw(&mut edges.map(|edge| edge.ends)));
+            self.svg.path(kind.look()[0], &self.view.lines(edges.map(|edge| edge.ends)));
         }
         for state in ContactState::ALL {
             let edges = panel.contact.iter().filter(|edge| edge.state == state);
-            let path = draw(&mut edges.map(|edge| edge.ends));
+            let path = self.view.lines(edges.map(|edge| edge.ends));
             ["halo", state.look()[0]].iter().for_each(|class| self.svg.path(class, &path));
         }
     }
@@ -139,15 +134,8 @@ pub fn mesh_lines(panel: &ScenePanel, view: &View) -> Path {
         .collect();
     edges.sort_unstable();
     edges.dedup();
-    let mut path = Path::default();
-    for [a, b] in edges {
-        if let (Some(&p), Some(&q)) =
-            (panel.vertices.get(a as usize), panel.vertices.get(b as usize))
-        {
-            path.line(&[view.at(p), view.at(q)]);
-        }
-    }
-    path
+    let at = |vertex: u32| panel.vertices.get(vertex as usize).copied();
+    view.lines(edges.into_iter().filter_map(|[a, b]| Some([at(a)?, at(b)?])))
 }
 
 /// Where the plane lies in a picture, y upwards.
@@ -184,6 +172,13 @@ impl View {
             self.corner[0] + (point[0] - self.low[0]) * self.scale[0],
             self.corner[1] + (self.high[1] - point[1]) * self.scale[1],
         ]
+    }
+
+    /// Lines between such points.
+    pub fn lines(&self, ends: impl Iterator<Item = [[f64; 2]; 2]>) -> Path {
+        let mut path = Path::default();
+        ends.for_each(|ends| path.line(&ends.map(|end| self.at(end))));
+        path
     }
 
     /// The direction, in pixels, that a vector points to: of length 1, or 0 for no vector.

@@ -3,7 +3,7 @@
 use super::ScenePanel;
 use super::contact::contact;
 use super::field::field;
-use super::legend::{Key, LETTERS, ROW, boundary_looks, contact_keys, row};
+use super::legend::{LETTERS, ROW, boundary_keys, contact_keys, row};
 use super::lettering::shortened;
 use super::svg::{Anchor, MARGIN, Svg};
 
@@ -28,11 +28,7 @@ pub fn solution_file(panel: &ScenePanel) -> Option<String> {
     svg.heading(&panel.title);
     let mut y = TOP + plane.size[1] + APART;
     svg.nest([0.0, TOP], plane);
-    row(
-        &mut svg,
-        [MARGIN, y],
-        boundary_looks(panel).map(|[class, words]| (Key::Line(class), words)),
-    );
+    row(&mut svg, [MARGIN, y], boundary_keys(panel));
     for words in notes.iter().chain(&facts) {
         y += ROW;
         let short = shortened(words, LETTERS, width - 2.0 * MARGIN);

@@ -8,8 +8,8 @@ use super::table::Table;
 /// Cost and error of the settings of scenes.
 #[derive(Debug, Clone, Default)]
 pub struct Tradeoff {
-    /// What is found on each target.
-    pub targets: Vec<TradeTarget>,
+    /// Settings to take on each target: a row of the table is a scene there, and the picture is that of an example.
+    pub targets: Vec<TradeStudy>,
     /// Findings over all scenes, a sentence each.
     pub findings: Vec<String>,
     /// A study of problem sizes.
@@ -18,21 +18,6 @@ pub struct Tradeoff {
     pub of_sizes: Vec<String>,
     /// The scenes; the section says what to do where there are none.
     pub scenes: Vec<TradePanel>,
-}
-
-/// What all scenes say of one target.
-#[derive(Debug, Clone, Default)]
-pub struct TradeTarget {
-    /// Whose cost decides.
-    pub heading: String,
-    /// The study of one scene, as an example.
-    pub example: ParetoPlot,
-    /// What to take for that scene, a sentence.
-    pub recommendation: String,
-    /// What to take, a row a scene.
-    pub taken: Table,
-    /// How often each value of a setting is on a front.
-    pub knobs: Table,
 }
 
 /// One scene, on one or more targets.
@@ -46,7 +31,7 @@ pub struct TradePanel {
     pub studies: Vec<TradeStudy>,
 }
 
-/// One scene on one target.
+/// Settings on one target: those of a scene, or what to take for each.
 #[derive(Debug, Clone, Default)]
 pub struct TradeStudy {
     /// Whose cost decides.
@@ -57,7 +42,7 @@ pub struct TradeStudy {
     pub notes: Vec<String>,
     /// Error over cost.
     pub picture: ParetoPlot,
-    /// The points of the front.
+    /// The points of the front, or a row a scene.
     pub front: Table,
     /// Further tables, each with its heading; those without rows are left out.
     pub further: Vec<(String, Table)>,
@@ -94,16 +79,10 @@ const ERRORS: [&str; 3] = [
     "Bounds are certified, and are for the error of s, τ.",
 ];
 
-fn target(found: &TradeTarget) -> String {
-    let heading = escape(&found.heading);
-    let pictured = pictured(&found.example, &found.recommendation, "");
-    let knobs = if found.knobs.rows.is_empty() { String::new() } else { found.knobs.html(&[]) };
-    format!(
-        "<article class=\"card\">\n<h3>{heading}</h3>\n{pictured}<h4>What to take for each scene</h4>\n{}{}\
-         </article>\n",
-        found.taken.html(&[]),
-        folded("Which choices pay, counted over all scenes", &knobs)
-    )
+/// The settings to take for all scenes on one target, with one of them for an example.
+fn target(found: &TradeStudy) -> String {
+    let study = study(found, "<h4>What to take for each scene</h4>\n");
+    format!("<article class=\"card\">\n{study}</article>\n")
 }
 
 /// The picture of a study, with words beside it.
@@ -118,16 +97,17 @@ fn pictured(plot: &ParetoPlot, recommendation: &str, notes: &str) -> String {
 
 fn panel(scene: &TradePanel) -> String {
     let (name, title) = (escape(&scene.name), escape(&scene.title));
-    let studies: String = scene.studies.iter().map(study).collect();
+    let studies: String = scene.studies.iter().map(|of| study(of, "")).collect();
     format!(
         "<details class=\"card\">\n<summary>{title}<small>{name}</small></summary>\n{studies}</details>\n"
     )
 }
 
-fn study(study: &TradeStudy) -> String {
+/// A study, with this heading of its table.
+fn study(study: &TradeStudy, of_table: &str) -> String {
     let heading = escape(&study.heading);
     let mut html = format!(
-        "<h3>{heading}</h3>\n{}{}",
+        "<h3>{heading}</h3>\n{}{of_table}{}",
         pictured(&study.picture, &study.recommendation, &findings(&study.notes)),
         study.front.html(&[])
     );

@@ -72,10 +72,7 @@ fn on_contact(problem: &Problem, solution: &Solution, edge: usize) -> [String; 5
 
 /// The cells on both sides; no second one on the boundary.
 fn cells(problem: &Problem, edge: usize) -> [String; 2] {
-    match problem.kinds[edge] {
-        EdgeKind::Interior => problem.topology.cells_of(edge).map(|cell| cell.to_string()),
-        _ => [problem.topology.first_side(edge).0.to_string(), String::new()],
-    }
+    problem.topology.cells_of(edge).map(|cell| cell.map_or(String::new(), |at| at.to_string()))
 }
 
 /// The shortest text that reads back as the same number of the solution's scalar type; −0 is 0.

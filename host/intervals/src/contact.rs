@@ -50,9 +50,9 @@ pub(super) fn contact_edges(
     if counts.contact == 0 {
         return Ok(Vec::new());
     }
-    let (ends, s) = (Ends::at_time(problem, problem.time)?, answer.certified.admissible());
+    let (ends, s) = (Ends::of(problem)?, answer.certified.admissible());
     let epsilon = ROUNDINGS * answer.scalar.epsilon();
-    let all = Deviations::at_time(problem, problem.time)?;
+    let all = Deviations::of(problem)?;
     let mut edges = Vec::with_capacity(counts.contact);
     for (at, gap) in ends.gap.iter().enumerate() {
         let edge = counts.free + at;
@@ -173,7 +173,7 @@ impl ContactEdge {
             let dropped = [dropped, off(least)];
             return Self { clear: [f64::INFINITY; 2], left: [0.0; 2], dropped, ..none };
         }
-        if let Some(excess) = excess(problem, edge, problem.time) {
+        if let Some(excess) = excess(problem, edge) {
             // σ·n and τ·n = lo + θ (hi − lo) may both be where hi − lo is widest.
             let widest = if most > least { 1.0 + excess / (most - least) } else { 1.0 };
             return Self { left: left.map(|left| widest * left), ..none };

@@ -31,7 +31,7 @@ impl Dual {
     /// Data that are not finite.
     pub fn new(problem: &Problem, goal: &Goal) -> Result<Self> {
         let mut dual = problem.restated(scene(&problem.scene, goal));
-        dual.loads = Loads::at_time(&dual, problem.time)?;
+        dual.loads = Loads::of(&dual)?;
         for record in &mut dual.loads.robin {
             let edge = record.edge as usize;
             record.ambient += problem.lengths[edge] * goal.density_on(problem, edge);

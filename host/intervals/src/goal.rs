@@ -16,8 +16,8 @@ use super::values::{self, Value};
 use std::f64::consts::PI;
 
 use signorini_certify::cell::Cell;
+use signorini_certify::conductivity::Conductivity;
 use signorini_certify::deviation::Deviations;
-use signorini_certify::oscillation::alpha;
 use signorini_problem::functional::{Functional, of_cells};
 use signorini_problem::{EdgeKind, Problem};
 use signorini_scene::error::Result;
@@ -103,7 +103,7 @@ fn beside(problem: &Problem, at: usize) -> f64 {
     let area = elements.iter().sum::<f64>() / 4.0;
     let most = elements.map(|element| (1.0 / area - 1.0 / element).abs());
     let most = most.into_iter().fold(0.0, f64::max);
-    most * area.sqrt() * cell.diameter() / (PI * alpha(problem, at).sqrt())
+    most * area.sqrt() * cell.diameter() / (PI * Conductivity::of(problem, at).alpha().sqrt())
 }
 
 impl Goal {

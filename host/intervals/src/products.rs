@@ -95,15 +95,6 @@ impl<T: Copy> Fluxes<T> {
     }
 }
 
-/// Points a direction where s has no lift.
-fn points(cell: &Cell, conductivity: &Conductivity) -> usize {
-    match cell {
-        Cell::Triangle(_) if conductivity.is_constant() => 2,
-        Cell::Quad(_) if conductivity.is_constant() && cell.is_affine() => 3,
-        _ => DATA_POINTS,
-    }
-}
-
 impl<'p> Residual<'p> {
     /// Products of a solution.
     ///
@@ -182,7 +173,7 @@ impl<'p> Residual<'p> {
             }
         } else {
             let s = self.s.chordal(problem, at);
-            for of in conductivity.points(&cell, &gauss(points(&cell, &conductivity))) {
+            for of in conductivity.points(&cell, &gauss(conductivity.points_for(&cell, 2))) {
                 let local = cell.local(of.point.reference);
                 add(&of, &local, s.at(&local).gradient);
             }
@@ -193,7 +184,7 @@ impl<'p> Residual<'p> {
 
     fn add_transfer(&self, goal: &Goal, z: &Admissible, sum: &mut Products) -> Result<()> {
         let problem = self.problem;
-        let transfer = robin(problem, problem.time)?;
+        let transfer = robin(problem)?;
         let rounding = [self.s.tau, z.tau].map(|flux| ROUNDING * largest(flux));
         for (at, (record, points)) in problem.loads.robin.iter().zip(&transfer).enumerate() {
             let edge = record.edge as usize;

@@ -34,7 +34,7 @@ pub(super) struct Value {
 pub(super) fn given(problem: &Problem, part: &Part, field: Field) -> Result<Value> {
     let [mut value, mut terms] = [0.0; 2];
     for edge in part.edges() {
-        let Some(data) = Sum::on_edge(problem, edge, field, problem.time) else { continue };
+        let Some(data) = Sum::on_edge(problem, edge, field) else { continue };
         let [of_edge, size] = integral(problem, edge, &data)?;
         (value, terms) = (value + of_edge, terms + size);
     }
@@ -143,7 +143,7 @@ pub(super) fn flux(
     let [mut value, mut terms] = [0.0; 2];
     for edge in part.edges() {
         if let (EdgeKind::Neumann, false) = (problem.kinds[edge], is_force) {
-            let data = Sum::on_edge(problem, edge, Field::Flux, problem.time);
+            let data = Sum::on_edge(problem, edge, Field::Flux);
             let [given, size] = data.map_or(Ok([0.0; 2]), |data| integral(problem, edge, &data))?;
             (value, terms) = (value + given, terms + size);
             continue;
@@ -173,7 +173,7 @@ pub(super) fn end(problem: &Problem, edge: usize) -> Result<(f64, [f64; 2])> {
     let table = problem.binding.boundary(problem.ends[edge]);
     let direction = table.map_or(0.0, |table| direction(problem, table));
     let field = if direction > 0.0 { Field::Flux } else { Field::Limit };
-    let Some(end) = Sum::on_edge(problem, edge, field, problem.time) else {
+    let Some(end) = Sum::on_edge(problem, edge, field) else {
         return Ok((direction, [0.0; 2]));
     };
     Ok((direction, integral(problem, edge, &end)?))

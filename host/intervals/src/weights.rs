@@ -257,9 +257,8 @@ impl<'p> Weighing<'p> {
     /// Whether all cells are triangles with one A in each, and h is constant along every edge.
     fn has_plain_triangles(&self) -> bool {
         let problem = self.problem;
-        let is_plain = |edge: usize| {
-            Sum::transfer(problem, edge, problem.time).is_none_or(|h| h.constant().is_some())
-        };
+        let is_plain =
+            |edge: usize| Sum::transfer(problem, edge).is_none_or(|h| h.constant().is_some());
         problem.mesh.quads.is_empty()
             && (0..problem.cells()).all(|at| Conductivity::of(problem, at).is_constant())
             && problem.loads.robin.iter().all(|record| is_plain(record.edge as usize))

@@ -168,16 +168,11 @@ impl<'p, R: Scalar> Assembled<'p, R> {
         &self.edges
     }
 
-    /// How much of a cell's energy rounding of its element matrix may be, in ε: the terms of the determinant
-    /// over what they cancel to, the most of any cell.
-    pub fn obliqueness(&self) -> f64 {
-        self.matrices.obliqueness
-    }
-
-    /// The share of a bound that rounded element matrices can hide, 64 ε κ with κ the [`Assembled::obliqueness`]: see
-    /// [`signorini_bound::certificate::Stability::oblique`].
+    /// The share of a bound that rounded element matrices can hide, 64 ε κ: see [`signorini_bound::certificate::Stability::oblique`].
+    /// κ ε is how much of a cell's energy rounding of its matrix may be: the terms of the determinant over what they cancel
+    /// to, the most of any cell.
     pub fn hidden(&self) -> f64 {
-        64.0 * R::EPSILON.wide() * self.obliqueness()
+        64.0 * R::EPSILON.wide() * self.matrices.obliqueness
     }
 
     /// Element matrices.

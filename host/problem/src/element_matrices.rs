@@ -4,8 +4,7 @@
 use signorini_kernel::element::crouzeix_raviart;
 use signorini_kernel::error::{Array, CellId};
 use signorini_kernel::mesh::Mesh;
-use signorini_kernel::mesh::diagonal::DiagonalTerms;
-use signorini_kernel::mesh::edges::{Edges, Side};
+use signorini_kernel::mesh::edges::Side;
 use signorini_kernel::stiffness::Stiffness;
 use signorini_kernel::{Error, Real, Tensor};
 
@@ -132,14 +131,6 @@ fn of_quad([a, b, c, d]: [[f64; 2]; 4], tensor: Tensor<f64>) -> f64 {
 }
 
 impl Problem {
-    /// Terms on the diagonal of K beyond the element matrices, in f64.
-    ///
-    /// # Errors
-    /// Records of the boundary that are not admissible.
-    pub fn diagonal_terms(&self, edges: &Edges<u32>) -> Result<DiagonalTerms<'_, f64, u32>, Error> {
-        self.loads.diagonal(edges)
-    }
-
     /// The diagonal of K, and b, with the bits of [`super::Assembled`].
     ///
     /// # Errors
@@ -158,7 +149,7 @@ impl Problem {
             halves.map(own).fold(0.0, |sum, own| sum + own)
         };
         let mut diagonal: Vec<f64> = pairs.map(sum).collect();
-        self.diagonal_terms(&edges)?.entries().for_each(|(edge, term)| diagonal[edge] += term);
+        loads.diagonal(&edges)?.entries().for_each(|(edge, term)| diagonal[edge] += term);
         let mut load = vec![0.0; unknowns];
         loads.fill(&edges, &mut load)?;
         finite(Array::MatrixValues, matrices.entries())?;

@@ -132,13 +132,11 @@ fn by_edges(problem: &Problem, output: &Output) -> Vec<(usize, f64)> {
 
 /// The sides of a cell, each with the value of its basis function at a point of that cell.
 pub fn basis_at(problem: &Problem, cell: usize, point: &Point) -> Vec<(usize, f64)> {
-    let none = vec![0.0; problem.ends.len()];
-    let weight = |&edge: &u32| {
-        let mut unit = none.clone();
-        unit[edge as usize] = 1.0;
-        (edge as usize, CellField::new(problem, cell, &unit, &none).sample(point).u)
+    let weight = |(side, &edge): (usize, &u32)| {
+        let unit = [0, 1, 2, 3].map(|k| f64::from(u8::from(k == side)));
+        (edge as usize, CellField::of_sides(problem, cell, unit, [0.0; 4]).sample(point).u)
     };
-    problem.topology.edges_of(cell).iter().map(weight).collect()
+    problem.topology.edges_of(cell).iter().enumerate().map(weight).collect()
 }
 
 /// Lengths over their sum.
@@ -159,9 +157,8 @@ fn boundary_edges(problem: &Problem, output: &Output) -> impl Iterator<Item = us
 
 /// u_h at a point: in the first cell that holds it.
 fn probe(problem: &Problem, output: &Output, at: [f64; 2]) -> Result<Functional> {
-    let nothing = vec![0.0; problem.ends.len()];
     let found = (0..problem.cells()).find_map(|cell| {
-        let reference = CellField::new(problem, cell, &nothing, &nothing).locate(at)?;
+        let reference = CellField::of_sides(problem, cell, [0.0; 4], [0.0; 4]).locate(at)?;
         Some(Functional::Probe(cell, Point { x: at, reference, weight: 0.0 }))
     });
     found.ok_or_else(|| {

@@ -7,8 +7,9 @@ use signorini_kernel::{Error as KernelError, Real, Tensor};
 
 use super::{Binding, Problem};
 use crate::cell::Cell;
-use crate::pieces::{Cut, Pieces, average};
+use crate::pieces::{Cut, Pieces};
 use crate::quadrature::{DATA_POINTS, Point, TRIANGLE_POINTS, on_quad};
+use crate::tensors::{self, average};
 use crate::threads::{in_portions, on_two_threads};
 use signorini_scene::error::Result;
 use signorini_scene::faults::Faults;
@@ -154,9 +155,7 @@ fn pieces(
 
 /// The tensor of a material whose entries are all constant.
 fn constant(scene: &Scene, material: &Material) -> Result<Option<Tensor<f64>>> {
-    let [xx, xy, yy] = material.conductivity.each_ref().map(|entry| entry.value.is_constant());
-    let (Some(xx), Some(xy), Some(yy)) = (xx, xy, yy) else { return Ok(None) };
-    checked(scene, material, Tensor { xx, xy, yy }, None).map(Some)
+    tensors::constant(material).map(|a| checked(scene, material, a, None)).transpose()
 }
 
 impl Problem {
@@ -193,9 +192,8 @@ fn mean(scene: &Scene, material: &Material, cell: Cell) -> Result<Tensor<f64>> {
     Ok(average(weighted.collect::<Result<Vec<_>>>()?))
 }
 
-fn at_point(scene: &Scene, material: &Material, [x, y]: [f64; 2]) -> Result<Tensor<f64>> {
-    let [xx, xy, yy] = material.conductivity.each_ref().map(|entry| entry.value.eval(x, y, 0.0));
-    checked(scene, material, Tensor { xx, xy, yy }, Some([x, y]))
+fn at_point(scene: &Scene, material: &Material, at: [f64; 2]) -> Result<Tensor<f64>> {
+    checked(scene, material, tensors::at(material, at), Some(at))
 }
 
 fn checked(

@@ -43,6 +43,7 @@ mod solvability;
 mod step;
 mod stored;
 mod sum;
+pub mod tensors;
 #[cfg(test)]
 mod tests;
 pub mod threads;
@@ -196,7 +197,7 @@ impl Problem {
     }
 
     /// The inputs that add to one of these fields of a boundary.
-    fn inputs_of<'s>(
+    pub fn inputs_of<'s>(
         &'s self,
         boundary: &'s Boundary,
         fields: &'s [Field],

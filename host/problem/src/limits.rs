@@ -25,10 +25,10 @@ use signorini_scene::scene::term::Term;
 use signorini_scene::scene::{Boundary, Condition, Field};
 
 /// The means of both ends of a contact edge's flux, and what is missed of them; an infinite end is its own mean.
-pub(super) fn ends(problem: &Problem, edge: usize, time: f64) -> Result<([f64; 2], f64)> {
+pub(super) fn ends(problem: &Problem, edge: usize) -> Result<([f64; 2], f64)> {
     let mean = |field, unlimited: f64| {
         let stated = |value| Integral { value, missed: 0.0 };
-        let Some(end) = Sum::on_edge(problem, edge, field, time) else {
+        let Some(end) = Sum::on_edge(problem, edge, field) else {
             return Ok(stated(unlimited));
         };
         let infinite = end.constant().filter(|end| end.is_infinite());
@@ -66,9 +66,9 @@ pub(super) fn check(problem: &Problem) -> Result<()> {
 }
 
 fn check_edge(problem: &Problem, edge: usize) -> Result<()> {
-    let end = |field| Sum::on_edge(problem, edge, field, problem.time);
+    let end = |field| Sum::on_edge(problem, edge, field);
     let (Some(least), Some(most)) = (end(Field::Flux), end(Field::Limit)) else { return Ok(()) };
-    let Some(range) = widths::now(problem, edge, problem.time) else { return Ok(()) };
+    let Some(range) = widths::now(problem, edge) else { return Ok(()) };
     for [x, y] in problem.looks(edge, &[range]) {
         let (low, high) = (least.at(x, y), most.at(x, y));
         let terms = || least.terms_at(x, y) + most.terms_at(x, y);
@@ -133,7 +133,7 @@ impl Problem {
         let counts = self.topology.counts;
         let mut all = RangeTerm::default();
         for edge in counts.free..counts.unknowns() {
-            let (ends, _) = ends(&alone, edge, self.time)?;
+            let (ends, _) = ends(&alone, edge)?;
             let [mut base, mut span] = lower_and_span(ends, self.lengths[edge]);
             // Where an input moves an end, a tick does that.
             let of_inputs = || {

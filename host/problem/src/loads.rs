@@ -105,12 +105,12 @@ impl<R: Scalar> Loads<R> {
 }
 
 impl Loads {
-    /// Integrates all data of `problem` at time `time`.
+    /// Integrates all data of `problem` at its time.
     ///
     /// # Errors
     /// Data that are not finite.
-    pub fn at_time(problem: &Problem, time: f64) -> Result<Self> {
-        let (source, faults) = (Sum::source(&problem.scene, time), Faults::default());
+    pub fn of(problem: &Problem) -> Result<Self> {
+        let (source, faults) = (Sum::source(&problem.scene, problem.time), Faults::default());
         let mut loads = Self::default();
         if !source.is_zero() {
             let triangles = problem.mesh.triangles.len();
@@ -122,14 +122,14 @@ impl Loads {
                 loads.missed = all.iter().map(|integral| integral.missed).sum();
             }
         }
-        faults.keep(loads.add_edges(problem, time));
+        faults.keep(loads.add_edges(problem));
         faults.into_result()?;
         if loads.spans.iter().all(|&span| span == f64::INFINITY) {
             loads.spans.clear();
         }
         let contact = 0..loads.spans.len();
         let free = problem.topology.counts.free;
-        let excess = contact.filter_map(|at| widths::excess(problem, free + at, time));
+        let excess = contact.filter_map(|at| widths::excess(problem, free + at));
         loads.span_excess = excess.fold(0.0, f64::max);
         Ok(loads)
     }
@@ -166,13 +166,13 @@ impl Loads {
     }
 
     /// The data of all boundary edges; of each boundary the first fault is told.
-    fn add_edges(&mut self, problem: &Problem, time: f64) -> Result<()> {
+    fn add_edges(&mut self, problem: &Problem) -> Result<()> {
         let (faults, mut told) = (Faults::default(), Vec::new());
         for edge in 0..problem.ends.len() {
             if problem.kinds[edge] == EdgeKind::Interior {
                 continue;
             }
-            if let Err(error) = self.add_edge(problem, edge, time) {
+            if let Err(error) = self.add_edge(problem, edge) {
                 let boundary = problem.binding.boundary(problem.ends[edge]);
                 if !told.contains(&boundary) {
                     told.push(boundary);
@@ -184,17 +184,18 @@ impl Loads {
     }
 
     /// Edges come in the order of the blocks, so contact and Dirichlet data line up by themselves.
-    fn add_edge(&mut self, problem: &Problem, edge: usize, time: f64) -> Result<()> {
+    fn add_edge(&mut self, problem: &Problem, edge: usize) -> Result<()> {
         let Some(boundary) = problem.boundary_of(edge) else { return Ok(()) };
         let (segment, length) = (problem.segment(edge), problem.lengths[edge]);
         let name = &boundary.name.value;
-        let mean = |field, base| Sum::new(&problem.scene, name, field, base, time).mean(segment);
+        let sum = |field, base| Sum::new(&problem.scene, name, field, base, problem.time);
         let index = edge as u32;
         match &boundary.condition {
-            Condition::Dirichlet { value } => self.dirichlet.push(mean(Field::Value, value)?),
+            Condition::Dirichlet { value } => {
+                self.dirichlet.push(sum(Field::Value, value).mean(segment)?);
+            }
             Condition::Neumann { flux } => {
-                let flux = Sum::new(&problem.scene, name, Field::Flux, flux, time)
-                    .mean_and_missed(segment)?;
+                let flux = sum(Field::Flux, flux).mean_and_missed(segment)?;
                 self.missed += length * flux.missed;
                 let flux = length * flux.value;
                 if flux != 0.0 {
@@ -202,10 +203,8 @@ impl Loads {
                 }
             }
             Condition::Robin { coefficient, ambient } => {
-                let (h, outside) = (
-                    Sum::new(&problem.scene, name, Field::Coefficient, coefficient, time),
-                    Sum::new(&problem.scene, name, Field::Ambient, ambient, time),
-                );
+                let (h, outside) =
+                    (sum(Field::Coefficient, coefficient), sum(Field::Ambient, ambient));
                 let both = mean_on_edge(segment, |x, y| h.at(x, y) * outside.at(x, y));
                 let robin = Robin {
                     edge: index,
@@ -215,8 +214,8 @@ impl Loads {
                 self.robin.push(robin);
             }
             Condition::Contact { gap, .. } => {
-                self.gap.push(mean(Field::Gap, gap)?);
-                let (ends, missed) = limits::ends(problem, edge, time)?;
+                self.gap.push(sum(Field::Gap, gap).mean(segment)?);
+                let (ends, missed) = limits::ends(problem, edge)?;
                 let [base, span, moved] = limits::base_and_span(ends, length);
                 self.missed += length * missed;
                 self.moved = self.moved.max(moved);

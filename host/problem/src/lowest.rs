@@ -59,6 +59,11 @@ impl<'s> Ranged<'s> {
         times(a, d.low).min(times(a, d.high)).min(times(b, d.low)).min(times(b, d.high))
     }
 
+    /// The least p d at a point.
+    pub fn least_at(&self, at: [f64; 2]) -> f64 {
+        self.least(Interval::point(self.at(at)))
+    }
+
     /// The size of its terms at a point.
     pub fn size_at(&self, [x, y]: [f64; 2]) -> f64 {
         let most = self.factor[0].abs().max(self.factor[1].abs());
@@ -74,13 +79,22 @@ impl Problem {
         terms: &[Ranged],
     ) -> impl Iterator<Item = [f64; 2]> + use<'_> {
         let size = terms.iter().map(|of| of.size_at(self.along(edge, 0.5))).sum::<f64>();
-        let found = lowest(
-            self.segment(edge),
-            |at| terms.iter().map(|of| of.least(Interval::point(of.at(at)))).sum(),
-            |part| terms.iter().map(|of| of.least(of.within(part))).sum(),
-            |value, bound| bound >= -ROUNDING * size || value < -ROUNDING * size,
-        );
+        let found = self.lowest_sum(edge, terms, |value, bound| {
+            bound >= -ROUNDING * size || value < -ROUNDING * size
+        });
         self.rule_points(edge).chain([found.at])
+    }
+
+    /// The least value of a sum along an edge, see [`lowest`].
+    pub(super) fn lowest_sum(
+        &self,
+        edge: usize,
+        terms: &[Ranged],
+        is_enough: impl Fn(f64, f64) -> bool,
+    ) -> Lowest {
+        let value = |at: [f64; 2]| terms.iter().map(|of| of.least_at(at)).sum();
+        let bound = |part: &Region| terms.iter().map(|of| of.least(of.within(part))).sum();
+        lowest(self.segment(edge), value, bound, is_enough)
     }
 }
 

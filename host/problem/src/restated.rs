@@ -19,8 +19,9 @@ impl Problem {
     /// Data that are not finite or not admissible at that time.
     pub fn set_time(&mut self, time: f64) -> Result<()> {
         let step = self.loads.step.take();
-        self.loads = Loads::at_time(self, time)?.in_step(self, step)?;
-        self.time = time;
+        let before = std::mem::replace(&mut self.time, time);
+        let loads = Loads::of(self).and_then(|loads| loads.in_step(self, step));
+        self.loads = loads.inspect_err(|_| self.time = before)?;
         let faults = Faults::default();
         for check in [limits::check, transfer::check_now, corners::check] {
             faults.keep(check(self));
@@ -68,7 +69,7 @@ impl Problem {
     /// Data that are not finite.
     pub fn left_with(&self, terms: &[Term]) -> Result<Self> {
         let mut problem = self.restated(left_with(&self.scene, terms));
-        problem.loads = Loads::at_time(&problem, problem.time)?;
+        problem.loads = Loads::of(&problem)?;
         Ok(problem)
     }
 

@@ -27,7 +27,7 @@ pub fn slack(problem: &Problem, range: f64, edges: [usize; 2], vertex: u32) -> f
 
 /// The datum of an edge: u_D, or the gap.
 pub(super) fn datum(problem: &Problem, edge: usize) -> Option<Sum<'_>> {
-    Sum::on_edge(problem, edge, field_of(problem.kinds[edge]), problem.time)
+    Sum::on_edge(problem, edge, field_of(problem.kinds[edge]))
 }
 
 /// The field that says what an edge asks of u.

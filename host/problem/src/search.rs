@@ -8,8 +8,7 @@ use crate::cell::Cell;
 use crate::field::CellField;
 
 /// The cells of a mesh in a grid of squares.
-pub struct Search<'p> {
-    problem: &'p Problem,
+pub struct Search {
     fields: Vec<CellField>,
     low: [f64; 2],
     size: [f64; 2],
@@ -26,20 +25,19 @@ pub struct LocatedPoint {
     pub reference: [f64; 3],
 }
 
-impl<'p> Search<'p> {
+impl Search {
     /// Sorts the cells of a problem's mesh.
-    pub fn new(problem: &'p Problem) -> Self {
-        let nothing = vec![0.0; problem.ends.len()];
+    pub fn new(problem: &Problem) -> Self {
         let cells = problem.cells();
-        let fields =
-            (0..cells).map(|cell| CellField::new(problem, cell, &nothing, &nothing)).collect();
+        let field = |cell: usize| CellField::of_sides(problem, cell, [0.0; 4], [0.0; 4]);
+        let fields = (0..cells).map(field).collect();
         let of = |k: usize| problem.mesh.vertices.iter().map(move |vertex| vertex[k]);
         let low = [0, 1].map(|k| of(k).fold(f64::INFINITY, f64::min));
         let high = [0, 1].map(|k| of(k).fold(f64::NEG_INFINITY, f64::max));
         let lines = ((cells as f64).sqrt() as usize).max(1);
         let size = [0, 1].map(|k| (high[k] - low[k]).max(f64::MIN_POSITIVE));
-        let mut search =
-            Self { problem, fields, low, size, lines, squares: vec![Vec::new(); lines * lines] };
+        let squares = vec![Vec::new(); lines * lines];
+        let mut search = Self { fields, low, size, lines, squares };
         for cell in 0..cells {
             search.enter(cell);
         }
@@ -71,16 +69,15 @@ impl<'p> Search<'p> {
             (x - point[0]).hypot(y - point[1])
         };
         let cell = candidates.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-        let reference = match self.fields[cell as usize] {
-            CellField::Triangle(..) => [1.0 / 3.0; 3],
-            CellField::Quad(..) => [0.5, 0.5, 0.0],
+        let reference = match self.fields[cell as usize].cell {
+            Cell::Triangle(_) => [1.0 / 3.0; 3],
+            Cell::Quad(_) => [0.5, 0.5, 0.0],
         };
         Some(LocatedPoint { cell, reference })
     }
 
     fn enter(&mut self, cell: usize) {
-        let cell_of_mesh = Cell::of(self.problem, cell);
-        let lines = cell_of_mesh.corners().iter().map(|&corner| self.square(corner));
+        let lines = self.fields[cell].cell.corners().iter().map(|&corner| self.square(corner));
         let [mut first, mut last] = [[usize::MAX; 2], [0; 2]];
         for at in lines {
             first = [0, 1].map(|k| first[k].min(at[k]));

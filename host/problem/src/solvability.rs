@@ -60,13 +60,8 @@ impl Parts {
         let (edges, loads) = (problem.topology.edges()?, &problem.loads);
         let mut load = vec![0.0; edges.counts().unknowns()];
         loads.fill(&edges, &mut load)?;
-        examine(
-            &edges,
-            problem.diagonal_terms(&edges)?,
-            (&load, loads.law().spans()),
-            BALANCE,
-            cells,
-        )
+        let given = (&load[..], loads.law().spans());
+        examine(&edges, loads.diagonal(&edges)?, given, BALANCE, cells)
     }
 
     /// The part that an edge belongs to, by the number of a cell in it.

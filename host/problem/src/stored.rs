@@ -2,7 +2,8 @@
 
 use super::cell::Cell;
 use super::quadrature::gauss;
-use super::{Problem, Sum};
+use super::{Problem, Sum, tensors};
+use signorini_kernel::Tensor;
 use signorini_scene::scene::Material;
 
 /// Points per direction that see a capacity vary inside a cell.
@@ -91,8 +92,8 @@ fn short_step(problem: &Problem) -> Option<String> {
 }
 
 /// The largest eigenvalue of A at a point of a cell.
-fn fastest(problem: &Problem, cell: usize, [x, y]: [f64; 2]) -> f64 {
+fn fastest(problem: &Problem, cell: usize, point: [f64; 2]) -> f64 {
     let material = &problem.scene.materials[problem.binding.materials[cell] as usize];
-    let [xx, xy, yy] = material.conductivity.each_ref().map(|entry| entry.value.eval(x, y, 0.0));
+    let Tensor { xx, xy, yy } = tensors::at(material, point);
     0.5 * (xx + yy) + (0.5 * (xx - yy)).hypot(xy)
 }

@@ -48,18 +48,23 @@ impl<'s> Sum<'s> {
         Self::new(scene, "source", Field::Source, &scene.source, time)
     }
 
-    /// `field` of the boundary that an edge lies on, where its condition has such a field.
-    pub fn on_edge(problem: &'s Problem, edge: usize, field: Field, time: f64) -> Option<Self> {
+    /// `field` of the boundary that an edge lies on, where its condition has such a field, at the time of the problem.
+    pub fn on_edge(problem: &'s Problem, edge: usize, field: Field) -> Option<Self> {
         let boundary = problem.boundary_of(edge)?;
         let base = boundary.condition.load(field)?;
-        Some(Self::new(&problem.scene, &boundary.name.value, field, base, time))
+        Some(Self::new(&problem.scene, &boundary.name.value, field, base, problem.time))
     }
 
-    /// The transfer coefficient of the boundary that an edge lies on, where its condition has one.
-    pub fn transfer(problem: &'s Problem, edge: usize, time: f64) -> Option<Self> {
+    /// The transfer coefficient of the boundary that an edge lies on, where its condition has one, at the time of the problem.
+    pub fn transfer(problem: &'s Problem, edge: usize) -> Option<Self> {
         let boundary = problem.boundary_of(edge)?;
         let (name, base) = (&boundary.name.value, boundary.condition.transfer()?);
-        Some(Self::new(&problem.scene, name, Field::Coefficient, base, time))
+        Some(Self::new(&problem.scene, name, Field::Coefficient, base, problem.time))
+    }
+
+    /// The transfer coefficient and the ambient value of an edge with a transfer law.
+    pub fn of_law(problem: &'s Problem, edge: usize) -> Option<[Self; 2]> {
+        Some([Self::transfer(problem, edge)?, Self::on_edge(problem, edge, Field::Ambient)?])
     }
 
     /// Where the field stands in the scene file.
@@ -72,23 +77,39 @@ impl<'s> Sum<'s> {
         self.base.value.is_zero() && self.inputs.is_empty()
     }
 
+    /// Its terms: the field's own expression, once, and the pattern of each input, times its value.
+    fn terms(&self) -> impl Iterator<Item = (f64, &'s Expression)> {
+        let inputs = self.inputs.iter().map(|(weight, pattern)| (*weight, &pattern.value));
+        std::iter::once((1.0, &self.base.value)).chain(inputs)
+    }
+
+    /// The sum of what `of` makes of each weight and expression.
+    fn total(&self, of: impl Fn(f64, &Expression) -> f64) -> f64 {
+        self.terms().map(|(weight, term)| of(weight, term)).reduce(|a, b| a + b).unwrap_or(0.0)
+    }
+
     /// The value, if it is the same everywhere.
     pub fn constant(&self) -> Option<f64> {
-        let inputs = self.inputs.iter().map(|(weight, at)| Some(weight * at.value.is_constant()?));
-        inputs.fold(self.base.value.is_constant(), |sum, input| Some(sum? + input?))
+        let terms = self.terms().map(|(weight, term)| Some(weight * term.is_constant()?));
+        terms.reduce(|sum, term| Some(sum? + term?)).flatten()
     }
 
     /// Whether no term has a kink, a jump or a pole.
     pub fn is_smooth(&self) -> bool {
-        self.base.value.is_smooth() && self.inputs.iter().all(|(_, of)| of.value.is_smooth())
+        self.terms().all(|(_, term)| term.is_smooth())
     }
 
     /// The value at a point.
     pub fn at(&self, x: f64, y: f64) -> f64 {
-        let base = self.base.value.eval(x, y, self.time);
-        self.inputs
-            .iter()
-            .fold(base, |sum, (weight, pattern)| sum + weight * pattern.value.eval(x, y, self.time))
+        self.total(|weight, term| weight * term.eval(x, y, self.time))
+    }
+
+    /// The value at a point, which has to be finite.
+    ///
+    /// # Errors
+    /// A value that is not, with the point and the field's place in the file.
+    pub fn finite_at(&self, point @ [x, y]: [f64; 2]) -> Result<f64> {
+        self.finite(self.at(x, y), point)
     }
 
     /// The values at many points.
@@ -111,16 +132,12 @@ impl<'s> Sum<'s> {
 
     /// The largest modulus of its analytic continuation around a region, see [`Region::missed`].
     pub fn modulus(&self, region: &Region, rho: f64) -> f64 {
-        let of = |expression: &Expression| expression.modulus(region, rho, self.time);
-        let added = self.inputs.iter().map(|(weight, pattern)| weight.abs() * of(&pattern.value));
-        added.fold(of(&self.base.value), |sum, term| sum + term)
+        self.total(|weight, term| weight.abs() * term.modulus(region, rho, self.time))
     }
 
     /// The sum less some function that is linear along the region.
     pub fn bend(&self, region: &Region, rho: f64) -> f64 {
-        let of = |expression: &Expression| expression.bend(region, rho, self.time);
-        let added = self.inputs.iter().map(|(weight, pattern)| weight.abs() * of(&pattern.value));
-        added.fold(of(&self.base.value), |sum, term| sum + term)
+        self.total(|weight, term| weight.abs() * term.bend(region, rho, self.time))
     }
 
     /// All values in a region, and all derivatives along `direction`.
@@ -137,9 +154,7 @@ impl<'s> Sum<'s> {
         if self.is_smooth() {
             return None;
         }
-        let of = |expression: &Expression| expression.switch(region, self.time);
-        let mut all = self.inputs.iter().map(|(_, pattern)| &pattern.value);
-        region.cut(&of(&self.base.value).or_else(|| all.find_map(of))?)
+        region.cut(&self.terms().find_map(|(_, term)| term.switch(region, self.time))?)
     }
 
     /// How it grows in a region where it is not bounded, if that is known: an input's pattern may be unbounded where the rest is not.
@@ -156,45 +171,31 @@ impl<'s> Sum<'s> {
 
     /// Its degree as a polynomial in x and y, infinite where it may be none.
     pub fn degree(&self) -> f64 {
-        let of = |expression: &Expression| expression.degree(self.time);
-        self.inputs
-            .iter()
-            .map(|(_, of)| of)
-            .fold(of(&self.base.value), |degree, pattern| degree.max(of(&pattern.value)))
+        self.terms().map(|(_, term)| term.degree(self.time)).reduce(f64::max).unwrap_or(0.0)
     }
 
     /// The sum of the sizes of its terms there, of which rounding is a part.
     pub fn terms_at(&self, x: f64, y: f64) -> f64 {
-        let base = self.base.value.eval(x, y, self.time).abs();
-        let added = |(weight, pattern): &(f64, &Located<Expression>)| {
-            (weight * pattern.value.eval(x, y, self.time)).abs()
-        };
-        self.inputs.iter().map(added).fold(base, |sum, term| sum + term)
+        self.total(|weight, term| (weight * term.eval(x, y, self.time)).abs())
     }
 
     /// How far the value at a point may be off where its coordinates are by `off`, through that and the rounding of operations.
     pub fn rounding_at(&self, point: [f64; 2], off: f64) -> f64 {
-        let base = self.base.value.rounding(point, off, self.time);
-        self.inputs.iter().fold(base, |sum, (weight, pattern)| {
-            sum + weight.abs() * pattern.value.rounding(point, off, self.time)
-        })
+        self.total(|weight, term| weight.abs() * term.rounding(point, off, self.time))
     }
 
     /// (∂/∂x, ∂/∂y)
     pub fn gradient_at(&self, x: f64, y: f64) -> [f64; 2] {
-        let (_, base) = self.base.value.gradient(x, y, self.time);
-        self.inputs.iter().fold(base, |sum, (weight, pattern)| {
-            let (_, slope) = pattern.value.gradient(x, y, self.time);
-            [sum[0] + weight * slope[0], sum[1] + weight * slope[1]]
-        })
+        let slopes = self.terms().map(|(weight, term)| {
+            let (_, slope) = term.gradient(x, y, self.time);
+            slope.map(|slope| weight * slope)
+        });
+        slopes.reduce(|sum, of| [sum[0] + of[0], sum[1] + of[1]]).unwrap_or_default()
     }
 
     /// The derivative along `direction`. Across a line on which the field does not change, it may be infinite: √x on x = 0.
     pub fn slope_at(&self, [x, y]: [f64; 2], direction: [f64; 2]) -> f64 {
-        let base = self.base.value.slope(x, y, self.time, direction);
-        self.inputs.iter().fold(base, |sum, (weight, pattern)| {
-            sum + weight * pattern.value.slope(x, y, self.time, direction)
-        })
+        self.total(|weight, term| weight * term.slope(x, y, self.time, direction))
     }
 
     /// The mean over a segment, by the rule for edge data; that of a load on parts of it where it is not resolved.

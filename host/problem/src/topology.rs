@@ -108,9 +108,9 @@ impl Topology {
         self.half_edges[edge].map(|half| self.side(half))
     }
 
-    /// The cells of an inner edge, triangles first.
-    pub fn cells_of(&self, edge: usize) -> [usize; 2] {
-        self.sides_of(edge).map(|(at, _)| at)
+    /// The cells on both sides of an edge, triangles first; no second one on the boundary.
+    pub fn cells_of(&self, edge: usize) -> [Option<usize>; 2] {
+        self.half_edges[edge].map(|half| (half != u32::MAX).then(|| self.side(half).0))
     }
 
     /// Whether an edge has a cell on one side alone.
@@ -138,8 +138,7 @@ impl Topology {
 
     /// The cell (triangles first) on the other side of an edge than `cell`; none beyond the boundary.
     fn beyond(&self, edge: usize, cell: usize) -> Option<usize> {
-        let halves = self.half_edges[edge].into_iter().filter(|&half| half != u32::MAX);
-        halves.map(|half| self.side(half).0).find(|&other| other != cell)
+        self.cells_of(edge).into_iter().flatten().find(|&other| other != cell)
     }
 
     /// The cell and the side of it that a half-edge is.

@@ -16,12 +16,11 @@
 
 use signorini_kernel::Real;
 
-use super::lowest::{Ranged, lowest};
+use super::lowest::Ranged;
 use super::{EdgeKind, Problem, Sum};
 use crate::quadrature::{DATA_POINTS, mean_on_edge};
 use signorini_scene::error::Result;
 use signorini_scene::expression::Expression;
-use signorini_scene::expression::enclosure::Interval;
 use signorini_scene::scene::term::Term;
 use signorini_scene::scene::{Boundary, Field, Input, Located};
 
@@ -38,7 +37,7 @@ const NEAR: f64 = 1e-3;
 pub(super) fn check_now(problem: &Problem) -> Result<()> {
     for record in &problem.loads.robin {
         let edge = record.edge as usize;
-        let Some(h) = Sum::transfer(problem, edge, problem.time) else { continue };
+        let Some(h) = Sum::transfer(problem, edge) else { continue };
         let (key, h) = (h.key(), Ranged::of(h, [1.0; 2]));
         for at @ [x, y] in problem.looks(edge, std::slice::from_ref(&h)) {
             let value = h.at(at);
@@ -69,17 +68,14 @@ fn check_edge(problem: &Problem, edge: usize) -> Result<()> {
     let scene = &problem.scene;
     let Some(boundary) = problem.boundary_of(edge) else { return Ok(()) };
     let Some(base) = boundary.condition.transfer() else { return Ok(()) };
-    let alone = |of| Sum::alone(scene, of, 0.0);
-    let inputs_of = inputs(problem, boundary);
-    let inputs_of = inputs_of.map(|input| Ranged::of(alone(&input.pattern), input.interval()));
-    let terms: Vec<_> = [Ranged::of(alone(base), [1.0; 2])].into_iter().chain(inputs_of).collect();
-    for [x, y] in problem.looks(edge, &terms) {
-        let parts = inputs(problem, boundary).map(|input| (input, least(input, x, y)));
-        let parts: Vec<_> = parts.collect();
-        let total = parts.iter().fold(base.value.eval(x, y, 0.0), |sum, (_, part)| sum + part);
+    let terms = terms(problem, boundary, base, 0.0);
+    for at @ [x, y] in problem.looks(edge, &terms) {
+        let parts: Vec<f64> = terms.iter().map(|of| of.least_at(at)).collect();
+        let total = parts.iter().sum::<f64>();
+        let added = inputs(problem, boundary).zip(&parts[1..]);
         // A NaN is told with the loads, at the inputs that make it.
         if total < 0.0
-            && let Some((input, _)) = parts.iter().min_by(|a, b| a.1.total_cmp(&b.1))
+            && let Some((input, _)) = added.min_by(|a, b| a.1.total_cmp(b.1))
             && let Some(range) = &input.range
         {
             let message =
@@ -91,11 +87,17 @@ fn check_edge(problem: &Problem, edge: usize) -> Result<()> {
     Ok(())
 }
 
-/// The least that an input adds.
-fn least(input: &Input, x: f64, y: f64) -> f64 {
-    let pattern = input.pattern.value.eval(x, y, 0.0);
-    let ends = input.interval().map(|end| end * pattern);
-    ends[0].min(ends[1])
+/// h of a boundary: what the scene states, and what each input adds within its range.
+fn terms<'p>(
+    problem: &'p Problem,
+    boundary: &'p Boundary,
+    base: &'p Located<Expression>,
+    time: f64,
+) -> Vec<Ranged<'p>> {
+    let alone = |of| Sum::alone(&problem.scene, of, time);
+    let added = |input: &'p Input| Ranged::of(alone(&input.pattern), input.interval());
+    let stated = Ranged::of(alone(base), [1.0; 2]);
+    std::iter::once(stated).chain(inputs(problem, boundary).map(added)).collect()
 }
 
 impl Problem {
@@ -120,17 +122,9 @@ impl Problem {
     pub fn least_transfer(&self, edge: usize) -> f64 {
         let Some(boundary) = self.transfers_at(edge) else { return 0.0 };
         let Some(base) = boundary.condition.transfer() else { return 0.0 };
-        let alone = |of| Sum::alone(&self.scene, of, self.time);
-        let moved =
-            inputs(self, boundary).map(|input| Ranged::of(alone(&input.pattern), input.interval()));
-        let terms: Vec<_> = [Ranged::of(alone(base), [1.0; 2])].into_iter().chain(moved).collect();
-        let least = lowest(
-            self.segment(edge),
-            |at| terms.iter().map(|of| of.least(Interval::point(of.at(at)))).sum(),
-            |part| terms.iter().map(|of| of.least(of.within(part))).sum(),
-            |value, bound| value - bound <= NEAR * value.abs(),
-        );
-        least.bound.max(0.0)
+        let terms = terms(self, boundary, base, self.time);
+        let is_near = |value: f64, bound: f64| value - bound <= NEAR * value.abs();
+        self.lowest_sum(edge, &terms, is_near).bound.max(0.0)
     }
 
     /// The first input that can take all transfer from an edge.

@@ -23,13 +23,13 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// By how much |E| (hi − lo) exceeds its integral somewhere on a contact edge, at most; `None` where an end is infinite, or hi − lo is
 /// constant along the edge.
-pub fn excess(problem: &Problem, edge: usize, time: f64) -> Option<f64> {
-    excess_of(problem, edge, &[now(problem, edge, time)?])
+pub fn excess(problem: &Problem, edge: usize) -> Option<f64> {
+    excess_of(problem, edge, &[now(problem, edge)?])
 }
 
 /// hi − lo of an edge with its inputs as they are; `None` where an end is infinite.
-pub(super) fn now(problem: &Problem, edge: usize, time: f64) -> Option<Ranged<'_>> {
-    let [minus, plus] = ENDS.map(|field| Sum::on_edge(problem, edge, field, time));
+pub(super) fn now(problem: &Problem, edge: usize) -> Option<Ranged<'_>> {
+    let [minus, plus] = ENDS.map(|field| Sum::on_edge(problem, edge, field));
     let whole = Ranged { minus, plus: Some(plus?), factor: [1.0; 2] };
     is_finite(&whole).then_some(whole)
 }
@@ -150,7 +150,7 @@ input.leak = {{ of = \"contact\", field = \"flux\", pattern = \"-2\"{leak} }}
             // It is no less, and known to a thousandth.
             let is_known = |off: f64| (-1e-12..KNOWN).contains(&off);
             assert!(is_known((found - expected) / expected), "{found} {expected}");
-            let default = excess(&problem, edge, 0.0).expect("it varies");
+            let default = excess(&problem, edge).expect("it varies");
             assert!(is_known((default - most(0.5)) / default), "{default} {}", most(0.5));
             assert_eq!(excess_within_ranges(&open, edge), Some(f64::INFINITY));
         }
@@ -159,7 +159,7 @@ input.leak = {{ of = \"contact\", field = \"flux\", pattern = \"-2\"{leak} }}
         let (_, open) = on_grid(&constant, grid(5, Cells::Triangles))?;
         let edge = open.topology.counts.free;
         assert_eq!(excess_within_ranges(&open, edge), Some(f64::INFINITY));
-        assert_eq!(excess(&open, edge, 0.0), None);
+        assert_eq!(excess(&open, edge), None);
         Ok(())
     }
 
@@ -173,7 +173,7 @@ input.leak = {{ of = \"contact\", field = \"flux\", pattern = \"-2\"{leak} }}
         let (_, problem) = limited("4 + 10*exp(-((x - 0.433)/2e-6)^2)")?;
         let counts = problem.topology.counts;
         let edges = counts.free..counts.unknowns();
-        let found: Vec<f64> = edges.filter_map(|edge| excess(&problem, edge, 0.0)).collect();
+        let found: Vec<f64> = edges.filter_map(|edge| excess(&problem, edge)).collect();
         let [peak] = found[..] else { panic!("{found:?}") };
         assert!((peak / 2.0 - 1.0).abs() < 2.0 * KNOWN, "{peak}");
         let refused = limited("4 - 9*exp(-((x - 0.433)/2e-6)^2)").expect_err("a notch");

@@ -192,13 +192,9 @@ fn edge_columns(edges: &Filled, problem: &Problem) -> PyResult<()> {
         _ => problem.binding.boundary(problem.ends[edge]).map_or(-1, |at| at as i64),
     });
     edges.numbers("boundary", boundary.collect())?;
-    let triangles = problem.mesh.triangles.len();
-    let cell = |half: u32| match (half as usize).checked_sub(3 * triangles) {
-        _ if half == u32::MAX => -1,
-        None => i64::from(half / 3),
-        Some(rest) => (triangles + rest / 4) as i64,
-    };
-    edges.rows("cells", problem.topology.half_edges.iter().map(|halves| halves.map(cell)).collect())
+    let number = |cell: Option<usize>| cell.map_or(-1, |at| at as i64);
+    let cells = (0..count).map(|edge| problem.topology.cells_of(edge).map(number));
+    edges.rows("cells", cells.collect())
 }
 
 /// λ, gap, state and the ends of the flux on contact edges.

@@ -21,7 +21,7 @@ use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::stiffness::{Coefficient, Stiffness, fill};
 
 use signorini_certify::cell::Cell;
-use signorini_certify::conductivity::{Conductivity, smallest_eigenvalue};
+use signorini_certify::conductivity::Conductivity;
 use signorini_problem::Problem;
 use signorini_reference::{Linear, LinearFactor};
 use signorini_scene::error::{Error, Result};
@@ -228,9 +228,9 @@ impl Pencil {
 
 /// A of a cell where it is constant, else its least eigenvalue there; and that.
 fn tensor_below(problem: &Problem, at: usize) -> (Tensor<f64>, f64) {
-    let floors = Conductivity::of(problem, at).floors();
-    let alpha = floors.iter().map(smallest_eigenvalue).fold(f64::INFINITY, f64::min);
-    match &floors[..] {
+    let conductivity = Conductivity::of(problem, at);
+    let alpha = conductivity.alpha();
+    match &conductivity.floors()[..] {
         [tensor] => (*tensor, alpha),
         _ => (Tensor { xx: alpha, xy: 0.0, yy: alpha }, alpha),
     }

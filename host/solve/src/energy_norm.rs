@@ -49,7 +49,7 @@ pub fn name(problem: &Problem) -> &'static str {
 pub fn norm(problem: &Problem, s: &Admissible) -> Result<f64> {
     let deviations = curved::followed(problem, s)?;
     let mut square = squares(problem, s, &deviations, None)?;
-    let transfer = robin(problem, problem.time)?;
+    let transfer = robin(problem)?;
     for (record, points) in problem.loads.robin.iter().zip(&transfer) {
         for (&[t, weight], [h, outside]) in f64::GAUSS[DATA_POINTS - 1].iter().zip(points) {
             let s = s.on_edge(problem, record.edge as usize, None, t)?;
@@ -80,7 +80,7 @@ fn squares(
         let s = s.on_cell(problem, at, deviations);
         let field = u.map(|u| CellField::new(problem, at, u, u));
         let is_lifted = deviations.of_cell(problem, at).iter().any(Option::is_some);
-        let rule = gauss(if is_lifted { POINTS } else { points(&cell, &conductivity) });
+        let rule = gauss(if is_lifted { POINTS } else { conductivity.points_for(&cell, 1) });
         let mut square = 0.0;
         let points = match conductivity.cut_for_curves() {
             Some(pieces) => pieces.many_points(cell).map(|of| of.point).collect(),
@@ -98,13 +98,4 @@ fn squares(
         cells.try_fold(0.0, |sum, at| Ok(sum + of_cell(at)?))
     })?;
     Ok(sums.iter().sum())
-}
-
-/// Points a direction where s has no lift: gradients are constant on triangles, of degree 2 on quads.
-fn points(cell: &Cell, conductivity: &Conductivity) -> usize {
-    match cell {
-        Cell::Triangle(_) if conductivity.is_constant() => 1,
-        Cell::Quad(_) if conductivity.is_constant() && cell.is_affine() => 3,
-        _ => DATA_POINTS,
-    }
 }

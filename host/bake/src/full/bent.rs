@@ -30,14 +30,8 @@ pub(super) fn bent<R: Scalar>(problem: &Problem, parts: &[TermData]) -> Result<E
     let bends: Vec<Term> =
         (0..parts.len()).filter(|&term| !parts[term].curved.is_empty()).collect();
     if bends.iter().all(|&term| term == 0) {
-        let records = parts.iter().flat_map(|part| &part.curved).map(|of| certificate::Curved {
-            edge: of.edge,
-            mean: R::narrow(of.mean),
-            peak: R::narrow(of.peak),
-            energy: R::narrow(of.energy),
-            coupling: of.coupling.map(R::narrow),
-        });
-        return Ok((records.collect(), Vec::new()));
+        let records = parts.iter().flat_map(|part| &part.curved);
+        return Ok((records.map(|of| of.narrowed()).collect(), Vec::new()));
     }
     let mut edges = BTreeMap::new();
     for &term in &bends {

@@ -423,7 +423,7 @@ fn where_nothing_touches_s_follows_no_curve() -> Result<()> {
             }
             let deviations = followed(&problem, &s)?;
             for edge in problem.topology.counts.free..problem.topology.counts.unknowns() {
-                let gap = Sum::on_edge(&problem, edge, Field::Gap, 0.0).expect("a gap");
+                let gap = Sum::on_edge(&problem, edge, Field::Gap).expect("a gap");
                 let [a, b] = problem.segment(edge);
                 for k in 0..=64 {
                     let t = f64::from(k) / 64.0;

@@ -1,6 +1,6 @@
 //! The certificate of a step in time, and its terms in the bound of the evolution.
 
-use signorini_bound::certificate::{self, Judged, StoredCell, Verdict, certify_step_with};
+use signorini_bound::certificate::{self, Handed, Judged, StoredCell, Verdict, certify_step_with};
 use signorini_bound::equilibrium::Iterate;
 use signorini_kernel::Error as KernelError;
 
@@ -31,12 +31,14 @@ impl<R: Scalar> Certifier<R> {
         let length = R::narrow(step.length);
         let of_kernel =
             certificate::Step { length, storage, cells: &cells, vertices, bubbles, openings };
-        let (iterate, mut second) = (Iterate { u, law }, self.fields.clone());
+        let iterate = Iterate { u, law };
+        let (mut tau, mut indicators) = (self.fields.tau.clone(), self.fields.indicators.clone());
         if !self.hands_on {
             // It would be the first way once more.
-            second.tau.clear();
+            tau.clear();
         }
-        let buffers = (self.fields.buffers(), second.handed());
+        let second = Handed { tau: &mut tau, indicators: &mut indicators };
+        let buffers = (self.fields.buffers(), second);
         let given_step = (&given, &of_kernel);
         let judged = certify_step_with(&discretization, given_step, iterate, buffers, &moved)?;
         let wide = judged.iter().filter_map(|way| way.terms).map(|terms| {
@@ -45,14 +47,15 @@ impl<R: Scalar> Certifier<R> {
             let rounding = R::TWO * R::EPSILON * given.oscillation;
             let oscillation = terms.oscillation - of_extensions + rounding;
             let terms = widened(&StepTerms { oscillation, ..terms });
-            lifted(StepTerms { length: step.length, ..terms }, data.lifts(), step.begin.lifted)
+            let lifts = &data.evaluated.lifts;
+            lifted(StepTerms { length: step.length, ..terms }, lifts, step.begin.lifted)
         });
-        self.evolution = wide.collect();
+        self.fields.evolution = wide.collect();
         let total = |of: &Judged<R>| of.verdict.certificate().map_or(R::INFINITY, |of| of.total);
         let [kept, handed] = judged;
         let is_handed = total(&handed) < total(&kept);
         if is_handed {
-            (self.fields.tau, self.fields.indicators) = (second.tau, second.indicators);
+            (self.fields.tau, self.fields.indicators) = (tau, indicators);
         }
         self.fields.open(&discretization, &given, law)?;
         Ok(if is_handed { handed.verdict } else { kept.verdict })

@@ -36,7 +36,7 @@ pub fn may_be_cleared(problem: &Problem, edges: impl Iterator<Item = usize> + Cl
 /// # Errors
 /// Data that are not finite.
 pub fn followed<'s>(problem: &'s Problem, s: &Admissible) -> Result<Deviations<'s>> {
-    let mut deviations = Deviations::at_time(problem, problem.time)?;
+    let mut deviations = Deviations::of(problem)?;
     if let Following::Except(edges) = s.following {
         deviations.found.retain(|deviation| !edges.contains(&(deviation.edge as u32)));
         return Ok(deviations);

@@ -79,7 +79,11 @@ pub(super) fn of_square<'p>(
         *axis = axis.clone().with(&turned.ends);
     }
     let [along_x, along_y] = axes.map(|panels| panels.rule());
-    let rows = along_y.iter();
-    let square = rows.flat_map(|&[y, wy]| along_x.iter().map(move |&[x, wx]| (x, y, wx * wy)));
-    square.map(|(x, y, weight)| ([x, y, 0.0], weight)).collect()
+    square(&along_x, &along_y)
+}
+
+/// The points of a rule along x̂ times one along ŷ.
+pub fn square(along_x: &[[f64; 2]], along_y: &[[f64; 2]]) -> Vec<([f64; 3], f64)> {
+    let point = |[x, wx]: [f64; 2], [y, wy]: [f64; 2]| ([x, y, 0.0], wx * wy);
+    along_y.iter().flat_map(|&y| along_x.iter().map(move |&x| point(x, y))).collect()
 }

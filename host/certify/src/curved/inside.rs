@@ -20,11 +20,7 @@ pub fn points(
     deviations: &Deviations,
     rule: &[[f64; 2]],
 ) -> Result<Vec<Point>> {
-    let cell = Cell::of(problem, at);
-    let Some(found) = of_rough_sides(problem, at, std::slice::from_ref(deviations), rule)? else {
-        return Ok(cell.points(rule));
-    };
-    Ok(placed(&cell, found))
+    points_or(problem, at, deviations, rule, |_| None)
 }
 
 /// Points for products of what sides carry inside: on triangles those of smooth data lie along rays from the apices of their
@@ -38,34 +34,39 @@ pub fn points_along_sides(
     deviations: &Deviations,
     rule: &[[f64; 2]],
 ) -> Result<Vec<Point>> {
-    let cell = Cell::of(problem, at);
-    let found = match of_rough_sides(problem, at, std::slice::from_ref(deviations), rule)? {
-        Some(found) => found,
-        None => {
-            let of_cell = deviations.of_cell(problem, at);
-            let sides: Vec<usize> = (0..of_cell.len()).filter(|&k| of_cell[k].is_some()).collect();
-            match (&cell, &sides[..]) {
-                (_, []) => return Ok(cell.points(rule)),
-                (Cell::Triangle(_), [side]) => {
-                    on_side(&cell, *side, &on_panels(FINE, &gauss(POINTS)), rule)
-                }
-                (Cell::Triangle(_), [one, other, ..]) => between_smooth_rays([*one, *other]),
-                (Cell::Quad(_), sides) => {
-                    let panels = Panels::regular();
-                    of_square(sides.iter().map(|&side| (side, &panels)))
-                }
+    points_or(problem, at, deviations, rule, |cell| {
+        let of_cell = deviations.of_cell(problem, at);
+        let sides: Vec<usize> = (0..of_cell.len()).filter(|&k| of_cell[k].is_some()).collect();
+        Some(match (cell, &sides[..]) {
+            (_, []) => return None,
+            (Cell::Triangle(_), [side]) => {
+                on_side(cell, *side, &on_panels(FINE, &gauss(POINTS)), rule)
             }
-        }
-    };
-    Ok(placed(&cell, found))
+            (Cell::Triangle(_), [one, other, ..]) => between_smooth_rays([*one, *other]),
+            (Cell::Quad(_), sides) => {
+                let panels = Panels::regular();
+                of_square(sides.iter().map(|&side| (side, &panels)))
+            }
+        })
+    })
 }
 
-fn placed(cell: &Cell, found: ReferencePoints) -> Vec<Point> {
+/// The points for rough data; for others those that `smooth` tells, or the square of `rule`.
+fn points_or(
+    problem: &Problem,
+    at: usize,
+    deviations: &Deviations,
+    rule: &[[f64; 2]],
+    smooth: impl FnOnce(&Cell) -> Option<ReferencePoints>,
+) -> Result<Vec<Point>> {
+    let cell = Cell::of(problem, at);
+    let rough = of_rough_sides(problem, at, std::slice::from_ref(deviations), rule)?;
+    let Some(found) = rough.or_else(|| smooth(&cell)) else { return Ok(cell.points(rule)) };
     let point = |(reference, weight)| {
         let local = cell.local(reference);
         Point { x: local.x, reference, weight: weight * local.determinant }
     };
-    found.into_iter().map(point).collect()
+    Ok(found.into_iter().map(point).collect())
 }
 
 /// Reference coordinates, and weights that lack the area element.
@@ -115,7 +116,7 @@ pub fn of_rough_sides(
 }
 
 /// The points along one side of a triangle times `rule` away from it, collapsed at the apex.
-fn on_side(
+pub fn on_side(
     cell: &Cell,
     side: usize,
     along: &[[f64; 2]],

@@ -23,16 +23,18 @@ use super::cell::{Cell, Local};
 use super::conductivity::{Conductivity, product};
 use super::deviation::{Deviation, Deviations};
 use super::energy::{CellEnergy, Sample};
-use panels::Panels;
+use panels::{Mended, Panels};
+use signorini_bound::certificate;
 use signorini_kernel::Tensor;
 use signorini_problem::Problem;
 use signorini_problem::pieces::{PiecePoint, Pieces};
 use signorini_problem::quadrature::gauss;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 
 pub use cleared::{followed, may_be_cleared, peak};
-pub use cross::between_smooth_rays;
-pub use inside::{of_rough_sides, points, points_along_sides};
+pub use cross::{between_smooth_rays, square};
+pub use inside::{of_rough_sides, on_side, points, points_along_sides};
 pub use panels::PANELS;
 pub use singular::Rough;
 
@@ -65,12 +67,25 @@ pub struct Curved {
     pub missed: f64,
 }
 
-/// The edges on which ψ or u_D is not affine at time `time`, in the order of the edges.
+impl Curved {
+    /// The record of the kernel, in another scalar.
+    pub fn narrowed<R: Scalar>(&self) -> certificate::Curved<R, u32> {
+        certificate::Curved {
+            edge: self.edge,
+            mean: R::narrow(self.mean),
+            peak: R::narrow(self.peak),
+            energy: R::narrow(self.energy),
+            coupling: self.coupling.map(R::narrow),
+        }
+    }
+}
+
+/// The edges on which ψ or u_D is not affine at the time of `problem`, in the order of the edges.
 ///
 /// # Errors
 /// Data that are not finite or not differentiable at a quadrature point.
-pub fn curved(problem: &Problem, time: f64) -> Result<Vec<Curved>> {
-    Ok(CurvedEdges::new(problem, &Deviations::at_time(problem, time)?)?.records)
+pub fn curved(problem: &Problem) -> Result<Vec<Curved>> {
+    Ok(CurvedEdges::new(problem, &Deviations::of(problem)?)?.records)
 }
 
 /// The records, and what they leave out.
@@ -259,39 +274,5 @@ impl<'d, 's> Extension<'d, 's> {
             sum += weight * local.determinant * product(&a, mine, its);
         }
         Ok(sum)
-    }
-}
-
-/// Corrections that make samples of w and w′ those of one function: ∫w′ = 0, for w is 0 at both ends, and ∫w = −∫t w′. Both are
-/// small differences of data, each rounded on its own, and their products with the fluxes of s and τ nearly cancel.
-///
-/// The records are those of a field g in the place of ∇v, and ∫g·τ = w̄ (τ_E + κ∫f) holds for the mended one alone. That of the
-/// samples themselves would be off by a difference of large terms where a value at an end is, by 10⁻¹⁶ say, that of another
-/// branch of the data. What mending changes is added to the bound, by the triangle inequality, unless it is rounding of w;
-/// what panels may miss of a kink stays.
-struct Mended {
-    /// Corrections of w and w′ at all points.
-    change: [f64; 2],
-    is_counted: bool,
-}
-
-impl Mended {
-    fn new(deviation: &Deviation, panels: &Panels) -> Result<Self> {
-        let (mut mean, mut rise, mut lever, mut energy) = (0.0, 0.0, 0.0, 0.0);
-        for [t, weight] in panels.rule() {
-            let [w, slope] = deviation.at(t)?;
-            energy += weight * slope * slope;
-            mean += weight * w;
-            rise += weight * slope;
-            lever += weight * t * slope;
-        }
-        let change: [f64; 2] = [0.5 * rise - lever - mean, -rise];
-        let is_below = |most: f64| change.iter().all(|change| change.abs() <= most);
-        let is_rounding = is_below(deviation.rounding());
-        // Each panel may miss so much.
-        let is_resolved =
-            !is_rounding && is_below(panels::MISSING * energy.sqrt() * panels.ends.len() as f64);
-        let change = if is_resolved { [0.0; 2] } else { change };
-        Ok(Self { change, is_counted: !is_rounding && !is_resolved })
     }
 }

@@ -17,6 +17,7 @@ use super::POINTS;
 use super::rise::Rise;
 use super::singular::{Rough, beyond};
 pub use crate::between::PANELS;
+use crate::between::on_part;
 use crate::deviation::Deviation;
 use signorini_problem::quadrature::gauss;
 use signorini_scene::error::Result;
@@ -27,7 +28,7 @@ const SHORTEST: f64 = 1.0 / (1_u64 << 50) as f64;
 /// Most panels: data that are rough everywhere are integrated by as many, and no finer.
 const MOST: usize = 128;
 /// Largest part of a rise that may be missing.
-pub(super) const MISSING: f64 = 1e-9;
+const MISSING: f64 = 1e-9;
 /// Part of (∫w′²)^½ that may be missed between the points of a panel.
 const BETWEEN: f64 = 1e-4;
 
@@ -110,11 +111,7 @@ impl Panels {
     /// Gauss points on all panels.
     pub(super) fn rule(&self) -> Vec<[f64; 2]> {
         let rule = gauss(POINTS);
-        let panels = self.ends.windows(2).map(|ends| [ends[0], ends[1] - ends[0]]);
-        let points = |[start, width]: [f64; 2]| {
-            rule.iter().map(move |[t, weight]| [start + width * t, width * weight])
-        };
-        panels.flat_map(points).collect()
+        self.all().into_iter().flat_map(|panel| on_part(panel, &rule)).collect()
     }
 
     /// These panels seen from the edge's other end.
@@ -127,8 +124,7 @@ impl Panels {
         if self.ends.len() > MOST / 2 {
             return self;
         }
-        let middles: Vec<f64> =
-            self.ends.windows(2).map(|ends| 0.5 * (ends[0] + ends[1])).collect();
+        let middles: Vec<f64> = self.all().iter().map(middle).collect();
         self.with(&middles)
     }
 
@@ -138,6 +134,41 @@ impl Panels {
         self.ends.sort_by(f64::total_cmp);
         self.ends.dedup();
         self
+    }
+}
+
+/// Corrections that make samples of w and w′ those of one function: ∫w′ = 0, for w is 0 at both ends, and ∫w = −∫t w′. Both are
+/// small differences of data, each rounded on its own, and their products with the fluxes of s and τ nearly cancel.
+///
+/// The records are those of a field g in the place of ∇v, and ∫g·τ = w̄ (τ_E + κ∫f) holds for the mended one alone. That of the
+/// samples themselves would be off by a difference of large terms where a value at an end is, by 10⁻¹⁶ say, that of another
+/// branch of the data. What mending changes is added to the bound, by the triangle inequality, unless it is rounding of w;
+/// what panels may miss of a kink stays.
+pub(super) struct Mended {
+    /// Corrections of w and w′ at all points.
+    pub(super) change: [f64; 2],
+    /// Whether that is more than rounding.
+    pub(super) is_counted: bool,
+}
+
+impl Mended {
+    pub(super) fn new(deviation: &Deviation, panels: &Panels) -> Result<Self> {
+        let (mut mean, mut rise, mut lever, mut energy) = (0.0, 0.0, 0.0, 0.0);
+        for [t, weight] in panels.rule() {
+            let [w, slope] = deviation.at(t)?;
+            energy += weight * slope * slope;
+            mean += weight * w;
+            rise += weight * slope;
+            lever += weight * t * slope;
+        }
+        let change: [f64; 2] = [0.5 * rise - lever - mean, -rise];
+        let is_below = |most: f64| change.iter().all(|change| change.abs() <= most);
+        let is_rounding = is_below(deviation.rounding());
+        // Each panel may miss so much.
+        let is_resolved =
+            !is_rounding && is_below(MISSING * energy.sqrt() * panels.ends.len() as f64);
+        let change = if is_resolved { [0.0; 2] } else { change };
+        Ok(Self { change, is_counted: !is_rounding && !is_resolved })
     }
 }
 

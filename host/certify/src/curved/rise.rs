@@ -26,8 +26,8 @@ impl<'a, 's> Rise<'a, 's> {
     /// |∫ₐᵇ w′ dt − (w(b) − w(a))|; NaN, which tells nothing, where a single point is singular.
     pub(super) fn missing(&self, [a, b]: [f64; 2]) -> Result<f64> {
         let mut rest = self.deviation.value(b) - self.deviation.value(a);
-        for [t, weight] in &self.rule {
-            rest -= (b - a) * weight * self.deviation.at(a + (b - a) * t)?[1];
+        for [t, weight] in on_part([a, b], &self.rule) {
+            rest -= weight * self.deviation.at(t)?[1];
         }
         Ok(rest.abs())
     }

@@ -52,15 +52,10 @@ pub(super) fn beyond(rise: &Rise) -> Result<std::result::Result<f64, Rough>> {
             (0..=SHELLS).rev().map(|k| shell(deviation, place, nearest * 2.0_f64.powi(k)));
         let energies = energies.collect::<Result<Vec<_>>>()?;
         let (first, last) = (energies[0], energies[SHELLS as usize]);
-        if last == 0.0 {
-            if rise.jumps([low, high])? {
-                return Ok(Err(Rough::Jump(place)));
-            }
-            continue;
-        }
         let late = energies[SHELLS as usize / 2];
         let kept = (last / first).powf(1.0 / f64::from(SHELLS));
         let kept = kept.max((last / late).powf(2.0 / f64::from(SHELLS)));
+        let kept = if last == 0.0 { 0.0 } else { kept };
         if kept > DECAY || kept.is_nan() {
             return Ok(Err(Rough::Steep(place)));
         }

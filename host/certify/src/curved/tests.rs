@@ -16,6 +16,9 @@ use signorini_tolerances::solve::{
     CURVED_ENERGY, CURVED_KINK, DIFFERENCES, DIFFERENCES_COLLAPSED, LAYER, NOISE, PARABOLIC, STEEP,
 };
 
+/// A of [`CURVED`].
+const TENSOR: &str = "[\"2\", \"0.5\", \"1\"]";
+
 /// v of an edge as a function of the point, by its definition and without its gradient.
 fn value(cell: &Cell, side: usize, deviation: &Deviation, reference: [f64; 3]) -> f64 {
     let side = cell.local(reference).sides[side];
@@ -61,8 +64,8 @@ fn by_differences(
 
 fn check_against_differences(mesh: Mesh, scene: &str, allowed: Tolerance) -> Result<usize> {
     let (_, problem) = fixtures::on_grid(scene, mesh)?;
-    let records = curved(&problem, 0.0)?;
-    let deviations = Deviations::at_time(&problem, 0.0)?;
+    let records = curved(&problem)?;
+    let deviations = Deviations::of(&problem)?;
     let mut energies = BTreeMap::new();
     for record in &records {
         let deviation = deviations.on(record.edge as usize).expect("a curved edge");
@@ -99,31 +102,22 @@ fn check_against_differences(mesh: Mesh, scene: &str, allowed: Tolerance) -> Res
     Ok(records.len() - energies.len())
 }
 
+/// On triangles the twin's rule collapses at one vertex, not at the apex of the side.
 #[test]
-fn triangles_agree_with_differences_of_values() -> Result<()> {
-    // The twin's rule collapses at one vertex, not at the apex of the side.
-    let corners =
-        check_against_differences(grid(2, Cells::Triangles), CURVED, DIFFERENCES_COLLAPSED)?;
-    assert!(corners > 0, "no cell with two curved edges was tried");
-    Ok(())
-}
-
-#[test]
-fn distorted_quads_agree_with_differences_of_values() -> Result<()> {
-    let mesh = fixtures::distorted(grid(2, Cells::Quads));
-    let corners = check_against_differences(mesh, CURVED, DIFFERENCES)?;
-    assert!(corners > 0, "no cell with two curved edges was tried");
-    Ok(())
-}
-
-#[test]
-fn a_tensor_that_varies_in_the_cell_is_taken_where_it_is() -> Result<()> {
-    let scene = CURVED.replace("[\"2\", \"0.5\", \"1\"]", "[\"2+x\", \"0.5*y\", \"1+x^2\"]");
-    assert_ne!(scene, CURVED);
-    check_against_differences(grid(2, Cells::Triangles), &scene, DIFFERENCES_COLLAPSED)?;
+fn they_agree_with_differences_of_values() -> Result<()> {
+    let meshes = [
+        (grid(2, Cells::Triangles), DIFFERENCES_COLLAPSED),
+        (fixtures::distorted(grid(2, Cells::Quads)), DIFFERENCES),
+    ];
     // On quads that are no parallelograms a polynomial below x² stands for it; x is one.
-    let scene = scene.replace("1+x^2", "3+x");
-    check_against_differences(fixtures::distorted(grid(2, Cells::Quads)), &scene, DIFFERENCES)?;
+    let tensors = ["[\"2+x\", \"0.5*y\", \"1+x^2\"]", "[\"2+x\", \"0.5*y\", \"3+x\"]"];
+    for ((mesh, allowed), varying) in meshes.into_iter().zip(tensors) {
+        for tensor in [TENSOR, varying] {
+            let scene = fixtures::changed(CURVED, &[(TENSOR, tensor)]);
+            let corners = check_against_differences(mesh.clone(), &scene, allowed)?;
+            assert!(corners > 0, "no cell with two curved edges was tried");
+        }
+    }
     Ok(())
 }
 
@@ -131,10 +125,9 @@ fn a_tensor_that_varies_in_the_cell_is_taken_where_it_is() -> Result<()> {
 fn a_parabola_over_its_chord() -> Result<()> {
     // ψ = −x² on an edge of length l: w = l² t(1 − t), mean l²/6. On the right isosceles triangle
     // below a cut square (E the bottom, A = I): ∇λ_b + t∇λ_c = (1/l)(1, t − 1) for the apex above b.
-    let scene = PARABOLA;
     let n = 4;
-    let (_, problem) = fixtures::on_grid(scene, grid(n, Cells::Triangles))?;
-    let records = curved(&problem, 0.0)?;
+    let (_, problem) = fixtures::on_grid(PARABOLA, grid(n, Cells::Triangles))?;
+    let records = curved(&problem)?;
     let length = 1.0 / f64::from(n);
     assert_eq!(records.len(), 2 * n as usize);
     // |T| ∫ |w′ ∇λ_b + (t w′ − w) ∇λ_c|² with ∇λ_b = (1, −1)/l, ∇λ_c = (0, 1)/l, w′ = l²(1 − 2t):
@@ -158,9 +151,9 @@ fn an_input_bends_an_edge_like_its_boundarys_own_expression() -> Result<()> {
     let text = CURVED.replace(own, input)
         + "[input.lift]\nof = \"default\"\nfield = \"value\"\npattern = \"2*y^3\"\ndefault = 0.5\n";
     let (_, problem) = fixtures::on_grid(&text, grid(2, Cells::Mixed))?;
-    let with_input = curved(&problem, 0.0)?;
+    let with_input = curved(&problem)?;
     let (_, problem) = fixtures::on_grid(CURVED, grid(2, Cells::Mixed))?;
-    let expected = curved(&problem, 0.0)?;
+    let expected = curved(&problem)?;
     assert_eq!(with_input.len(), expected.len());
     for (found, expected) in with_input.iter().zip(&expected) {
         PARABOLIC.check("mean", found.mean - expected.mean);
@@ -174,17 +167,21 @@ fn affine_data_leave_no_record() -> Result<()> {
     let affine = PARABOLA.replace("-x^2", "12.3 - 0.7*x + 3e5*y");
     for cells in [Cells::Triangles, Cells::Quads] {
         let (_, problem) = fixtures::on_grid(&affine, grid(7, cells))?;
-        assert_eq!(curved(&problem, 0.0)?, []);
+        assert_eq!(curved(&problem)?, []);
     }
     Ok(())
 }
 
+/// [`PARABOLA`] with another gap, on triangles of edge ½.
+fn gapped(gap: &str) -> Result<Problem> {
+    let scene = PARABOLA.replace("-x^2", gap);
+    Ok(fixtures::on_grid(&scene, grid(2, Cells::Triangles))?.1)
+}
+
 /// The record of the contact edge from 0 to 0.5, for a gap with something at 0.3.
 fn with_gap(gap: &str) -> Result<Curved> {
-    let scene = PARABOLA.replace("-x^2", gap);
-    assert_ne!(scene, PARABOLA);
-    let (_, problem) = fixtures::on_grid(&scene, grid(2, Cells::Triangles))?;
-    let mut records = curved(&problem, 0.0)?;
+    let problem = gapped(gap)?;
+    let mut records = curved(&problem)?;
     records.retain(|record| {
         let [a, b] = problem.segment(record.edge as usize);
         (a[0] - 0.3) * (b[0] - 0.3) < 0.0
@@ -236,9 +233,7 @@ fn a_jump_inside_an_edge_has_no_bound() -> Result<()> {
         with_gap("sign(x - 0.3)")?.rough.is_some() && with_gap("abs(x - 0.3)")?.rough.is_none()
     );
     for (gap, bound) in [("sign(x - 0.3)", false), ("abs(x - 0.3)", true), ("-x^2", true)] {
-        let scene = PARABOLA.replace("-x^2", gap);
-        let (_, problem) = fixtures::on_grid(&scene, grid(2, Cells::Triangles))?;
-        assert_eq!(Data::<f64>::new(&problem)?.has_bound(), bound, "{gap}");
+        assert_eq!(Data::<f64>::new(&gapped(gap)?)?.has_bound(), bound, "{gap}");
     }
     Ok(())
 }
@@ -301,7 +296,7 @@ fn single_singular_points_do_no_harm() -> Result<()> {
 fn smooth_data_have_regular_panels() -> Result<()> {
     for cells in [Cells::Triangles, Cells::Quads] {
         let (_, problem) = fixtures::on_grid(CURVED, fixtures::distorted(grid(2, cells)))?;
-        for deviation in &Deviations::at_time(&problem, 0.0)?.found {
+        for deviation in &Deviations::of(&problem)?.found {
             assert!(Panels::along(deviation)?.is_regular());
         }
     }
@@ -310,7 +305,7 @@ fn smooth_data_have_regular_panels() -> Result<()> {
     let mut mesh = grid(2, Cells::Triangles);
     mesh.vertices.iter_mut().for_each(|x| *x = [1e3 + 1e-6 * x[0], 1e3 + 1e-6 * x[1]]);
     let (_, problem) = fixtures::on_grid(&far, mesh)?;
-    for deviation in &Deviations::at_time(&problem, 0.0)?.found {
+    for deviation in &Deviations::of(&problem)?.found {
         assert!(Panels::along(deviation)?.is_regular());
     }
     assert_eq!(Panels::regular().rule(), on_panels(PANELS, &gauss(POINTS)));
@@ -330,11 +325,11 @@ fn nothing_is_above_its_peak() -> Result<()> {
     for (gap, most) in gaps {
         let scene = PARABOLA.replace("-x^2", gap).replace("20 + 1e6*y", "20");
         let (_, problem) = fixtures::on_grid(&scene, grid(2, Cells::Triangles))?;
-        let records = curved(&problem, 0.0)?;
+        let records = curved(&problem)?;
         let alone = |record: &&Curved| record.peak.is_finite();
         assert!(records.iter().filter(alone).count() > 0, "{gap}");
         for record in records.iter().filter(alone) {
-            let deviations = Deviations::at_time(&problem, 0.0)?;
+            let deviations = Deviations::of(&problem)?;
             let deviation = deviations.on(record.edge as usize).expect("a curved edge");
             let values = (0..=20_000).map(|k| deviation.value(f64::from(k) / 20_000.0).abs());
             let largest = values.fold(0.0, f64::max);
@@ -351,7 +346,7 @@ fn s_leaves_a_curve_out_where_it_is_clear_of_it() -> Result<()> {
     // At height 0 it is too near in the two edges beside x = 0.
     for (cells, left) in [(Cells::Triangles, [2, 0, 0]), (Cells::Quads, [8; 3])] {
         let (_, problem) = fixtures::on_grid(&scene, grid(4, cells))?;
-        let all = Deviations::at_time(&problem, 0.0)?.found.len();
+        let all = Deviations::of(&problem)?.found.len();
         for (height, left) in [0.0, 10.0, -10.0].into_iter().zip(left) {
             let vertices = &vec![height; problem.mesh.vertices.len()][..];
             let following = &Following::WhereNeeded;
@@ -359,14 +354,13 @@ fn s_leaves_a_curve_out_where_it_is_clear_of_it() -> Result<()> {
             assert_eq!(followed(&problem, &s)?.found.len(), left, "{cells:?} at {height}");
             let s = Admissible { following: &Following::default(), ..s };
             assert_eq!(followed(&problem, &s)?.found.len(), all);
-            let first = Deviations::at_time(&problem, 0.0)?.found[0].edge as u32;
+            let first = Deviations::of(&problem)?.found[0].edge as u32;
             let s = Admissible { following: &Following::Except(vec![first]), ..s };
             assert_eq!(followed(&problem, &s)?.found.len(), all - 1);
         }
     }
     let (_, problem) = fixtures::on_grid(CURVED, grid(2, Cells::Triangles))?;
-    let edges =
-        Deviations::at_time(&problem, 0.0)?.found.iter().map(|of| of.edge).collect::<Vec<_>>();
+    let edges = Deviations::of(&problem)?.found.iter().map(|of| of.edge).collect::<Vec<_>>();
     let alone = |edge: usize| {
         let cell = |edge: usize| problem.topology.first_side(edge).0;
         edges.iter().filter(|&&other| cell(other) == cell(edge)).count() == 1
@@ -379,27 +373,20 @@ fn s_leaves_a_curve_out_where_it_is_clear_of_it() -> Result<()> {
     Ok(())
 }
 
+/// Kinks, on quads on opposite sides as well; and waves along an edge, as many as panels for smooth data find, and twice as many in
+/// a product of two.
 #[test]
-fn kinks_on_two_sides_of_a_cell_meet() -> Result<()> {
-    // On quads also opposite sides.
-    let scene = CURVED
-        .replace(
-            "sin(2*x) + y^3 - 0.3*x*y^2",
-            "abs(x - 0.31) + 2*max(0, y - 0.62) + max(0, x + 0.57)",
-        )
-        .replace("-2 + exp(x)*(1 + x^2)/20", "-3 - abs(x - 0.43) - max(x, -0.83)");
-    assert_ne!(scene, CURVED);
-    energies_of_pairs(&scene)
-}
-
-/// Waves along an edge, as many as panels for smooth data find, and twice as many in a product of two.
-#[test]
-fn waves_on_two_sides_of_a_cell_meet() -> Result<()> {
-    for tensor in ["[\"1\", \"-0.95\", \"1\"]", "\"1\""] {
-        let scene = CURVED
-            .replace("[\"2\", \"0.5\", \"1\"]", tensor)
-            .replace("sin(2*x) + y^3 - 0.3*x*y^2", "sin(31.5*x + 4.8) + sin(31.5*y + 4.8)")
-            .replace("-2 + exp(x)*(1 + x^2)/20", "-3 + sin(31.5*x + 4.8)");
+fn data_on_two_sides_of_a_cell_meet() -> Result<()> {
+    let kinks = [
+        "abs(x - 0.31) + 2*max(0, y - 0.62) + max(0, x + 0.57)",
+        "-3 - abs(x - 0.43) - max(x, -0.83)",
+    ];
+    let waves = ["sin(31.5*x + 4.8) + sin(31.5*y + 4.8)", "-3 + sin(31.5*x + 4.8)"];
+    for (tensor, [value, gap]) in
+        [(TENSOR, kinks), ("[\"1\", \"-0.95\", \"1\"]", waves), ("\"1\"", waves)]
+    {
+        let data = [("sin(2*x) + y^3 - 0.3*x*y^2", value), ("-2 + exp(x)*(1 + x^2)/20", gap)];
+        let scene = fixtures::changed(&fixtures::changed(CURVED, &data), &[(TENSOR, tensor)]);
         energies_of_pairs(&scene)?;
     }
     Ok(())
@@ -409,8 +396,8 @@ fn waves_on_two_sides_of_a_cell_meet() -> Result<()> {
 fn energies_of_pairs(scene: &str) -> Result<()> {
     for cells in [Cells::Triangles, Cells::Quads] {
         let (_, problem) = fixtures::on_grid(scene, grid(1, cells))?;
-        let deviations = Deviations::at_time(&problem, 0.0)?;
-        let (records, mut pairs) = (curved(&problem, 0.0)?, 0);
+        let deviations = Deviations::of(&problem)?;
+        let (records, mut pairs) = (curved(&problem)?, 0);
         for at in 0..problem.cells() {
             let here =
                 records.iter().filter(|of| problem.topology.first_side(of.edge as usize).0 == at);
@@ -449,15 +436,14 @@ fn data_of_infinite_energy_have_no_bound() -> Result<()> {
         "ln(abs(x - 0.3))",
         "sqrt(1 - x)",
     ] {
-        let text = PARABOLA.replace("-x^2", gap);
-        let (_, problem) = fixtures::on_grid(&text, grid(2, Cells::Triangles))?;
+        let (problem, text) = (gapped(gap)?, PARABOLA.replace("-x^2", gap));
         let reason = refusal(&text)?.map_or_else(String::new, |reason| reason.to_string());
         assert!(reason.contains("the gap of boundary.contact near ("), "{gap}: {reason}");
         let place = |of: &Curved| match of.rough {
             Some(Rough::Steep(t)) => Some(problem.along(of.edge as usize, t)),
             _ => None,
         };
-        let at = curved(&problem, 0.0)?.iter().find_map(place).expect("a steep place");
+        let at = curved(&problem)?.iter().find_map(place).expect("a steep place");
         assert!(at[1] == 0.0 && reason.contains("rises too steeply"), "{gap}: {reason}");
         let near = [0.3, 0.25, 0.5, 1.0].map(|x| (at[0] - x).abs());
         STEEP.check(format_args!("{gap}: {reason}"), near.into_iter().fold(1.0, f64::min));
@@ -508,7 +494,7 @@ fn a_kink_right_beside_a_vertex_is_found() -> Result<()> {
             let text = fixtures::changed(PARABOLA, &[("-x^2", "min(-x, 0)"), ("20 + 1e6*y", "1")]);
             let (_, problem) = fixtures::on_grid(&text, mesh.clone())?;
             assert_eq!(Data::<f64>::new(&problem)?.no_bound(), None, "{at}");
-            let records = curved(&problem, 0.0)?;
+            let records = curved(&problem)?;
             let crosses = |of: &&Curved| {
                 let [[a, _], [b, _]] = problem.segment(of.edge as usize);
                 a * b < 0.0

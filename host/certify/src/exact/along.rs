@@ -45,7 +45,7 @@ impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
         let conductivity = Conductivity::of(problem, at);
         let deviation = self.deviations.on(edge);
         let point = |[t, weight]: [f64; 2]| {
-            let x = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
+            let x = problem.along(edge, t);
             let (u, gradient) = exact_at(&self.problem.scene, self.exact, x, self.problem.time)?;
             Ok(EdgePoint {
                 x,

@@ -31,10 +31,9 @@ pub fn in_energy(exact: &Exact, problem: &Problem, admissible: &Admissible) -> R
         }
     }
     for edge in 0..problem.kinds.len() {
-        let Some(h) = Sum::transfer(problem, edge, problem.time) else { continue };
+        let Some(h) = Sum::transfer(problem, edge) else { continue };
         let term = |EdgePoint { x, weight, u, s, .. }: EdgePoint| {
-            let h = h.finite(h.at(x[0], x[1]), x)?;
-            Ok([weight * on_robin(h, u - s, 0.0), 0.0])
+            Ok([weight * on_robin(h.finite_at(x)?, u - s, 0.0), 0.0])
         };
         square += of.on_edge(edge, term)?[0];
     }

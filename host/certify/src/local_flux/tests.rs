@@ -112,10 +112,7 @@ fn fluxes_are_what_they_say() {
             norm += point.weight * product(&inverse(&OBLIQUE), rho, rho);
             let divergence = flux.divergence(point.reference, local.determinant);
             let [x, y] = point.x;
-            let powers =
-                [[1, 0], [0, 1], [2, 0], [1, 1], [0, 2], [3, 0], [2, 1], [1, 2], [0, 3], [0, 0]];
             for (sum, [m, n]) in sums.iter_mut().zip(powers) {
-                let power = |x: f64, n: i32| if n < 0 { 0.0 } else { x.powi(n) };
                 let by_x = f64::from(m) * power(x, m - 1) * y.powi(n);
                 let by_y = f64::from(n) * x.powi(m) * power(y, n - 1);
                 let v = x.powi(m) * y.powi(n);

@@ -4,14 +4,14 @@ use std::f64::consts::PI;
 
 use signorini_kernel::mesh::geometry::triangle_area;
 
-use super::alpha::alpha;
 use super::parts;
 use super::rules::{ELLIPSES, LEFT, PANELS, POINTS, RESOLVED};
 use super::stretched;
 use crate::cell::Cell;
+use crate::conductivity::Conductivity;
 use crate::stretch::is_even;
 use signorini_problem::quadrature::enclosed::{Integral, pole};
-use signorini_problem::quadrature::refined::{Part, refined};
+use signorini_problem::quadrature::refined::refined;
 use signorini_problem::quadrature::{gauss, on_panels};
 use signorini_problem::{Problem, Sum};
 use signorini_scene::error::Result;
@@ -35,7 +35,7 @@ pub fn of_flux(problem: &Problem, edge: usize) -> Result<[f64; 2]> {
 }
 
 fn of_end(problem: &Problem, edge: usize, field: Field) -> Result<[f64; 2]> {
-    let Some(g) = Sum::on_edge(problem, edge, field, problem.time) else { return Ok([0.0; 2]) };
+    let Some(g) = Sum::on_edge(problem, edge, field) else { return Ok([0.0; 2]) };
     if g.constant().is_some() {
         return Ok([0.0; 2]);
     }
@@ -43,8 +43,8 @@ fn of_end(problem: &Problem, edge: usize, field: Field) -> Result<[f64; 2]> {
     let (length, mean) = (problem.lengths[edge], g.mean_and_missed(segment)?);
     let square = length_square(&g, segment, length, mean)?;
     let (at, _) = problem.topology.first_side(edge);
-    let shape = shape(problem, edge);
-    let by_trace = |square: f64| (shape * TRACE * square / alpha(problem, at)).sqrt();
+    let (shape, alpha) = (shape(problem, edge), Conductivity::of(problem, at).alpha());
+    let by_trace = |square: f64| (shape * TRACE * square / alpha).sqrt();
     let known = by_trace(square.value);
     if square.missed == 0.0 && !is_even(problem, at) {
         let by_flux = stretched::along_edge(problem, edge, &g, mean.value, by_trace);
@@ -57,7 +57,7 @@ fn of_end(problem: &Problem, edge: usize, field: Field) -> Result<[f64; 2]> {
 /// a quad it is the mean of the reference square, over which loads are spread.
 pub fn off_mean(problem: &Problem, edge: usize) -> f64 {
     let (at, _) = problem.topology.first_side(edge);
-    let (softness, length) = (alpha(problem, at), problem.lengths[edge]);
+    let (softness, length) = (Conductivity::of(problem, at).alpha(), problem.lengths[edge]);
     let shape = shape(problem, edge);
     let from_triangle = (shape * TRACE / (length * softness)).sqrt();
     let cell = Cell::of(problem, at);
@@ -96,15 +96,12 @@ fn length_square(g: &Sum, segment: [[f64; 2]; 2], length: f64, mean: Integral) -
         return Ok(Integral { value: square, missed: 0.0 });
     }
     let constant = Form::constant(Shape::Segment, mean.value);
-    let integral = |_: usize, part: &Region| parts::square(g, part, &constant);
-    let [value, missed] = integral(0, &region);
-    let whole = vec![Part { of: 0, region, value, missed }];
     let cut = refined(
         |region| g.cut(region),
-        whole,
+        [(0, region)],
         MOST,
         |size, missed| missed <= LEFT * size,
-        integral,
+        |_, part| parts::square(g, part, &constant),
     );
     let [value, missed] = cut
         .iter()
@@ -124,7 +121,7 @@ fn opposite(cell: &Cell, side: usize) -> [f64; 2] {
 /// Where a flux or a limit has no square integral on an edge.
 pub fn pole_on_edge(problem: &Problem, edge: usize) -> Option<(Field, [f64; 2], bool)> {
     [Field::Flux, Field::Limit, Field::Ambient].into_iter().find_map(|field| {
-        let data = Sum::on_edge(problem, edge, field, problem.time)?;
+        let data = Sum::on_edge(problem, edge, field)?;
         let (at, is_proved) = pole(&data, &Region::segment(problem.segment(edge)), 2.0)?;
         Some((field, at, is_proved))
     })

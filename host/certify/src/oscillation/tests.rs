@@ -5,9 +5,16 @@ use std::f64::consts::PI;
 use super::*;
 use signorini_kernel::mesh::geometry::triangle_area;
 use signorini_problem::fixtures::{self, PARABOLA, SMOOTH};
+use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::shape::edge_length;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_tolerances::solve::OSCILLATION;
+
+/// [`PARABOLA`] with this source.
+fn sourced(f: &str, mesh: Mesh) -> Result<Problem> {
+    let text = fixtures::changed(PARABOLA, &[("f = \"0\"", &format!("f = \"{f}\""))]);
+    Ok(fixtures::on_grid(&text, mesh)?.1)
+}
 
 /// Eigenvalues of [2, ½; ½, 1] are (3 ± √2)/2.
 fn smallest() -> f64 {
@@ -69,8 +76,7 @@ fn oscillations_hold_what_no_rule_sees() -> Result<()> {
     ];
     for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
         for (text, square, integral) in &cases {
-            let scene = PARABOLA.replace("f = \"0\"", &format!("f = \"{text}\""));
-            let (_, problem) = fixtures::on_grid(&scene, grid(2, cells))?;
+            let problem = sourced(text, grid(2, cells))?;
             let load = |at: usize| problem.loads.of_cell(at);
             let sum: f64 = (0..problem.cells()).map(load).sum();
             let slack = problem.loads.missed + 1e-12;
@@ -116,8 +122,7 @@ fn powers_of_a_distance_oscillate_as_they_do() -> Result<()> {
     {
         for point @ [x, y] in points {
             let text = format!("((x - {x:?})^2 + (y - {y:?})^2)^{:?}", 0.5 * (a - 2.0));
-            let scene = PARABOLA.replace("f = \"0\"", &format!("f = \"{text}\""));
-            let (_, problem) = fixtures::on_grid(&scene, grid(2, cells))?;
+            let problem = sourced(&text, grid(2, cells))?;
             let data = crate::Evaluated::new(&problem)?;
             let reason = data.no_bound.map(|reason| reason.to_string()).unwrap_or_default();
             assert_eq!(
@@ -146,8 +151,8 @@ fn powers_of_a_distance_oscillate_as_they_do() -> Result<()> {
         }
     }
     assert_eq!(seen, 18);
-    let none = PARABOLA.replace("f = \"0\"", "f = \"1/((x - 0.31)^2 + (y - 0.43)^2)\"");
-    let error = fixtures::on_grid(&none, grid(2, Cells::Quads)).expect_err("no load");
+    let none = "1/((x - 0.31)^2 + (y - 0.43)^2)";
+    let error = sourced(none, grid(2, Cells::Quads)).expect_err("no load");
     assert!(error.to_string().contains("no finite integral near (0.3"), "{error}");
     Ok(())
 }
@@ -177,26 +182,23 @@ fn powers_on_an_edge_have_a_bound_above_a_half() -> Result<()> {
 
 #[test]
 fn constant_data_oscillate_only_where_the_area_element_does() -> Result<()> {
-    let constant = PARABOLA.replace("f = \"0\"", "f = \"3\"");
-    for cells in [Cells::Triangles, Cells::Quads] {
-        let (_, problem) = fixtures::on_grid(&constant, grid(3, cells))?;
-        assert!(oscillation(&problem)?.of_cells.iter().all(|&cell| cell == 0.0));
+    let distorted = fixtures::distorted(grid(3, Cells::Quads));
+    for (f, mesh) in
+        [("3", grid(3, Cells::Triangles)), ("3", grid(3, Cells::Quads)), ("0", distorted.clone())]
+    {
+        assert!(oscillation(&sourced(f, mesh)?)?.of_cells.iter().all(|&cell| cell == 0.0));
     }
-    let mesh = fixtures::distorted(grid(3, Cells::Quads));
-    let (_, problem) = fixtures::on_grid(&constant, mesh.clone())?;
-    assert!(oscillation(&problem)?.of_cells.iter().any(|&cell| cell > 1e-3));
-    let (_, problem) = fixtures::on_grid(PARABOLA, mesh)?;
-    assert!(oscillation(&problem)?.of_cells.iter().all(|&cell| cell == 0.0));
+    let found = oscillation(&sourced("3", distorted)?)?;
+    assert!(found.of_cells.iter().any(|&cell| cell > 1e-3));
     Ok(())
 }
 
 #[test]
 fn linear_source_on_a_square() -> Result<()> {
     // f = x on squares of side h: ‖f − f̄‖² = h⁴/12, diameter √2 h, A = I.
-    let linear = PARABOLA.replace("f = \"0\"", "f = \"x\"");
-    let (_, problem) = fixtures::on_grid(&linear, grid(4, Cells::Quads))?;
+    let found = oscillation(&sourced("x", grid(4, Cells::Quads))?)?;
     let expected = 2.0_f64.sqrt() * 0.25 / PI * (0.25_f64.powi(4) / 12.0).sqrt();
-    for cell in oscillation(&problem)?.of_cells {
+    for cell in found.of_cells {
         OSCILLATION.check("a cell", cell - expected);
     }
     Ok(())

@@ -194,7 +194,7 @@ fn laws(problem: &Problem, pattern: &TransferPattern, range: f64) -> Result<Opti
                 && added.iter().all(|h| *h == added[0])
         }
     };
-    let points = robin(problem, problem.time)?;
+    let points = robin(problem)?;
     let all = points.iter().zip(&pattern.points).all(is_constant);
     let shares = pattern.integrals.clone();
     Ok(all.then_some(Laws { shares, change: MIDDLE * range }))

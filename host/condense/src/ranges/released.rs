@@ -198,7 +198,7 @@ impl Recovery {
 /// The peaks of a pattern on edges between vertices that were released.
 fn peaks(problem: &Problem, released: &[(u32, Vec<f64>)]) -> Result<Vec<([u32; 2], f64)>> {
     let released: BTreeSet<u32> = released.iter().map(|(vertex, _)| *vertex).collect();
-    let deviations = Deviations::at_time(problem, 0.0)?;
+    let deviations = Deviations::of(problem)?;
     let left_out = deviations.found.iter().map(|of| (problem.ends[of.edge], of));
     let left_out = left_out.filter(|(ends, _)| is_left_out(*ends, &released));
     left_out.map(|(ends, of)| Ok((ends, peak(of)?))).collect()

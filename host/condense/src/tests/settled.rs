@@ -100,7 +100,7 @@ fn what_the_bound_takes_for_granted_holds_for_any_openings() -> Result<()> {
             let terms = [&p[..], &past].concat();
             let now = problem.with_inputs(&p[1..])?;
             let fields = recovery.admissible(&of.model, &now, &terms, &x).expect("a bound");
-            let ends = Ends::at_time(&now, 0.0)?;
+            let ends = Ends::of(&now)?;
             let (_, flux) = recovery.field(&of.model, &terms, &x);
             let q = |edge: usize| now.loads.contact_flux[edge];
             for &edge in &of.settled.open {

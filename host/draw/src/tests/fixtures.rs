@@ -158,15 +158,9 @@ fn tradeoff() -> Tradeoff {
         front: front.clone(),
         ..TradeStudy::default()
     };
-    let target = TradeTarget {
-        example: study.picture.clone(),
-        taken: front.clone(),
-        knobs: front.clone(),
-        ..TradeTarget::default()
-    };
-    let scene = TradePanel { studies: vec![study], ..TradePanel::default() };
+    let scene = TradePanel { studies: vec![study.clone()], ..TradePanel::default() };
     Tradeoff {
-        targets: vec![target],
+        targets: vec![study],
         findings: vec!["f32 < f64".to_owned()],
         sizes: front,
         of_sizes: vec!["a > b".to_owned()],

@@ -132,7 +132,7 @@ impl<'a> Benchmark<'a> {
 
 /// The problem as the first tick has it.
 fn at_first(problem: &Problem) -> Result<Full<'_, f64>> {
-    let loads = Loads::at_time(problem, problem.time)?;
+    let loads = Loads::of(problem)?;
     Full::new(problem, &Parts::examine(problem)?, &[loads])
 }
 

@@ -51,7 +51,7 @@ pub(super) fn load_cases(problem: &Problem, ticks: usize) -> Result<Vec<Loads>> 
     let spaces = [1.0, 1.0, 0.0].map(InputSpace::near);
     let scaled = |(tick, f): (usize, Vec<f64>)| {
         let tilt = if tick == 0 { 0.0 } else { TILT * f[2] };
-        let mut loads = Loads::at_time(problem, problem.time)?;
+        let mut loads = Loads::of(problem)?;
         scale(&mut loads, problem, &Factor::across(problem, f[0], tilt), f[1]);
         Ok(loads)
     };
@@ -63,7 +63,7 @@ fn with_inputs(problem: &Problem, values: &[f64]) -> Result<Loads> {
     let inputs = scene.inputs.iter_mut().zip(values);
     let of_loads = inputs.filter(|(input, _)| input.field.value != Field::Coefficient);
     of_loads.for_each(|(input, value)| input.default = *value);
-    Loads::at_time(&Problem { scene: Arc::new(scene), ..problem.clone() }, problem.time)
+    Loads::of(&Problem { scene: Arc::new(scene), ..problem.clone() })
 }
 
 /// Multiplies f, u_D, g and the ambient by a factor that varies, and ψ, q and limits by another.

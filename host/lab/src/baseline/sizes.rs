@@ -75,7 +75,7 @@ pub(super) fn size(
     let coarser: Vec<_> = coarser.collect::<Result<_>>()?;
     let at = |tick: usize| {
         let time = STEP * tick as f64;
-        Loads::at_time(&Problem { time, ..problem.clone() }, time)
+        Loads::of(&Problem { time, ..problem.clone() })
     };
     let moments: Vec<_> = (0..=ticks).map(at).collect::<Result<_>>()?;
     let mut remarks = Vec::new();

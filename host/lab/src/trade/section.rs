@@ -10,8 +10,9 @@ use super::records::Records;
 use super::table::{ERRORS, Figure, costs, front, further, skipped};
 use super::target::Target;
 use super::verdict::{self, certificate, knob_values};
-use crate::baseline::{self, Baseline};
-use signorini_draw::{Column, Table, TradePanel, TradeStudy, TradeTarget, Tradeoff};
+use crate::baseline;
+use crate::baseline::Baseline;
+use signorini_draw::{Column, Table, TradePanel, TradeStudy, Tradeoff};
 
 /// The scene whose study is the example, where there is one of it.
 const EXAMPLE: &str = "levee";
@@ -28,11 +29,11 @@ pub fn section(records: &Records) -> Tradeoff {
 }
 
 /// What the studies on one target say together; nothing where there is none.
-fn target(trades: &[Trade]) -> Option<TradeTarget> {
+fn target(trades: &[Trade]) -> Option<TradeStudy> {
     let example = trades.iter().find(|trade| trade.scene == EXAMPLE).or(trades.first())?;
-    let TradeStudy { heading, recommendation, picture, .. } = study(example);
     let knobs = verdict::table(&knob_values(trades), example.target);
-    Some(TradeTarget { heading, example: picture, recommendation, taken: taken(trades), knobs })
+    let further = vec![("Which choices pay, counted over all scenes".to_owned(), knobs)];
+    Some(TradeStudy { front: taken(trades), further, notes: Vec::new(), ..study(example) })
 }
 
 /// A scene by its name: its study on the host and that on the M4F.
@@ -130,12 +131,12 @@ mod tests {
         };
         let found = section(&records);
         let [host, on_board] = &found.targets[..] else { panic!("{:?}", found.targets) };
-        let [levee, pit] = &host.taken.rows[..] else { panic!("{:?}", host.taken) };
+        let [levee, pit] = &host.front.rows[..] else { panic!("{:?}", host.front) };
         assert_eq!((levee.cells.len(), &*levee.cells[0]), (9, "levee"));
         assert_eq!(pit.cells[7..], ["24.0×", "150×"]);
-        assert!(host.example.title.starts_with("levee: error over cost"));
-        assert_eq!(on_board.taken.rows.len(), 1);
-        assert_ne!(on_board.taken.rows[0].cells[1], "–");
+        assert!(host.picture.title.starts_with("levee: error over cost"));
+        assert_eq!(on_board.front.rows.len(), 1);
+        assert_ne!(on_board.front.rows[0].cells[1], "–");
         assert_eq!(found.scenes[1].studies.len(), 2);
         let page = html(&Report { tradeoff: Some(found), ..Report::default() });
         assert_eq!(page.matches("<details class=\"card\">").count(), 2);
@@ -149,7 +150,7 @@ mod tests {
         board.recommendation.point = None;
         board.baselines.clear();
         let found = section(&Records { m4f: vec![board], ..Records::default() });
-        assert_eq!(found.targets[0].taken.rows[0].cells[1..], ["–"; 7]);
+        assert_eq!(found.targets[0].front.rows[0].cells[1..], ["–"; 7]);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use signorini_scene::expression::Expression;
 use signorini_scene::expression::enclosure::{Form, Region};
 use signorini_scene::scene::{Located, Material};
 
-use super::tensors::{modulus_in, scaled, sum, tensor};
+use crate::tensors::{modulus_in, scaled, sum, tensor};
 
 /// Part of a range that a form has to see in its coefficients.
 const SEEN: f64 = 0.25;

@@ -17,7 +17,6 @@
 mod enclosed;
 mod piece;
 mod rows;
-mod tensors;
 #[cfg(test)]
 mod tests;
 
@@ -28,12 +27,12 @@ use signorini_scene::scene::Material;
 use crate::cell::Cell;
 use crate::quadrature::refined::{Part, refined};
 use crate::quadrature::{DATA_POINTS, Point, enclosed as by_cells, gauss};
+use crate::tensors::{average, scaled};
 
 use enclosed::parts;
 use piece::{MISSED, ROUNDING};
 pub use piece::{Piece, PiecePoint};
 pub use rows::{Cut, Root, Rows};
-pub(crate) use tensors::average;
 
 /// Points in a direction where functions are smooth and no more.
 const MANY_POINTS: usize = 12;
@@ -69,11 +68,9 @@ impl Pieces {
             let piece = Piece::of(material, *region);
             [region.measure(), region.measure() * missed(&piece)]
         };
-        let value = whole.measure();
-        let first = Part { of: 0, region: whole, value, missed: value * of_whole };
         let cut = |region: &Region| Some(parts(material, region));
-        let parts = refined(cut, vec![first], most, is_enough, |_, region| part(region));
-        let all: f64 = parts.iter().map(|part| part.missed / value).sum();
+        let parts = refined(cut, [(0, whole)], most, is_enough, |_, region| part(region));
+        let all: f64 = parts.iter().map(|part| part.missed / whole.measure()).sum();
         let piece = |part: Part| Piece::of(material, part.region);
         let all_pieces = parts.into_iter().map(piece).collect();
         Self { left: all.sqrt() / variation, all: all_pieces, is_resolved: false }
@@ -119,7 +116,7 @@ impl Pieces {
     /// The points of a rule on a cell whose own points resolve A, with A there. What points see of √∫ is known within √(1 + ν) and 2N′.
     pub fn resolved(&self, point: Point, a: Tensor<f64>) -> PiecePoint {
         let [piece, ..] = &self.all[..] else { return PiecePoint::known(point, a) };
-        PiecePoint { point, below: a, above: piece.four_times_above(), share: piece.share }
+        PiecePoint { point, below: a, above: scaled(&piece.above, 4.0), share: piece.share }
     }
 
     /// The mean of p + ½N, which is that of A where no piece leaves anything open.

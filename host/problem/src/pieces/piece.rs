@@ -5,9 +5,9 @@ use signorini_scene::expression::enclosure::{Region, Shape};
 use signorini_scene::scene::Material;
 
 use super::enclosed::Enclosed;
-use super::tensors::{modulus, scaled, size_in, sum, tensor};
 use crate::cell::Cell;
 use crate::quadrature::{DATA_POINTS, Point, on_quad, on_triangle};
+use crate::tensors::{self, modulus, scaled, size_in, sum};
 
 /// The most of ξ, η, ξ², ξη and η² on a triangle.
 const IN_TRIANGLE: [f64; 5] = [2.0 / 3.0, 2.0 / 3.0, 4.0 / 9.0, 2.0 / 9.0, 4.0 / 9.0];
@@ -99,9 +99,7 @@ impl Piece {
         let down = a.distance(|of| 0.5 * of.range().width(), &below[0]);
         let found = Self::less(below, &down, region).filter(|_| a.is_finite());
         found.unwrap_or_else(|| {
-            let [x, y] = region.centre();
-            below[0] =
-                tensor(material.conductivity.each_ref().map(|entry| entry.value.eval(x, y, 0.0)));
+            below[0] = tensors::at(material, region.centre());
             let above = Tensor::default();
             Self { region, below, above, share: f64::INFINITY, varies: 0.0 }
         })
@@ -199,10 +197,6 @@ impl Piece {
             true => floor,
             false => scaled(&self.below[0], 1.0 - self.varies),
         }
-    }
-
-    pub(super) fn four_times_above(&self) -> Tensor<f64> {
-        scaled(&self.above, 4.0)
     }
 
     pub(super) fn centre(&self) -> [f64; 2] {

@@ -34,17 +34,16 @@ impl Cut {
     /// The integrals over cell `at`.
     pub fn of(problem: &Problem, at: usize, pieces: &Pieces) -> Self {
         let functions = Functions::of(problem, at);
-        let (sides, gradients) = match functions.cell {
-            Cell::Triangle(_) => (3, 2),
-            Cell::Quad(_) => (4, 8),
-        };
+        let sides = functions.cell.corners().len();
+        let gradients = if sides == 3 { 2 } else { 8 };
         let [mut seen, mut doubtful] = [0, 1].map(|_| vec![Vec::new(); gradients + sides]);
         let mut above = [0, 1].map(|_| vec![Vec::new(); gradients]);
         for at in pieces.points(functions.cell) {
             let (root, weight) = (Root::of(&at.below, at.point.weight.sqrt()), at.point.weight);
             let slopes = functions.slopes(&at);
             let of_v = slopes.iter().map(|slope| root.gradient(*slope));
-            let of_tau = (0..sides).map(|side| root.flux(functions.flux(&at, side)).map(|x| -x));
+            let of_tau = functions.fluxes[..sides].iter();
+            let of_tau = of_tau.map(|of| root.flux(of.flux(&at.point)).map(|x| -x));
             let rows: Vec<[f64; 2]> = of_v.chain(of_tau).collect();
             extend(&mut seen, rows.iter().copied());
             if at.share == 0.0 {
@@ -69,19 +68,18 @@ fn extend(columns: &mut [Vec<f64>], rows: impl Iterator<Item = [f64; 2]>) {
 /// The functions of v and τ on a cell.
 struct Functions {
     cell: Cell,
-    field: CellField,
+    /// The Raviart–Thomas field with the outward flux 1 through each side.
+    fluxes: [CellField; 4],
     /// The curved function of u_h.
     curved: CellField,
 }
 
 impl Functions {
     fn of(problem: &Problem, at: usize) -> Self {
-        let cell = Cell::of(problem, at);
-        let field = |means: [f64; 4]| match cell {
-            Cell::Triangle(corners) => CellField::Triangle(corners, [0.0; 3], [0.0; 3]),
-            Cell::Quad(corners) => CellField::Quad(corners, means, [0.0; 4], problem.element),
-        };
-        Self { cell, field: field([0.0; 4]), curved: field(CURVED) }
+        let unit = |side: usize| std::array::from_fn(|k| f64::from(u8::from(k == side)));
+        let flux = |side| CellField::of_sides(problem, at, [0.0; 4], unit(side));
+        let curved = CellField::of_sides(problem, at, CURVED, [0.0; 4]);
+        Self { cell: Cell::of(problem, at), fluxes: [0, 1, 2, 3].map(flux), curved }
     }
 
     /// Gradients at a point, in the order of the factor's columns.
@@ -94,16 +92,6 @@ impl Functions {
             slopes.push(self.curved.sample(&at.point).gradient);
         }
         slopes
-    }
-
-    /// The Raviart–Thomas field with the outward flux 1 through a side.
-    fn flux(&self, at: &PiecePoint, side: usize) -> [f64; 2] {
-        let mut field = self.field;
-        match &mut field {
-            CellField::Triangle(_, _, fluxes) => fluxes[side] = 1.0,
-            CellField::Quad(_, _, fluxes, _) => fluxes[side] = 1.0,
-        }
-        field.flux(&at.point)
     }
 }
 

@@ -4,6 +4,7 @@ use super::*;
 use crate::fixtures::{PARABOLA, distorted, on_grid};
 use crate::quadrature::gauss;
 use crate::random::Random;
+use crate::tensors;
 use signorini_kernel::Tensor;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
@@ -43,12 +44,10 @@ fn a_is_between_p_and_what_is_above_it_at_every_point() -> Result<()> {
                 for piece in &pieces.all {
                     let reference = [random.between(0.0, 1.0), random.between(0.0, 1.0)];
                     let (x, below) = piece.place(reference);
-                    let a = scene.materials[0].conductivity.each_ref();
-                    let [xx, xy, yy] = a.map(|entry| entry.value.eval(x[0], x[1], 0.0));
-                    let (a, slack) = (Tensor { xx, xy, yy }, 1e-14 * (xx + yy));
+                    let a = tensors::at(&scene.materials[0], x);
+                    let slack = 1e-14 * (a.xx + a.yy);
                     assert!(least(&a, &below) >= -slack, "{a:?} below {below:?} at {x:?}");
-                    let Tensor { xx, xy, yy } = piece.above;
-                    let most = Tensor { xx: below.xx + xx, xy: below.xy + xy, yy: below.yy + yy };
+                    let most = tensors::sum(&below, &piece.above);
                     assert!(least(&below, &piece.floor()) >= -slack, "{piece:?}");
                     assert!(least(&most, &a) >= -slack, "{a:?} above {most:?} at {x:?}");
                 }

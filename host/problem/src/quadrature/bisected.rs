@@ -32,8 +32,8 @@ pub fn mean_on_edge(segment: [[f64; 2]; 2], f: Function) -> f64 {
     mean_and_doubt(segment, f)[0]
 }
 
-/// Mean over a segment, and by how much rules still differ on parts that are cut no further.
-pub fn mean_and_doubt(segment: [[f64; 2]; 2], f: Function) -> [f64; 2] {
+/// Mean over a segment, on halves where rules differ, and by how much they still do on parts that are cut no further.
+fn mean_and_doubt(segment: [[f64; 2]; 2], f: Function) -> [f64; 2] {
     let rules = |&[a, b]: &[[f64; 2]; 2]| {
         let at = |t: f64| [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
         let mean = |rule: &[[f64; 2]]| {
@@ -46,7 +46,12 @@ pub fn mean_and_doubt(segment: [[f64; 2]; 2], f: Function) -> [f64; 2] {
         let rule = f64::GAUSS[DATA_POINTS - 1];
         [mean(rule), mean(&on_panels(LOOKS, f64::GAUSS[DATA_POINTS - FEWER - 1]))]
     };
-    over(segment, &rules)
+    let [[value, size], [other, _]] = rules(&segment);
+    let tolerance = AGREE * size;
+    if (value - other).abs() <= tolerance || !value.is_finite() {
+        return [value, 0.0];
+    }
+    cut(segment, LEVELS, tolerance, &rules, &Count::new(MOST))
 }
 
 /// Ends of parts that are the shorter the nearer they are to those of the whole.
@@ -64,16 +69,6 @@ pub fn graded_mean([a, b]: [[f64; 2]; 2], f: Function) -> [f64; 2] {
     let [mean, doubt] = parts.fold([0.0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]]);
     let [whole, own] = mean_and_doubt([a, b], f);
     [mean, doubt + own + (whole - mean).abs()]
-}
-
-/// The mean by both rules over a segment, and on halves where they differ: what is in doubt is what they still differ by.
-fn over(segment: [[f64; 2]; 2], rules: Rules) -> [f64; 2] {
-    let [[value, size], [other, _]] = rules(&segment);
-    let tolerance = AGREE * size;
-    if (value - other).abs() <= tolerance || !value.is_finite() {
-        return [value, 0.0];
-    }
-    cut(segment, LEVELS, tolerance, rules, &Count::new(MOST))
 }
 
 /// The tolerance of a mean stays: halves weigh half as much.

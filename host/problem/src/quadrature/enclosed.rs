@@ -11,7 +11,7 @@
 
 use signorini_kernel::Real;
 
-use super::refined::{Part, refined};
+use super::refined::refined;
 use super::{DATA_POINTS, Point, TRIANGLE_POINTS};
 use crate::Sum;
 use crate::cell::Cell;
@@ -149,17 +149,13 @@ fn on_parts(f: &Sum, regions: &[Region], open: &[usize], sizes: f64) -> Vec<Inte
     let forms = open.iter().map(|&at| f.enclose(&regions[at]));
     let most = forms.map(|form| form.range().size()).filter(|size| size.is_finite());
     let faint = FAINT * most.fold(0.0, f64::max);
-    let whole = open.iter().enumerate().map(|(of, &at)| {
-        let [value, missed] = on_part(f, &regions[at], faint);
-        Part { of, region: regions[at], value, missed }
-    });
     let [smooth, rough] = MOST;
     let most = EACH * open.len() + if f.is_smooth() { smooth } else { rough };
     let measure: f64 = open.iter().map(|&at| regions[at].measure()).sum();
     let is_enough = |size: f64, missed: f64| missed <= RESOLVED * size.max(sizes) + faint * measure;
     let parts = refined(
         |region| f.cut(region),
-        whole.collect(),
+        open.iter().map(|&at| regions[at]).enumerate(),
         most,
         is_enough,
         |_, region| on_part(f, region, faint),

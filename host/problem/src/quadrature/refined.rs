@@ -46,16 +46,21 @@ const ROUND: usize = 32;
 /// Part of the largest region in which a pole is enough enclosed: cutting goes on elsewhere.
 const POLE: f64 = 1e-18;
 
-/// Cuts parts, at most `most` new ones, until Σ|value| and Σ missed are as they should be; `integral` gives a part's own. Parts are those that `cut` tells, such as beside a kink
-/// or a jump, or else [`Region::parts`].
+/// Cuts regions, each of a cell, into at most `most` new parts, until Σ|value| and Σ missed are as they should be; `integral` gives a
+/// part's own. Parts are those that `cut` tells, such as beside a kink or a jump, or else [`Region::parts`].
 pub fn refined(
     cut: impl Fn(&Region) -> Option<Vec<Region>>,
-    parts: Vec<Part>,
+    regions: impl IntoIterator<Item = (usize, Region)>,
     most: usize,
     is_enough: impl Fn(f64, f64) -> bool,
     integral: impl Fn(usize, &Region) -> [f64; 2],
 ) -> Vec<Part> {
-    let mut parts = BinaryHeap::from(parts);
+    let part = |of: usize, region: Region| {
+        let [value, missed] = integral(of, &region);
+        Part { of, region, value, missed }
+    };
+    let whole: Vec<Part> = regions.into_iter().map(|(of, region)| part(of, region)).collect();
+    let mut parts = BinaryHeap::from(whole);
     let (mut new, mut tiny) = (0, Vec::new());
     let largest = parts.iter().map(|part| part.region.measure()).fold(0.0, f64::max);
     while new < most {
@@ -74,8 +79,7 @@ pub fn refined(
                 continue;
             }
             for region in cut(&worst.region).unwrap_or_else(|| worst.region.parts()) {
-                let [value, missed] = integral(worst.of, &region);
-                parts.push(Part { region, value, missed, ..worst });
+                parts.push(part(worst.of, region));
                 new += 1;
             }
         }

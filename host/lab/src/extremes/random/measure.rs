@@ -160,7 +160,7 @@ impl Held<'_> {
             let known = !is_rounding && self.missed()? <= RESOLVED * gap;
             found.identity = known.then_some([distance.identity, distance.rounding]);
             found.may_exceed = is_alike || is_condensed && self.case.effort.sweeps.is_some();
-            let deviations = Deviations::at_time(problem, problem.time)?;
+            let deviations = Deviations::of(problem)?;
             found.left_out = CurvedEdges::new(problem, &deviations)?.left_out;
             let missed = |at| Conductivity::of(problem, at).missed(Cell::of(problem, at))[0];
             found.unseen = (0..problem.cells()).map(missed).fold(0.0, f64::max);

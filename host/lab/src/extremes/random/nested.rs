@@ -151,7 +151,7 @@ impl NestedPair<'_> {
     /// ∫h(s′ − s)² and ∫((τ′ − τ)·n)²/h over an edge of R, 0 on others.
     fn robin(&self, edge: usize) -> Result<[f64; 2]> {
         let (fine, coarse) = (self.fine, self.coarse);
-        let Some(h) = Sum::transfer(fine.problem, edge, fine.problem.time) else {
+        let Some(h) = Sum::transfer(fine.problem, edge) else {
             return Ok([0.0; 2]);
         };
         let (at, side) = fine.problem.topology.first_side(edge);
@@ -170,7 +170,7 @@ impl NestedPair<'_> {
             let reference = own.cell.side_point(side, t, 0.0);
             let there = self.in_parent(at, &own, &of_parent, reference)?;
             let error = own.s(reference)?.value - of_parent.s(there)?.value;
-            let h = h.finite(h.at(x, y), [x, y])?;
+            let h = h.finite_at([x, y])?;
             let weight = weight * fine.problem.lengths[edge];
             sums[0] += weight * on_robin(h, error, 0.0);
             sums[1] += weight * on_robin(h, 0.0, flux);

@@ -72,7 +72,7 @@ impl Samples {
         edge: usize,
         rule: &[[f64; 2]],
     ) -> Result<()> {
-        let data = |field| Sum::on_edge(problem, edge, field, problem.time);
+        let data = |field| Sum::on_edge(problem, edge, field);
         let (Some(q), Some(gap)) = (data(Field::Flux), data(Field::Gap)) else { return Ok(()) };
         let (length, [a, b]) = (problem.lengths[edge], problem.segment(edge));
         // As long as the edge, and outward.
@@ -81,7 +81,7 @@ impl Samples {
         for &[t, weight] in rule {
             let x = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
             let (u, gradient) = exact_at(&problem.scene, exact, x, problem.time)?;
-            let (q, psi) = (q.finite(q.at(x[0], x[1]), x)?, gap.finite(gap.at(x[0], x[1]), x)?);
+            let (q, psi) = (q.finite_at(x)?, gap.finite_at(x)?);
             let sigma = dot(apply(&conductivity.at(x), gradient), normal);
             self.force += weight * (sigma - length * q);
             self.openings.push([u - psi, weight * length]);

@@ -104,14 +104,14 @@ fn add_cell(answer: &MeshSolution, at: usize, inside: &mut Vec<Inside>) -> Resul
 /// σ·n = h(u_ext − u) there, with u = s.
 fn add_robin(answer: &MeshSolution, edge: usize, robin: &mut Vec<OnRobin>) -> Result<()> {
     let problem = answer.problem;
-    let Some(transfer) = Sum::transfer(problem, edge, problem.time) else { return Ok(()) };
-    let ambient = Sum::on_edge(problem, edge, Field::Ambient, problem.time);
+    let Some(transfer) = Sum::transfer(problem, edge) else { return Ok(()) };
+    let ambient = Sum::on_edge(problem, edge, Field::Ambient);
     let Some(ambient) = ambient else { return Ok(()) };
     let (length, [a, b]) = (problem.lengths[edge], problem.segment(edge));
     for [t, weight] in gauss(ON_EDGES) {
         let x = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
-        let transfer = transfer.finite(transfer.at(x[0], x[1]), x)?;
-        let ambient = ambient.finite(ambient.at(x[0], x[1]), x)?;
+        let transfer = transfer.finite_at(x)?;
+        let ambient = ambient.finite_at(x)?;
         let u = answer.s_on_edge(edge, t)?;
         let (weight, sigma) = (weight * length, transfer * (ambient - u));
         robin.push(OnRobin { x, weight, transfer, u, sigma });

@@ -72,7 +72,7 @@ impl ReferenceSolution {
         };
         let problem = Problem::new(scene, mesh.clone())?;
         let recent = Kept::new(KEPT);
-        let deviations = Deviations::at_time(&problem, problem.time)?;
+        let deviations = Deviations::of(&problem)?;
         let tables = recent.on(&problem.mesh, || Tables::new(exact, &problem, &deviations))?;
         let facts = exact::facts(exact, &tables.u, &problem)?;
         Ok(Self { source: Source::Exact(Box::new(exact.clone()), recent), facts })
@@ -105,7 +105,7 @@ fn exactly(
     problem: &Problem,
     answer: &Solution,
 ) -> Result<PointError> {
-    let deviations = &Deviations::at_time(problem, problem.time)?;
+    let deviations = &Deviations::of(problem)?;
     let tables = recent.on(&problem.mesh, || Tables::new(exact, problem, deviations))?;
     let (u, lift) = (&tables.u, &tables.lift);
     let errors = norms::of_fields(problem, u, &answer.u, &answer.flux)?;

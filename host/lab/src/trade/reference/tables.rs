@@ -75,7 +75,7 @@ mod tests {
         let recent = Kept::new(KEPT);
         let on = |n| {
             let (scene, problem) = on_grid(SMOOTH, grid(n, Cells::Quads)).unwrap();
-            let deviations = Deviations::at_time(&problem, 0.0).unwrap();
+            let deviations = Deviations::of(&problem).unwrap();
             let exact = scene.exact.as_ref().unwrap();
             recent.on(&problem.mesh, || Tables::new(exact, &problem, &deviations)).unwrap()
         };

@@ -1,6 +1,18 @@
-//! Sums of tensors, their moduli, and their sizes as forms.
+//! The tensor A of a material; sums of tensors, their moduli, and their sizes as forms.
 
 use signorini_kernel::Tensor;
+use signorini_scene::scene::Material;
+
+/// A at a point.
+pub fn at(material: &Material, [x, y]: [f64; 2]) -> Tensor<f64> {
+    tensor(material.conductivity.each_ref().map(|entry| entry.value.eval(x, y, 0.0)))
+}
+
+/// A where it is the same everywhere.
+pub fn constant(material: &Material) -> Option<Tensor<f64>> {
+    let [xx, xy, yy] = material.conductivity.each_ref().map(|entry| entry.value.is_constant());
+    Some(Tensor { xx: xx?, xy: xy?, yy: yy? })
+}
 
 /// The tensor of xx, xy and yy.
 pub fn tensor([xx, xy, yy]: [f64; 3]) -> Tensor<f64> {
