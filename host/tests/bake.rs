@@ -3,41 +3,41 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::command::{Folder, meshes, repository, run, says, text};
-
-/// Exit status, standard output, standard error, and the module.
-type Baked = (i32, String, String, Option<String>);
+use crate::command::{Folder, Run, meshes, repository, run, says, text};
 
 /// Bakes `scene` of the repository with `changes` made to its text; the source where there is one.
-fn bake(scene: &str, changes: &[(&str, &str)], more: &[&str]) -> Baked {
+fn bake(scene: &str, changes: &[(&str, &str)], more: &[&str]) -> (Run, Option<String>) {
     let folder = Folder::new();
     let changed = folder.scene("scene.toml", scene, changes);
     let run = run(&[&["bake", &changed, "-o", &folder.word("scene.rs")], more].concat());
-    let source = std::fs::read_to_string(folder.path("scene.rs"));
-    (run.status, run.stdout, run.stderr, source.ok())
+    (run, std::fs::read_to_string(folder.path("scene.rs")).ok())
 }
 
 const LEVEE: &str = "scenes/levee.toml";
 
-/// The source of a module of the levee.
+/// The run that bakes a module of the levee, and the source.
 #[track_caller]
-fn baked(changes: &[(&str, &str)], more: &[&str]) -> String {
-    let (_, _, stderr, source) = bake(LEVEE, changes, more);
-    source.unwrap_or_else(|| panic!("{stderr}"))
+fn baked(changes: &[(&str, &str)], more: &[&str]) -> (Run, String) {
+    let (run, source) = bake(LEVEE, changes, more);
+    (run.succeeds(), source.expect("a module"))
+}
+
+/// The message of a scene that is no module.
+#[track_caller]
+fn refused_of(scene: &str, changes: &[(&str, &str)], more: &[&str]) -> String {
+    let (run, source) = bake(scene, changes, more);
+    assert_eq!(source, None);
+    run.refuses()
 }
 
 /// The message of a levee that is no module.
 #[track_caller]
 fn refused(changes: &[(&str, &str)], more: &[&str]) -> String {
-    let (status, _, stderr, source) = bake(LEVEE, changes, more);
-    assert_eq!((status, source), (2, None), "{stderr}");
-    stderr
+    refused_of(LEVEE, changes, more)
 }
 
 #[test]
 fn the_levee_is_condensed_and_its_module_says_so() {
-    let (status, _, _, source) = bake(LEVEE, &[], &[]);
-    assert_eq!(status, 0);
     let parts = [
         "pub const MODEL: &str = \"condensed\";",
         "pub rain: Scalar,",
@@ -50,8 +50,8 @@ fn the_levee_is_condensed_and_its_module_says_so() {
         "A flux is (A∇u)·n with the normal outward: positive where u rises",
         "scene hash",
     ];
-    says(&source.expect("a module"), &parts);
-    says(&baked(&[], &["--full-edges"]), &["pub const CONTACT: usize = 50;"]);
+    says(&baked(&[], &[]).1, &parts);
+    says(&baked(&[], &["--full-edges"]).1, &["pub const CONTACT: usize = 50;"]);
 }
 
 #[test]
@@ -75,12 +75,13 @@ fn the_bound_is_not_left_out_to_make_room() {
     }
     let tight = ("tick = 0.001", "tick = 0.0004");
     let all = ["--condensed", "--full-edges"];
-    let (_, _, stderr, _) = bake(LEVEE, &[tight], &all);
-    says(&stderr, &["(certificate = false in [setting]) it would fit"]);
+    says(
+        &bake(LEVEE, &[tight], &all).0.stderr,
+        &["(certificate = false in [setting]) it would fit"],
+    );
     let without = "[setting]\nmodel = \"condensed\"\ncertificate = false\n[target]";
-    let (status, _, stderr, source) = bake(LEVEE, &[tight, ("[target]", without)], &all[1..]);
-    assert_eq!(status, 0, "{stderr}");
-    says(&source.expect("a module"), &["(certificate = false leaves it out)"]);
+    let source = baked(&[tight, ("[target]", without)], &all[1..]).1;
+    says(&source, &["(certificate = false leaves it out)"]);
     // Room in flash for all but the bound.
     says(&refused(&[("flash = 1048576", "flash = 60000")], &all), &["target.flash"]);
 }
@@ -91,32 +92,30 @@ fn a_condensed_model_has_the_solver_that_is_asked_for() {
         let setting = format!("[setting]\n{lines}\n[target]");
         // Sweeps on the levee take longer than its device has.
         let changes = [("[target]", setting.as_str()), ("tick = 0.001", "tick = 0.01")];
-        let (status, _, stderr, source) = bake(LEVEE, &changes, more);
-        (status, stderr, source.unwrap_or_default())
+        bake(LEVEE, &changes, more)
     };
-    let exact = with("solver = \"exact\"", &[]).2;
+    let exact = with("solver = \"exact\"", &[]).1.expect("a module");
     says(&exact, &["MODEL: &str = \"condensed\"", "pub const WORST_EXCHANGES"]);
     for (lines, more) in [
         ("model = \"condensed\"\nsolver = \"sweeps\"", &[][..]),
         ("solver = \"sweeps\"", &["--condensed"]),
     ] {
-        let (status, stderr, sweeps) = with(&format!("{lines}\ncertificate = false"), more);
-        assert!(sweeps.contains("MODEL: &str = \"condensed\""), "{status} {stderr}");
+        let (run, sweeps) = with(&format!("{lines}\ncertificate = false"), more);
+        let sweeps = sweeps.unwrap_or_default();
+        assert!(sweeps.contains("MODEL: &str = \"condensed\""), "{run:?}");
         assert!(!sweeps.contains("WORST_EXCHANGES") && sweeps.contains("pub const SWEEPS"));
     }
     for (solver, model) in [("exact", "full"), ("factor", "condensed")] {
-        let (status, stderr, _) = with(&format!("solver = \"{solver}\""), &[&format!("--{model}")]);
+        let (run, _) = with(&format!("solver = \"{solver}\""), &[&format!("--{model}")]);
         let message = format!("setting.solver: means nothing to the {model} model");
-        assert!(status == 2 && stderr.contains(&message), "{stderr}");
+        says(&run.refuses(), &[&message]);
     }
 }
 
 #[test]
 fn a_device_without_room_for_the_tableau_gets_sweeps() {
     let tight = [("ram = 196608", "ram = 6000"), ("tick = 0.001", "tick = 0.01")];
-    let (status, _, _, source) = bake(LEVEE, &tight, &["--full-edges"]);
-    let source = source.expect("a module");
-    assert_eq!(status, 0);
+    let (_, source) = baked(&tight, &["--full-edges"]);
     assert!(!source.contains("TableauStorage") && source.contains("pub const SWEEPS"));
 }
 
@@ -143,26 +142,25 @@ fn a_bound_that_is_read_is_not_left_infinite_where_a_model_has_one() {
         ("[output.wet]", "[output.error]\nkind = \"bound\"\n[output.wet]"),
     ];
     let (full, condensed) = ("MODEL: &str = \"full\"", "MODEL: &str = \"condensed\"");
-    let (status, stdout, _, source) = bake(LEVEE, &jump, &["--explain"]);
-    assert_eq!(status, 0);
-    says(&source.expect("a module"), &[full]);
-    says(&stdout, &["has no error bound"]);
+    let (run, source) = baked(&jump, &["--explain"]);
+    says(&source, &[full]);
+    says(&run.stdout, &["has no error bound"]);
     // Also where no output reads it.
-    says(&baked(&jump[..2], &[]), &[full]);
+    says(&baked(&jump[..2], &[]).1, &[full]);
     // A model that is asked for and has none says why.
-    let (_, _, stderr, source) = bake(LEVEE, &jump, &["--condensed"]);
+    let (run, source) = baked(&jump, &["--condensed"]);
     let gaps = "the gaps of the contact boundaries that meet at";
-    says(&source.expect("a module"), &[&format!("without an error bound ({gaps}")]);
-    says(&stderr, &[&format!("warning: there is no error bound: {gaps}")]);
+    says(&source, &[&format!("without an error bound ({gaps}")]);
+    says(&run.stderr, &[&format!("warning: there is no error bound: {gaps}")]);
     // Gaps that differ by what is known beforehand are no matter.
     let known = [("gap = \"-y\"\nflux", "gap = \"-y - 0.5\"\nflux"), jump[2]];
-    let source = baked(&known, &[]);
+    let (_, source) = baked(&known, &[]);
     says(&source, &[condensed]);
     assert!(!source.contains("without an error bound"));
     let silent = [jump[0], ("[target]", "[setting]\ncertificate = false\n[target]")];
-    let (_, _, stderr, source) = bake(LEVEE, &silent, &[]);
-    says(&source.expect("a module"), &[condensed]);
-    assert!(!stderr.contains("error bound"), "{stderr}");
+    let (run, source) = baked(&silent, &[]);
+    says(&source, &[condensed]);
+    assert!(!run.stderr.contains("error bound"), "{run:?}");
 }
 
 #[test]
@@ -170,7 +168,7 @@ fn a_key_for_the_full_model_alone_asks_for_it() {
     for key in ["solver = \"factor\"", "share = 0.1", "omega = 1.9", "start = \"cold\""] {
         let setting = format!("[setting]\n{key}\n[target]");
         let changes = [("[target]", setting.as_str())];
-        says(&baked(&changes, &[]), &["MODEL: &str = \"full\""]);
+        says(&baked(&changes, &[]).1, &["MODEL: &str = \"full\""]);
         let name = key.split(' ').next().unwrap_or_default();
         let message = format!("setting.{name}: means nothing to the condensed model");
         says(&refused(&changes, &["--condensed"]), &[&message]);
@@ -183,9 +181,7 @@ fn hints_do_not_promise_meshes_that_cannot_be() {
         let small = [("1048576", flash), ("tick = 0.001", "tick = 1.0")];
         says(&refused(&small, &[model]), &["no mesh is coarse enough"]);
     }
-    let (status, _, stderr, _) = bake(LEVEE, &[("clock = 168e6", "")], &[]);
-    assert_eq!(status, 0);
-    says(&stderr, &["target.tick is no limit"]);
+    says(&baked(&[("clock = 168e6", "")], &[]).0.stderr, &["target.tick is no limit"]);
 }
 
 #[test]
@@ -202,8 +198,7 @@ fn a_scene_is_not_written_over() {
 
 #[test]
 fn the_explanation_tells_each_feature() {
-    let (status, stdout, _, _) = bake(LEVEE, &[], &["--explain"]);
-    assert_eq!(status, 0);
+    let Run { stdout, .. } = baked(&[], &["--explain"]).0;
     let chosen =
         ["condensed, exact method", "chosen", "full", "[target]", "quads", "no quads", "tensors"];
     says(&stdout, &chosen);
@@ -215,30 +210,25 @@ fn the_explanation_tells_each_feature() {
     for section in [format!("Ranges of the inputs{ranges}"), format!("Worst case{worst}")] {
         assert!(page.contains(&format!("```text\n{}\n```", section.trim_end())), "{section}");
     }
-    let (_, stdout, _, _) = bake(LEVEE, &[], &["--explain", "--full-edges"]);
-    says(&stdout, &["--full-edges keeps all of them"]);
-    let (_, stdout, _, _) = bake("scenes/slab.toml", &[], &["--explain", "--full"]);
+    let all = baked(&[], &["--explain", "--full-edges"]).0;
+    says(&all.stdout, &["--full-edges keeps all of them"]);
+    let Run { stdout, .. } = bake("scenes/slab.toml", &[], &["--explain", "--full"]).0;
     assert!(!stdout.contains("Ranges of the inputs"), "{stdout}");
     says(&stdout, &["no triangles", "Robin edges"]);
 }
 
 #[test]
 fn scenes_that_no_model_represents_are_refused() {
-    let (status, _, stderr, source) = bake("catalogue/moving-tri.toml", &[], &[]);
-    assert_eq!((status, source), (2, None));
-    says(&stderr, &["boundary.dirichlet.value", "[input"]);
-    let (status, _, stderr, _) = bake("scenes/membrane.toml", &[], &["--full"]);
-    assert_eq!(status, 2);
-    says(&stderr, &["--condensed"]);
+    let moving = refused_of("catalogue/moving-tri.toml", &[], &[]);
+    says(&moving, &["boundary.dirichlet.value", "[input"]);
+    says(&refused_of("scenes/membrane.toml", &[], &["--full"]), &["--condensed"]);
     says(&refused(&[], &["--input", "snow=1"]), &["rain, river"]);
 }
 
 /// The line for a Cargo.toml that a module prints builds as it stands, in a package anywhere.
 #[test]
 fn the_dependency_line_builds_as_printed() {
-    let (status, _, _, source) = bake(LEVEE, &[], &[]);
-    assert_eq!(status, 0);
-    let source = source.expect("a module");
+    let (_, source) = baked(&[], &[]);
     let line = source.lines().find_map(|line| line.strip_prefix("//! signorini-device = "));
     let line = line.expect("a dependency line");
     let package = Folder::new();

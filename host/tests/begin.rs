@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::command::{Folder, json, meshes, repository, run, says, text};
+use crate::command::{Folder, meshes, repository, run, says, text};
 
 /// What `check --json` prints of a scene, and the exit status.
 fn checked(scene: &str) -> (i32, Value) {
@@ -76,8 +76,7 @@ fn a_new_scene_can_be_solved_once_it_is_filled_in() {
     says(&text(folder.path("bar.svg")), &["<svg", ">rib foot</text>", ">aluminium</text>"]);
     let png = run(&["check", &scene, "--draw", &folder.word("bar.png")]).refuses();
     says(&png, &["bar.png: expected a name that ends with .svg"]);
-    run(&["solve", &scene, "--out", &folder.word("out")]).succeeds();
-    assert!(json(folder.path("out/summary.json"))["converged"].as_bool().expect("a word"));
+    assert_eq!(folder.solve(&scene, &[]).1["converged"], true);
 
     // Nothing that is there is lost.
     let message = run(&["new", &mesh]).refuses();
@@ -140,8 +139,7 @@ fn check_asks_what_a_solution_would_ask() {
         let (status, found) = checked(&scene);
         let faults = faults(&found);
         assert!(status == 2 && faults.concat().contains(part), "{part}: {faults:#?}");
-        let solved = run(&["solve", &scene, "--out", &folder.word("out")]);
-        assert_eq!(solved.status, 2, "{part}: {}", solved.stderr);
+        folder.run("out", "solve", &scene, &[]).refuses();
     }
     // All question marks, wherever they stand.
     let more = "[input.p]\nof = \"?\"\nfield = \"?\"\nrange = [\"?\", \"?\"]\n[exact]\nu = 1\ngradient = [\"?\", \"?\"]\n";
@@ -209,6 +207,5 @@ fn a_check_looks_at_the_start_of_steps() {
     says(&without.1, &["no solution"]);
     says(&stated.1, &["warning: at rest there is no answer", "no solution"]);
     says(&wrong.1, &["body.toml:8: time.initial: ln(y - 9) is not finite"]);
-    run(&["tick", &scene("time.initial = \"y\""), "--ticks", "1", "--out", &folder.word("out")])
-        .succeeds();
+    folder.run("out", "tick", &scene("time.initial = \"y\""), &["--ticks", "1"]).succeeds();
 }

@@ -4,14 +4,15 @@ use signorini_tolerances::command::{DIRECT, DIRECT_NARROW, PRINTED};
 
 use serde_json::Value;
 
-use crate::command::{self, Folder, json, meshes, run, text};
+use crate::command::{self, Folder, meshes, run, says, text};
 
-/// Runs `solve` on a scene; returns exit status, folder and summary.
-fn solve(scene: &str, more: &[&str]) -> (i32, Folder, Value) {
+/// The folder and the summary of a scene that is solved, with status 0.
+#[track_caller]
+fn solved(scene: &str, more: &[&str]) -> (Folder, Value) {
     let folder = Folder::new();
-    let run = run(&[&["solve", scene, "--out", &folder.word("out")], more].concat());
-    let summary = json(folder.path("out/summary.json"));
-    (run.status, folder, summary)
+    let (run, summary) = folder.solve(scene, more);
+    run.succeeds();
+    (folder, summary)
 }
 
 /// u_D has no value at x = 1/32, which is a vertex of the mesh refined once alone.
@@ -27,17 +28,14 @@ fn what_a_finer_mesh_cannot_hold_costs_the_estimate_alone() {
     let folder = Folder::new();
     let exact = format!("[exact]{exact}");
     let changed = [(known, value.as_str()), (&exact, skin)];
-    let (status, _, summary) =
-        solve(&folder.scene("a.toml", "catalogue/b-tri.toml", &changed), &[]);
-    assert_eq!(status, 0);
+    let (_, summary) = solved(&folder.scene("a.toml", "catalogue/b-tri.toml", &changed), &[]);
     let skin = &summary["output_bounds"]["skin"];
     assert!(skin["plus_minus"].is_f64() && skin["estimate"].is_null(), "{skin}");
 }
 
 #[test]
 fn solve_writes_its_three_files() {
-    let (status, folder, summary) = solve(&meshes("catalogue/h-mixed.toml"), &[]);
-    assert_eq!(status, 0);
+    let (folder, summary) = solved(&meshes("catalogue/h-mixed.toml"), &[]);
     let edges = text(folder.path("out/edges.csv"));
     let header = "x0,y0,x1,y1,kind,u_mean,flux_normal,boundary,psi,q,limit,lambda,state,left,right";
     assert_eq!(edges.lines().next(), Some(header));
@@ -60,8 +58,7 @@ fn solve_writes_its_three_files() {
 fn both_scalars_and_both_solvers_agree() {
     for scene in ["scenes/levee.toml", "scenes/slab.toml", "scenes/membrane.toml"] {
         let force = |more: &[&str]| {
-            let (status, _folder, summary) = solve(&meshes(scene), more);
-            assert_eq!(status, 0, "{scene} {more:?}");
+            let (_, summary) = solved(&meshes(scene), more);
             summary["contact_force"].as_f64().expect("a number")
         };
         let direct = force(&["--solver", "direct"]);
@@ -75,8 +72,8 @@ fn levee_in(setting: &str, more: &[&str]) -> (String, Value) {
     let folder = Folder::new();
     let levee = meshes("scenes/levee.toml");
     let scene = folder.write("levee.toml", format!("extends = {levee:?}\n[setting]\n{setting}\n"));
-    let run = run(&[&["solve", &scene, "--out", &folder.word("out")], more].concat()).succeeds();
-    (run.stdout, json(folder.path("out/summary.json")))
+    let (run, summary) = folder.solve(&scene, more);
+    (run.succeeds().stdout, summary)
 }
 
 #[test]
@@ -108,13 +105,11 @@ fn what_ran_is_said() {
 #[test]
 fn intervals_and_files_can_be_left_out() {
     let levee = meshes("scenes/levee.toml");
-    let (status, folder, whole) = solve(&levee, &[]);
-    assert_eq!(status, 0);
+    let (folder, whole) = solved(&levee, &[]);
     for name in ["edges.csv", "solution.vtu", "contact.vtu"] {
         assert!(folder.path("out").join(name).exists(), "{name}");
     }
-    let (status, folder, bare) = solve(&levee, &["--no-intervals", "--no-files"]);
-    assert_eq!(status, 0);
+    let (folder, bare) = solved(&levee, &["--no-intervals", "--no-files"]);
     let files = std::fs::read_dir(folder.path("out")).expect("a folder");
     let names: Vec<_> = files.map(|file| file.expect("a file").file_name()).collect();
     assert_eq!(names, ["summary.json"]);
@@ -123,10 +118,10 @@ fn intervals_and_files_can_be_left_out() {
     for key in ["outputs", "contact_force", "error_bound"] {
         assert_eq!(whole[key], bare[key], "{key}");
     }
-    let (status, folder, _) = solve(&levee, &["--no-files", "--max-error", "20%"]);
-    assert_eq!((status, folder.path("out/refined.msh").exists()), (0, false));
+    let (folder, _) = solved(&levee, &["--no-files", "--max-error", "20%"]);
+    assert!(!folder.path("out/refined.msh").exists());
     let both = ["--intervals", "--no-intervals"];
-    assert!(command::refused("solve", &levee, &both).contains("cannot be used with"));
+    says(&command::refused("solve", &levee, &both), &["cannot be used with"]);
 }
 
 /// One file with the field, the contact, and each output as it is printed; never one that the scene is made of.
@@ -135,28 +130,22 @@ fn a_solution_is_drawn() {
     let levee = meshes("scenes/levee.toml");
     let folder = Folder::new();
     let picture = folder.path("levee.svg").display().to_string();
-    let (status, _, summary) = solve(&levee, &["--draw", &picture]);
-    assert_eq!(status, 0);
-    let svg = std::fs::read_to_string(&picture).expect("a picture");
-    for words in [">in contact</text>", ">Dirichlet</text>", "λ = σ·n − q", "guaranteed", "wet"]
-    {
-        assert!(svg.contains(words), "{words}");
-    }
+    let (_, summary) = solved(&levee, &["--draw", &picture]);
+    let svg = text(&picture);
+    let words = [">in contact</text>", ">Dirichlet</text>", "λ = σ·n − q", "guaranteed", "wet"];
+    says(&svg, &words);
     assert_eq!(svg.matches("<svg").count(), svg.matches("</svg>").count());
-    assert!(
-        summary["outputs"].as_object().expect("an object").keys().all(|name| svg.contains(name))
-    );
-    assert!(
-        command::refused("solve", &levee, &["--draw", &levee])
-            .contains("the scene is made of this file")
-    );
+    let outputs = summary["outputs"].as_object().expect("an object");
+    outputs.keys().for_each(|name| says(&svg, &[name]));
+    let over = command::refused("solve", &levee, &["--draw", &levee]);
+    says(&over, &["the scene is made of this file"]);
 }
 
 /// Three states, each with the flux that belongs to it.
 #[test]
 fn edges_tell_the_side_of_the_gap() {
-    let (status, folder, summary) = solve(&meshes("limits/l-tri.toml"), &[]);
-    assert_eq!((status, summary["converged"].as_bool()), (0, Some(true)));
+    let (folder, summary) = solved(&meshes("limits/l-tri.toml"), &[]);
+    assert_eq!(summary["converged"], true);
     let mut counts = [0; 3];
     let edges = text(folder.path("out/edges.csv"));
     for line in edges.lines().filter(|line| line.split(',').nth(4) == Some("contact")) {
@@ -179,23 +168,15 @@ fn edges_tell_the_side_of_the_gap() {
 
 #[test]
 fn a_solve_that_is_cut_off_says_so_and_is_feasible() {
-    let (status, folder, summary) = solve(&meshes("catalogue/b-tri.toml"), &["--max-sweeps", "3"]);
-    assert_eq!(status, 3);
+    let folder = Folder::new();
+    let (run, summary) = folder.solve(&meshes("catalogue/b-tri.toml"), &["--max-sweeps", "3"]);
+    assert_eq!(run.status, 3);
     assert_eq!(summary["status"], "out-of-sweeps");
     assert_eq!(summary["converged"], false);
     for line in text(folder.path("out/edges.csv")).lines().filter(|l| l.contains("contact")) {
         let u: f64 = line.split(',').nth(5).expect("u_mean").parse().expect("a number");
         assert!(u >= 0.0, "{line}");
     }
-}
-
-#[test]
-fn inputs_change_the_answer() {
-    let head = |input: &str| {
-        let (_, _folder, summary) = solve(&meshes("scenes/levee.toml"), &["--input", input]);
-        summary["outputs"]["seepage"].as_f64().expect("a number")
-    };
-    assert!(head("river=0.5") > head("river=0"));
 }
 
 #[test]
@@ -265,41 +246,17 @@ const WRONG_SCENES: &[(&str, &str, &str)] = &[
     ("[source]", "[time]\nstep = 0\nend = 1\n[source]", "time.step"),
 ];
 
-/// A part of a good mesh, its replacement, and a part of the message.
-#[rustfmt::skip]
-const WRONG_MESHES: &[(&str, &str, &str)] = &[
-    ("2.2 0 8", "3.0 0 8", "3.0"),
-    ("2.2 0 8", "2.2 1 8", ""),
-    ("$EndNodes", "$EndNode", ""),
-    ("$Nodes\n561", "$Nodes\n4611686018427387904", ""),
-    ("$Nodes\n561", "$Nodes\n-1", ""),
-    ("$Elements\n1120", "$Elements\n99999999", ""),
-    ("1 -1.0 0.0 0\n", "1 nan 0.0 0\n", "NaN"),
-    ("1 -1.0 0.0 0\n", "1 -1.0 0.0 7\n", "plane"),
-    ("1 -1.0 0.0 0\n", "2 -1.0 0.0 0\n", "node 2"),
-    ("1 -1.0 0.0 0\n", "1 5.0 5.0 0\n", ""),
-    ("97 2 2 1 1 1 2 35\n", "97 2 2 1 1 1 2 2\n", "97"),
-    ("97 2 2 1 1 1 2 35\n", "97 2 2 1 1 1 2 9999\n", "9999"),
-    ("97 2 2 1 1 1 2 35\n", "97 9 2 1 1 1 2 35 4 5 6\n", "97"),
-    ("98 2 2 1 1 1 35 34\n", "98 2 2 1 1 1 2 35\n", "98"),
-];
-
 #[track_caller]
 fn refused(scene: &str, mesh: &str, expected: &str) {
     let folder = Folder::new();
     folder.write("a.msh", mesh);
     let scene = folder.write("a.toml", scene.replace("MESH", "a.msh"));
-    let message = command::refused("solve", &scene, &[]);
-    assert!(message.contains(expected), "expected {expected:?}: {message}");
-}
-
-fn good_mesh() -> String {
-    text(meshes("catalogue/square-tri-16.msh"))
+    says(&command::refused("solve", &scene, &[]), &[expected]);
 }
 
 #[test]
-fn wrong_scenes_are_refused() {
-    let mesh = good_mesh();
+fn wrong_scenes_and_meshes_are_refused() {
+    let mesh = text(meshes("catalogue/square-tri-16.msh"));
     for (part, by, expected) in WRONG_SCENES {
         assert!(SCENE.contains(part), "{part}");
         refused(&SCENE.replace(part, by), &mesh, expected);
@@ -308,18 +265,12 @@ fn wrong_scenes_are_refused() {
     refused(&SCENE.replace("f = \"0\"", &nested), &mesh, "source.f");
     refused(&"[".repeat(200_000), &mesh, "");
     refused("", &mesh, "");
-}
-
-#[test]
-fn wrong_meshes_are_refused() {
-    let mesh = good_mesh();
-    for (part, by, expected) in WRONG_MESHES {
+    // ASCII under the name of binary; a node that cells fold over; an end that is missing.
+    for (part, by) in [("2.2 0 8", "2.2 1 8"), ("1 -1.0 0.0 0\n", "1 5.0 5.0 0\n")] {
         assert!(mesh.contains(part), "{part}");
-        refused(SCENE, &mesh.replacen(part, by, 1), expected);
+        refused(SCENE, &mesh.replacen(part, by, 1), "a.msh");
     }
-    for length in [0, 10, 100, 5000, mesh.len() / 2, mesh.len() - 20] {
-        refused(SCENE, &mesh[..length], "a.msh");
-    }
+    refused(SCENE, &mesh[..mesh.len() / 2], "a.msh");
 }
 
 #[test]
@@ -350,7 +301,7 @@ fn case(name: &str) -> String {
 fn contacts_that_exclude_each_other_are_wrong_input() {
     let message = command::refused("solve", &case("opposed-contacts.toml"), &[]);
     let expected = "boundary.bottom.gap: boundary.bottom asks for u ≥ 0 at (0, 0), where boundary.bottom2 asks for u ≤ -10";
-    command::says(&message, &[expected, "opposed-contacts.toml:9:"]);
+    says(&message, &[expected, "opposed-contacts.toml:9:"]);
 }
 
 /// Gmsh puts a vertex where a gap has a kink 1.3e−12 beside it: no jump, and a bound as where it lies on the kink.
@@ -366,8 +317,8 @@ fn a_kink_of_a_gap_right_beside_a_vertex_leaves_a_bound() {
              boundary.top = {{ kind = \"dirichlet\", value = 0 }}\n\
              boundary.right = {{ kind = \"contact\", gap = \"min(-y, -0.5)\" }}\n"
         );
-        let (status, _, summary) = solve(&folder.write("a.toml", scene), &[]);
-        assert_eq!((status, &summary["error_bound_reason"]), (0, &Value::Null), "{y}");
+        let (_, summary) = solved(&folder.write("a.toml", scene), &[]);
+        assert_eq!(summary["error_bound_reason"], Value::Null, "{y}");
         assert!(summary["contact_active"].as_u64() > Some(0), "{summary}");
         summary["error_bound"]["total"].as_f64().expect("a bound")
     };

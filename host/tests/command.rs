@@ -142,6 +142,18 @@ impl Folder {
         self.0.path().join(name)
     }
 
+    /// Runs a verb on a scene, into a folder in this one.
+    pub fn run(&self, out: &str, verb: &str, scene: &str, more: &[&str]) -> Run {
+        run(&[&[verb, scene, "--out", &self.word(out)], more].concat())
+    }
+
+    /// Solves a scene, into the folder `out`; the run and its summary.
+    #[track_caller]
+    pub fn solve(&self, scene: &str, more: &[&str]) -> (Run, Value) {
+        let run = self.run("out", "solve", scene, more);
+        (run, json(self.path("out/summary.json")))
+    }
+
     /// Writes a file; returns its path.
     pub fn write(&self, name: &str, text: impl AsRef<[u8]>) -> String {
         std::fs::write(self.path(name), text).expect("a file");

@@ -4,12 +4,8 @@ use std::path::Path;
 
 use signorini_tolerances::command::REFINED;
 
-use crate::command::{self, Folder, Run, json, meshes, run, says, text};
-
-/// Solves into the folder `out`.
-fn solve(scene: &str, folder: &Folder, more: &[&str]) -> Run {
-    run(&[&["solve", scene, "--out", &folder.word("out")], more].concat())
-}
+use crate::command::{self, Folder, json, meshes, run, says, text};
+use crate::tick::Table;
 
 fn levee() -> String {
     meshes("scenes/levee.toml")
@@ -22,32 +18,31 @@ fn bounds(out: &Path) -> [f64; 2] {
     of.map(|value| value.as_f64().expect("a number"))
 }
 
-/// The rows of `levels.csv` below its header.
-fn levels(out: &Path) -> Vec<Vec<String>> {
-    let table = text(out.join("levels.csv"));
-    let mut lines = table.lines();
+/// `levels.csv`, and the bound of its last level.
+fn levels(out: &Path) -> (Table, f64) {
+    let table = Table::read(out.join("levels.csv"));
     let head = "level,unknowns,sweeps,error_bound,relative,contact_force,seconds";
-    assert_eq!(lines.next(), Some(head));
-    lines.map(|line| line.split(',').map(str::to_owned).collect()).collect()
+    assert_eq!(table.header.join(","), head);
+    let last = *table.numbers("error_bound").last().expect("a level");
+    (table, last)
 }
 
 #[test]
 fn the_last_level_meets_the_goal_and_its_mesh_gives_it_again() {
     let (folder, again) = (Folder::new(), Folder::new());
     let out = folder.path("out");
-    solve(&levee(), &folder, &["--max-error", "8%"]).succeeds();
+    folder.run("out", "solve", &levee(), &["--max-error", "8%"]).succeeds();
     let [total, relative] = bounds(&out);
     assert!(relative <= 0.08, "{relative}");
-    let rows = levels(&out);
-    let last: f64 = rows[rows.len() - 1][3].parse().expect("a number");
-    assert!(rows.len() > 3 && last == total, "{rows:?}");
+    let (table, last) = levels(&out);
+    assert!(table.lines.len() > 3 && last == total, "{:?}", table.lines);
     let series = text(out.join("levels.pvd"));
-    for row in &rows {
-        let file = format!("levels/{:0>2}.vtu", row[0]);
+    for level in table.column("level") {
+        let file = format!("levels/{level:0>2}.vtu");
         assert!(series.contains(&format!("file=\"{file}\"")) && out.join(&file).exists(), "{file}");
     }
     let mesh = folder.word("out/refined.msh");
-    solve(&levee(), &again, &["--mesh", &mesh, "--solver", "auto"]).succeeds();
+    again.run("out", "solve", &levee(), &["--mesh", &mesh, "--solver", "auto"]).succeeds();
     let found = bounds(&again.path("out"))[0];
     REFINED.check_relative("the bound on refined.msh", found, total);
 }
@@ -71,22 +66,22 @@ fn a_promised_error_gives_every_command_the_same_mesh() {
     assert!(notes[0].contains("for all 1005 inputs tried"), "{}", notes[0]);
     let [_, relative] = bounds(&out);
     assert!(relative <= 0.25, "{relative}");
-    let said = solve(&scene, &folder, &["--max-error", "30%"]).stderr;
+    let said = folder.run("out", "solve", &scene, &["--max-error", "30%"]).stderr;
     says(&said, &["takes the place of setting.error"]);
 }
 
 #[test]
 fn what_is_not_reached_has_status_3_and_all_files() {
     let folder = Folder::new();
-    let run = solve(&levee(), &folder, &["--max-error", "1%", "--max-unknowns", "2500"]);
+    let run =
+        folder.run("out", "solve", &levee(), &["--max-error", "1%", "--max-unknowns", "2500"]);
     let said = run.stderr;
     assert_eq!(run.status, 3, "{said}");
     let more = "more than the 2500 that are allowed (--max-unknowns)";
     assert!(said.contains("the next mesh has") && said.contains(more), "{said}");
     let out = folder.path("out");
-    let rows = levels(&out);
-    let unknowns: usize = rows[rows.len() - 1][1].parse().expect("a number");
-    assert!(unknowns <= 2500, "{rows:?}");
+    let (table, _) = levels(&out);
+    assert!(table.numbers("unknowns").iter().all(|unknowns| *unknowns <= 2500.0));
     let summary = text(out.join("summary.json"));
     assert!(summary.contains(more), "{summary}");
     for name in ["edges.csv", "summary.json", "solution.vtu", "refined.msh", "levels.pvd"] {
@@ -108,20 +103,19 @@ fn an_interrupted_run_leaves_the_files_of_its_last_level() {
     let run = command::interrupted(&words, || std::fs::metadata(&third).expect("a file").len() > 0);
     assert_eq!(run.status, 3, "{}", run.stderr);
     says(&run.stderr, &["interrupted"]);
-    let (rows, [total, _]) = (levels(out), bounds(out));
-    let last: f64 = rows[rows.len() - 1][3].parse().expect("a number");
+    let ((table, last), [total, _]) = (levels(out), bounds(out));
     assert_eq!(last, total);
     let files = std::fs::read_dir(out.join("levels")).expect("a folder").count();
-    assert_eq!(files, rows.len());
+    assert_eq!(files, table.lines.len());
 }
 
 #[test]
 fn goals_that_are_none_are_refused() {
     let folder = Folder::new();
     for goal in ["0", "-5%", "NaN", "much"] {
-        let said = solve(&levee(), &folder, &["--max-error", goal]).refuses();
+        let said = folder.run("out", "solve", &levee(), &["--max-error", goal]).refuses();
         assert!(said.contains("--max-error") && said.contains("such as 0.01"), "{said}");
     }
-    solve(&levee(), &folder, &["--max-unknowns", "100"]).refuses();
+    folder.run("out", "solve", &levee(), &["--max-unknowns", "100"]).refuses();
     assert!(!folder.path("out").exists());
 }

@@ -7,11 +7,6 @@ use signorini_scene::scene::keys::{Key, SECTIONS, Section, listed};
 
 use crate::command::{repository, text};
 
-/// A page of the repository.
-fn page(name: &str) -> String {
-    text(repository(name))
-}
-
 /// The first block of TOML on a page.
 fn example(page: &str) -> &str {
     let (_, rest) = page.split_once("```toml\n").expect("a block of TOML");
@@ -21,11 +16,12 @@ fn example(page: &str) -> &str {
 #[test]
 fn examples_are_scenes() {
     for name in ["README.md", "docs/scene.md"] {
-        let page = page(name);
+        let page = text(repository(name));
         Scene::parse(example(&page), Path::new(name)).expect(name);
     }
     // A piece of a scene: the levee has it.
-    let (page, levee) = (page("docs/firmware.md"), page("meshes/scenes/levee.toml"));
+    let [page, levee] =
+        ["docs/firmware.md", "meshes/scenes/levee.toml"].map(|name| text(repository(name)));
     let (head, _) = levee.split_once("[input.").expect("inputs");
     Scene::parse(&(head.to_owned() + example(&page)), Path::new("levee.toml")).expect("a piece");
 }
@@ -63,7 +59,7 @@ fn row(section: &Section, key: &Key) -> String {
 /// The table of keys on the page is that of the list which the reader of scenes goes by; `SIGNORINI_BLESS=1` writes it anew.
 #[test]
 fn the_page_has_every_key() {
-    let page = page("docs/scene.md");
+    let page = text(repository("docs/scene.md"));
     let [begin, end] = MARKS;
     let (before, rest) = page.split_once(begin).expect("the mark before the table");
     let (_, after) = rest.split_once(end).expect("the mark behind the table");

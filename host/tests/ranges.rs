@@ -1,6 +1,6 @@
 //! Inputs outside the ranges that a scene declares, as users and scripts meet them.
 
-use crate::command::{Folder, meshes, refused, run, says_of, text};
+use crate::command::{Folder, meshes, refused, says_of, text};
 
 /// Its rain is 0 to 5, its river −1 to 0.5.
 fn levee() -> String {
@@ -27,10 +27,15 @@ fn every_command_refuses_a_value_outside() {
 }
 
 #[test]
-fn both_ends_of_a_range_are_inside() {
+fn both_ends_of_a_range_are_inside_and_change_the_answer() {
     let folder = Folder::new();
-    for value in ["rain=0", "rain=5", "river=-1", "river=0.5"] {
-        run(&["solve", &levee(), "--input", value, "--out", &folder.word("out")]).succeeds();
+    for ends in [["rain=0", "rain=5"], ["river=-1", "river=0.5"]] {
+        let [low, high] = ends.map(|value| {
+            let (run, summary) = folder.solve(&levee(), &["--input", value]);
+            run.succeeds();
+            summary["outputs"]["seepage"].as_f64().expect("a number")
+        });
+        assert!(low < high, "{ends:?}: {low} {high}");
     }
 }
 

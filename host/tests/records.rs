@@ -5,14 +5,9 @@ use signorini_files::digits::rounded;
 
 use crate::command::{json, repository, text};
 
-/// A file of the repository.
-fn read(path: &str) -> String {
-    text(repository(path))
-}
-
 /// Every phrase stands on the page, wherever its lines break.
 fn page_says(page: &str, phrases: &[String]) {
-    let text = read(page);
+    let text = text(repository(page));
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     let missing: Vec<_> = phrases.iter().filter(|phrase| !text.contains(*phrase)).collect();
     assert!(missing.is_empty(), "{page} lacks {missing:?}");
@@ -28,37 +23,29 @@ fn by_name(path: &str) -> Vec<(String, Value)> {
     all.into_iter().collect()
 }
 
-#[test]
-fn the_page_quotes_the_record_of_the_extremes() {
-    let record = json(repository("host/benches/extremes/extremes.json"));
-    let cases = record["cases"].as_array().expect("cases");
-    let count = |outcome: &str| cases.iter().filter(|case| case["outcome"] == outcome).count();
-    let [correct, poor, refused, wrong] =
-        ["correct", "certified-poor", "typed-error", "wrong"].map(count);
-    let all = cases.len();
-    assert_eq!(all, correct + poor + refused + wrong);
-    the_page_says(&[
-        format!("{all} cases in about"),
-        format!(
-            "Of {all} cases {correct} are correct, {poor} certified but poor, {refused} refused, {wrong} wrong."
-        ),
-    ]);
+/// How many of all cases have each outcome, in the page's words.
+fn outcomes(all: u64, count: impl Fn(&str) -> u64) -> String {
+    let counts = ["correct", "certified-poor", "typed-error", "wrong"].map(count);
+    let [correct, poor, refused, wrong] = counts;
+    assert_eq!(all, counts.iter().sum::<u64>());
+    format!("{correct} are correct, {poor} certified but poor, {refused} refused, {wrong} wrong.")
 }
 
 #[test]
-fn the_page_quotes_the_records_of_random_scenes() {
+fn the_page_quotes_the_records_of_the_extremes_and_of_random_scenes() {
+    let record = json(repository("host/benches/extremes/extremes.json"));
+    let cases = record["cases"].as_array().expect("cases");
+    let all = cases.len();
+    let words = outcomes(all as u64, |outcome| {
+        cases.iter().filter(|case| case["outcome"] == outcome).count() as u64
+    });
+    the_page_says(&[format!("{all} cases in about"), format!("Of {all} cases {words}")]);
     for file in ["random", "features"] {
         let record = json(repository(&format!("host/benches/extremes/{file}.json")));
-        let count = |outcome: &str| record["outcomes"][outcome].as_u64().unwrap_or(0);
-        let [correct, poor, refused, wrong] =
-            ["correct", "certified-poor", "typed-error", "wrong"].map(count);
-        let (all, seed) = (record["cases"].as_u64(), &record["seed"]);
-        assert_eq!(all, Some(correct + poor + refused + wrong));
+        let (all, seed) = (record["cases"].as_u64().expect("a count"), &record["seed"]);
+        let words = outcomes(all, |outcome| record["outcomes"][outcome].as_u64().unwrap_or(0));
         assert_eq!(record["violations"], Value::Array(Vec::new()));
-        the_page_says(&[format!(
-            "Of {} scenes of seed {seed} {correct} are correct, {poor} certified but poor, {refused} refused, {wrong} wrong.",
-            all.unwrap_or_default()
-        )]);
+        the_page_says(&[format!("Of {all} scenes of seed {seed} {words}")]);
     }
 }
 
@@ -133,7 +120,8 @@ fn the_page_on_time_quotes_the_record_of_trajectories() {
 
 #[test]
 fn the_page_on_benchmarks_has_rows_of_the_record_of_promises() {
-    let (page, record) = (read("docs/benchmarks.md"), read("host/benches/trade/promised.txt"));
+    let [page, record] = ["docs/benchmarks.md", "host/benches/trade/promised.txt"]
+        .map(|name| text(repository(name)));
     let (_, section) = page.split_once("## The firmware that an error takes").expect("a section");
     let (_, table) = section.split_once("```text\n").expect("a table");
     let (table, _) = table.split_once("```").expect("its end");

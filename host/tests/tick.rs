@@ -17,16 +17,11 @@ use signorini_solve::outputs::outputs as outputs_of;
 use signorini_solve::{Options, ScalarKind, solve};
 
 use crate::command::{
-    Folder, Run, each_refused, json, meshes, refused, repository, run, says, says_of, text,
+    Folder, each_refused, json, meshes, refused, repository, says, says_of, text,
 };
 
 const MOVING: &str = "catalogue/moving-tri.toml";
 const LEVEE: &str = "scenes/levee.toml";
-
-/// Ticks of a scene, into the folder `out`.
-fn tick(scene: &str, folder: &Folder, more: &[&str]) -> Run {
-    run(&[&["tick", scene, "--out", &folder.word("out")], more].concat())
-}
 
 /// A scene of the repository.
 fn standard(name: &str) -> Scene {
@@ -35,7 +30,7 @@ fn standard(name: &str) -> Scene {
 
 /// `ticks.csv`: the names of its columns, and the fields of each line.
 pub struct Table {
-    header: Vec<String>,
+    pub header: Vec<String>,
     pub lines: Vec<Vec<String>>,
 }
 
@@ -61,7 +56,7 @@ impl Table {
 /// Plays a scene of the repository, which must end with status 0.
 pub fn played(scene: &str, more: &[&str]) -> Table {
     let folder = Folder::new();
-    let run = tick(&meshes(scene), &folder, more).succeeds();
+    let run = folder.run("out", "tick", &meshes(scene), more).succeeds();
     assert_eq!(run.stderr, "", "quiet in a pipe");
     let picture = text(folder.path("out/ticks.svg"));
     assert!(picture.starts_with("<svg ") && !picture.contains("NaN"));
@@ -75,15 +70,19 @@ fn moving() -> &'static Table {
 }
 
 #[test]
-fn a_line_a_tick_and_a_column_an_output() {
-    let levee = played(LEVEE, &["--ticks", "3"]);
+fn a_line_a_tick_and_a_column_an_output_each_from_the_last_answer() {
+    let levee = played(LEVEE, &["--ticks", "4"]);
     let fixed = ["t", "status", "sweeps", "contact_force", "contact_length", "error_bound"];
     assert_eq!(levee.header, [&fixed[..], &["seepage", "wet", "head"]].concat());
-    assert_eq!(levee.column("t"), ["0.0", "0.01", "0.02"]);
+    assert_eq!(levee.column("t"), ["0.0", "0.01", "0.02", "0.03"]);
     let moving = moving();
     assert_eq!(moving.header, [&fixed[..], &["error_combined"]].concat());
     assert_eq!(moving.lines.len(), 21);
     assert_eq!(moving.numbers("t")[20], 1.0);
+    let sweeps = levee.numbers("sweeps");
+    assert!(sweeps[0] > 100.0 && sweeps[1..].iter().all(|&sweeps| sweeps < 20.0), "{sweeps:?}");
+    let moving = moving.numbers("sweeps");
+    assert!(moving[1..].iter().all(|&warm| warm < 0.8 * moving[0]), "{moving:?}");
 }
 
 /// By the solver's own answers and by the controller's few numbers; the seepage of a finer mesh lies within both.
@@ -91,7 +90,7 @@ fn a_line_a_tick_and_a_column_an_output() {
 fn outputs_have_bounds_beside_them() {
     let bounds = |more: &[&str]| {
         let folder = Folder::new();
-        tick(&meshes(LEVEE), &folder, &[&["--ticks", "2"], more].concat()).succeeds();
+        folder.run("out", "tick", &meshes(LEVEE), &[&["--ticks", "2"], more].concat()).succeeds();
         Table::read(folder.path("out/output_bounds.csv"))
     };
     let (own, baked) = (bounds(&[]), bounds(&["--baked"]));
@@ -118,7 +117,7 @@ fn without_a_bound_the_reason_is_said() {
     let jump = [("\"-4.5\"", "\"-4.5 + 0.1*sign(y - 2.3)\"")];
     let scene = folder.scene("levee.toml", LEVEE, &jump);
     for more in [&["--ticks", "2"][..], &["--ticks", "2", "--baked"]] {
-        let said = tick(&scene, &folder, more).succeeds().stdout;
+        let said = folder.run("out", "tick", &scene, more).succeeds().stdout;
         says(
             &said,
             &["no interval of seepage, head in 2 of 2 ticks: the value of boundary.river near"],
@@ -130,7 +129,7 @@ fn without_a_bound_the_reason_is_said() {
 fn a_series_has_a_file_for_each_tick_and_none_of_an_earlier_run() {
     let folder = Folder::new();
     let listed = |more: &[&str]| {
-        tick(&meshes(LEVEE), &folder, more).succeeds();
+        folder.run("out", "tick", &meshes(LEVEE), more).succeeds();
         let series = text(folder.path("out/ticks.pvd"));
         let files = std::fs::read_dir(folder.path("out/ticks")).expect("files").count();
         assert_eq!(series.matches("<DataSet").count(), files);
@@ -152,14 +151,6 @@ fn the_force_of_a_moving_contact_is_pi_a_squared() {
             MOVING_FORCE.check_relative(format_args!("{scalar}, t = {t}"), force, exact);
         }
     }
-}
-
-#[test]
-fn ticks_start_from_the_last_answer() {
-    let sweeps = played(LEVEE, &["--ticks", "4"]).numbers("sweeps");
-    assert!(sweeps[0] > 100.0 && sweeps[1..].iter().all(|&sweeps| sweeps < 20.0), "{sweeps:?}");
-    let moving = moving().numbers("sweeps");
-    assert!(moving[1..].iter().all(|&warm| warm < 0.8 * moving[0]), "{moving:?}");
 }
 
 #[test]
@@ -288,7 +279,7 @@ fn ticks_end_where_rounding_is_all_that_is_left() {
     let mesh = meshes("catalogue/square-quad-16.msh");
     let scene = folder.write("a.toml", in_time(&mesh, "1000.3 + x + t", "900", ""));
     for scalar in ["f64", "f32"] {
-        tick(&scene, &folder, &["--ticks", "6", "--scalar", scalar]).succeeds();
+        folder.run("out", "tick", &scene, &["--ticks", "6", "--scalar", scalar]).succeeds();
         let table = Table::read(folder.path("out/ticks.csv"));
         assert!(table.column("status").iter().all(|status| *status == "settled"));
         assert!(table.numbers("sweeps").iter().all(|sweeps| *sweeps < 5000.0), "{scalar}");
@@ -326,7 +317,7 @@ fn data_that_turn_wrong_are_refused_with_their_time() {
 fn ticks_whose_data_exclude_each_other_have_no_answer() {
     let (folder, mesh) = (Folder::new(), meshes("catalogue/square-tri-16.msh"));
     let checked = |scene: &str, more: &[&str]| {
-        let run = tick(scene, &folder, more);
+        let run = folder.run("out", "tick", scene, more);
         assert_eq!(run.status, 3, "{}{}", run.stdout, run.stderr);
         let excluded = "1 of 4 ticks have data that exclude each other";
         says(&run.stderr, &[excluded, "the first at t = 2 (excluded)"]);
@@ -381,7 +372,7 @@ fn a_limit_may_change_from_tick_to_tick() {
     let supply = [0.0, -0.5, -1.2, -1.5, 3.0, 1e6, 0.0];
     let lines = supply.iter().enumerate().map(|(t, supply)| format!("{t},{supply}\n"));
     let log = folder.write("log.csv", format!("t,supply\n{}", lines.collect::<String>()));
-    tick(&scene, &folder, &["--log", &log]).succeeds();
+    folder.run("out", "tick", &scene, &["--log", &log]).succeeds();
     let table = Table::read(folder.path("out/ticks.csv"));
     let posed = Scene::read(Path::new(&scene)).expect("a scene");
     let mesh = mesh::read(&posed.mesh.value).expect("a mesh");
@@ -397,7 +388,8 @@ fn a_limit_may_change_from_tick_to_tick() {
         }
         assert!(table.numbers("error_bound")[at] >= solved.bound.expect("a bound").total * 0.99);
     }
-    let said = tick(&scene, &folder, &["--ticks", "1", "--input", "supply=-2"]).refuses();
+    let said =
+        folder.run("out", "tick", &scene, &["--ticks", "1", "--input", "supply=-2"]).refuses();
     says(&said, &["the limit is -0.5", "less than flux = 0"]);
 }
 
@@ -412,7 +404,7 @@ fn a_coefficient_that_an_input_sets_is_the_one_that_the_scene_states() {
     let own = [(stated, "coefficient = \"0\""), ("[output.power]", input)];
     let scene = folder.scene("slab.toml", "scenes/slab.toml", &own);
     let power = |scene: &str, more: &[&str]| {
-        tick(scene, &folder, &[&["--ticks", "2"], more].concat()).succeeds();
+        folder.run("out", "tick", scene, &[&["--ticks", "2"], more].concat()).succeeds();
         Table::read(folder.path("out/ticks.csv")).numbers("power")
     };
     let stated = power(&meshes("scenes/slab.toml"), &[]);
@@ -502,7 +494,7 @@ fn a_log_goes_on_beyond_loads_that_contact_cannot_hold() {
     let never = folder.write("never.csv", "t,push\n0,2\n5,3\n");
     for more in [&[][..], &["--baked"], &["--baked", "--scalar", "f64"]] {
         let ticked = |log: &str| {
-            let run = tick(&scene, &folder, &[&["--log", log], more].concat());
+            let run = folder.run("out", "tick", &scene, &[&["--log", log], more].concat());
             assert_eq!(run.status, 3, "{}{}", run.stdout, run.stderr);
             let bounds = Table::read(folder.path("out/output_bounds.csv"));
             (run.stderr, Table::read(folder.path("out/ticks.csv")), bounds)
@@ -541,7 +533,7 @@ fn what_is_stored_has_columns_for_the_evolution() {
     let folder = Folder::new();
     let sure = "[output.sure]\nkind = \"window\"\n";
     let scene = folder.write("plate.toml", storing(&format!("initial = \"y\"\n{sure}")));
-    let said = tick(&scene, &folder, &["--ticks", "3"]).succeeds().stderr;
+    let said = folder.run("out", "tick", &scene, &["--ticks", "3"]).succeeds().stderr;
     let moved = "warning: time.initial is moved to the gap or the given u on";
     assert!(said.starts_with(moved), "{said}");
     says(&said, &["by 9.69e-1 at most"]);
@@ -556,7 +548,7 @@ fn what_is_stored_has_columns_for_the_evolution() {
         assert!(least < heat[at] && heat[at] < most, "{least} {} {most}", heat[at]);
     }
     // The steady state has no bound over time, and all else.
-    let steady = run(&["solve", &scene, "--out", &folder.word("steady")]).succeeds();
+    let steady = folder.run("steady", "solve", &scene, &[]).succeeds();
     assert_eq!(steady.stderr.matches("warning: ").count(), 1, "{}", steady.stderr);
     says(&steady.stderr, &["output.sure has no value: the steady state has no bound over time"]);
     let summary = json(folder.path("steady/summary.json"));
@@ -569,8 +561,9 @@ fn steps_in_f32_that_are_too_short_are_said() {
     let folder = Folder::new();
     let scene = folder.write("plate.toml", storing(""));
     let short = ["--ticks", "1", "--step", "2e-6", "--no-intervals"];
-    let said =
-        |more: &[&str]| tick(&scene, &folder, &[&short[..], more].concat()).succeeds().stderr;
+    let said = |more: &[&str]| {
+        folder.run("out", "tick", &scene, &[&short[..], more].concat()).succeeds().stderr
+    };
     says(&said(&["--scalar", "f32"]), &["of the time in which u decays: in f32"]);
     assert_eq!(said(&[]), "");
 }
@@ -586,7 +579,7 @@ fn why_there_is_no_bound_over_time_is_said() {
         (held_by_contact, "no bound over time: neither a given u nor a transfer law holds"),
     ] {
         let scene = folder.write("plate.toml", text);
-        let said = tick(&scene, &folder, &["--ticks", "2"]).succeeds().stderr;
+        let said = folder.run("out", "tick", &scene, &["--ticks", "2"]).succeeds().stderr;
         assert_eq!(said.matches("no bound over time").count(), 1, "{said}");
         says(&said, &[why]);
         let ticks = Table::read(folder.path("out/ticks.csv"));

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use signorini_tolerances::some;
 
-use crate::command::{self, Folder, Run, json as json_in, meshes, run, says, says_of, text};
+use crate::command::{self, Folder, json as json_in, meshes, says, says_of, text};
 use crate::tick::{Table, pushed};
 
 const LEVEE: &str = "scenes/levee.toml";
@@ -25,17 +25,13 @@ fn body(folder: &Folder, cells: &str, conductivity: f64, more: &str) -> String {
     folder.write("body.toml", text)
 }
 
-fn tick(scene: &str, folder: &Folder, out: &str, more: &[&str]) -> Run {
-    run(&[&["tick", scene, "--out", &folder.word(out)], more].concat())
-}
-
 /// The rows of two runs, of which the second goes on from the first, are those of one.
 #[track_caller]
 fn one_of_two(scene: &str, folder: &Folder, [whole, first, second]: [&[&str]; 3], status: i32) {
     let [state, next, last] =
         ["state.json", "next.json", "last.json"].map(|name| folder.word(name));
     let ran = |out: &str, more: &[&[&str]]| {
-        let run = tick(scene, folder, out, &more.concat());
+        let run = folder.run(out, "tick", scene, &more.concat());
         assert_eq!(run.status, status, "{more:?}: {}{}", run.stdout, run.stderr);
     };
     ran("whole", &[whole, &["--save", &last]]);
@@ -81,10 +77,11 @@ fn steps_in_time_go_on_bit_for_bit() {
     one_of_two(&scene, &folder, [heat, &[heat, &["--ticks", "2"][..]].concat(), &[]], 0);
     assert_eq!(text(folder.path("second/ticks.csv")).lines().count(), 5);
     let from = ["--from", &folder.word("last.json")];
-    let said = tick(&scene, &folder, "done", &from).refuses();
+    let said = folder.run("done", "tick", &scene, &from).refuses();
     says(&said, &["time.end: 0.06 comes before the next tick"]);
     let log = folder.write("log.csv", "t,heat\n0.08,1\n");
-    let said = tick(&scene, &folder, "done", &[&["--log", &log], &from[..]].concat()).refuses();
+    let said =
+        folder.run("done", "tick", &scene, &[&["--log", &log], &from[..]].concat()).refuses();
     says(&said, &["log.csv:2: t: 0.08 comes", "after 0.06"]);
 }
 
@@ -109,12 +106,12 @@ fn controllers_go_on_bit_for_bit() {
     }
     let state = folder.word("state.json");
     let other = |more: &[&str]| {
-        tick(&scene, &folder, "other", &[&["--from", &state], more].concat()).refuses()
+        folder.run("other", "tick", &scene, &[&["--from", &state], more].concat()).refuses()
     };
     says(&other(&["--scalar", "f32"]), &["state.json", "the controller that `bake` writes"]);
     says(&other(&["--baked", "--scalar", "f64"]), &["state.json", "in f32, and not in f64"]);
     let steady = ["--baked", "--ticks", "2", "--save", &state];
-    let said = tick(&meshes(LEVEE), &folder, "other", &steady).refuses();
+    let said = folder.run("other", "tick", &meshes(LEVEE), &steady).refuses();
     says(&said, &["--save: no material has a capacity"]);
 }
 
@@ -166,7 +163,7 @@ fn a_log_goes_on_beyond_refused_rows() {
     // Nothing has been answered: there is nothing to go on from.
     let never = log("never.csv", &["0,2"]);
     let lost = folder.word("lost.json");
-    let run = tick(&scene, &folder, "never", &["--log", &never, "--save", &lost]);
+    let run = folder.run("never", "tick", &scene, &["--log", &never, "--save", &lost]);
     assert!(run.status == 3 && run.stderr.contains("lost.json: not written"), "{}", run.stderr);
     assert!(!Path::new(&lost).exists());
 }
@@ -196,11 +193,11 @@ fn states_of_anything_else_are_refused() {
     let folder = Folder::new();
     let (state, other) = (folder.word("state.json"), folder.word("other.json"));
     let levee = meshes(LEVEE);
-    tick(&levee, &folder, "out", &["--ticks", "1", "--save", &state]).succeeds();
+    folder.run("out", "tick", &levee, &["--ticks", "1", "--save", &state]).succeeds();
     let whole = text(&state);
     let refused = |file: &str, more: &[&str]| {
         let from = [&["--ticks", "1", "--from", file], more].concat();
-        let message = tick(&levee, &folder, "never", &from).refuses();
+        let message = folder.run("never", "tick", &levee, &from).refuses();
         assert!(!folder.path("never").exists(), "{message}");
         message
     };
@@ -222,7 +219,8 @@ fn states_of_anything_else_are_refused() {
     assert!(refused(&state, &["--coarse", "a.msh"]).contains("cannot be used with"));
     // Not over the scene, and not into a folder.
     for place in [&*levee, &folder.word("out")] {
-        let message = tick(&levee, &folder, "never", &["--ticks", "1", "--save", place]).refuses();
+        let message =
+            folder.run("never", "tick", &levee, &["--ticks", "1", "--save", place]).refuses();
         assert!(message.contains("--save"), "{message}");
     }
     assert_eq!(text(&state), whole);
@@ -248,9 +246,9 @@ fn an_interrupted_run_leaves_its_files_and_its_state() {
     for name in ["output_bounds.csv", "ticks.svg"] {
         assert!(folder.path("out").join(name).exists(), "{name}");
     }
-    tick(&scene, &folder, "more", &["--ticks", "2", "--from", &state]).succeeds();
+    folder.run("more", "tick", &scene, &["--ticks", "2", "--from", &state]).succeeds();
     let more = text(folder.path("more/ticks.csv"));
-    tick(&scene, &folder, "whole", &["--ticks", &(ticks + 2).to_string()]).succeeds();
+    folder.run("whole", "tick", &scene, &["--ticks", &(ticks + 2).to_string()]).succeeds();
     let more = more.split_once('\n').expect("rows").1;
     assert_eq!(rows + more, text(folder.path("whole/ticks.csv")));
 }

@@ -4,7 +4,7 @@ use signorini_scene::mesh::gmsh::write;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{Curve, Mesh};
 
-use crate::command::{Folder, json, refused, run, says_of};
+use crate::command::{Folder, refused, run, says_of};
 
 const SCENE: &str = r#"mesh = "plate.msh"
 material.default.conductivity = "1"
@@ -52,10 +52,10 @@ fn folder(scene: &str, merged: bool) -> (Folder, String) {
 /// The warnings in the summary of a solve, and its standard error.
 fn solved(scene: &str, merged: bool) -> (Vec<String>, String) {
     let (folder, path) = folder(scene, merged);
-    let said = run(&["solve", &path, "--out", &folder.word("out")]).succeeds().stderr;
-    let summary = json(folder.path("out/summary.json"));
+    let (run, summary) = folder.solve(&path, &[]);
     let list = summary["warnings"].as_array().expect("a list");
-    (list.iter().map(|text| text.as_str().expect("a sentence").to_owned()).collect(), said)
+    let list = list.iter().map(|text| text.as_str().expect("a sentence").to_owned());
+    (list.collect(), run.succeeds().stderr)
 }
 
 #[test]

@@ -143,6 +143,9 @@ fn a_flux_goes_with_its_side() {
     assert_eq!(sides(-ENDLESS)[1..], [1.0, 1.0]);
     assert_eq!(flux(-ENDLESS, 2.0, -4.0), -4.0);
     assert_eq!([flux(2.0, 2.0, 0.0), flux(2.0, 2.0, 9.0)], [1.0, 3.0]);
+    let touching = law(ENDLESS).flux(2.0, 0.5, FluxRange::from(1.0));
+    assert_eq!(touching, 1.0, "it is not pulled at");
+    assert!([2.0, f64::NAN].iter().all(|&u| flux(ENDLESS, u, f64::NAN).is_nan()));
     // The same range from its upper end on.
     let from_above = FluxRange::new(3.0, Span::new(-2.0));
     let sides = [3.0, 2.0, 1.0].map(|u| law(-2.0).flux(u, 1.5, from_above));

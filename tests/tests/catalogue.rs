@@ -4,9 +4,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use signorini_problem::Problem as Posed;
 use signorini_scene::mesh::{Curve, Mesh, Surface};
-use signorini_scene::scene::Scene;
 use signorini_solve::norms;
 use signorini_solve::{Options, solve};
 use signorini_tests::contact;
@@ -21,6 +19,8 @@ use signorini_tests::targets::{
 };
 use signorini_tolerances::some;
 use signorini_tolerances::twins::{CATALOGUE as WITHIN, RATE, TOTAL_FORCE, TRAPEZOID_RATE};
+
+use crate::standard::posed;
 
 /// A problem of the tables.
 #[derive(Clone, Copy, Debug)]
@@ -146,11 +146,10 @@ fn mesh(grid: &Grid, case: Case) -> Mesh {
 }
 
 fn by_kernel(case: Case, grid: Grid) -> Measured {
-    let scene = Scene::parse(&case.text(), Path::new("test.toml")).expect("a valid scene");
-    let problem = Posed::new(&scene, mesh(&grid, case)).expect("scene and mesh fit");
+    let problem = posed(&case.text(), mesh(&grid, case)).expect("scene and mesh fit");
     let solution = solve(&problem, &Options::default()).expect("a solution exists");
     assert!(solution.converged(), "{:?}", solution.status);
-    let errors = scene.exact.as_ref().map_or(Ok(norms::Errors::default()), |exact| {
+    let errors = problem.scene.exact.as_ref().map_or(Ok(norms::Errors::default()), |exact| {
         norms::errors(exact, &problem, &solution.u, &solution.flux)
     });
     let norms::Errors { h1, l2, flux, energy, .. } = errors.expect("a finite exact solution");

@@ -87,7 +87,7 @@ fn solves_that_are_cut_off() {
     let mut random = Random::new(5);
     let mut pulled = 0;
     for name in SCENES {
-        let (scene, problem) = standard(name);
+        let problem = standard(name);
         let kinds = [(ScalarKind::F64, FORCE_OF_EDGES), (ScalarKind::F32, FORCE_OF_EDGES_NARROW)];
         for (scalar, allowed) in kinds {
             for max_sweeps in stops(&mut random) {
@@ -101,8 +101,8 @@ fn solves_that_are_cut_off() {
                 allowed.check(&what, (force - table.law) / table.size);
                 let values = outputs(&problem, &found).expect("outputs");
                 let value = |output: &Output| values[&output.name.value].unwrap_or_default();
-                let values: Vec<_> = scene.outputs.iter().map(value).collect();
-                for (output, value) in signed(&scene, &values) {
+                let values: Vec<_> = problem.scene.outputs.iter().map(value).collect();
+                for (output, value) in signed(&problem.scene, &values) {
                     assert!(value >= 0.0, "{what}, {output}: {value}");
                 }
                 pulled += u32::from(table.plain < 0.0);
@@ -115,7 +115,7 @@ fn solves_that_are_cut_off() {
 #[test]
 fn solutions_have_the_forces_of_the_plain_sum() {
     for name in SCENES {
-        let (_, problem) = standard(name);
+        let problem = standard(name);
         for solver in [SolverKind::Kernel, SolverKind::Direct] {
             let options = Options { solver, ..Options::default() };
             let found = solve(&problem, &options).expect("an answer");
@@ -161,7 +161,7 @@ fn full_models<R: Bakes>(allowed: Tolerance) {
     let mut random = Random::new(7);
     let mut pulled = [0; 2];
     for name in SCENES.into_iter().filter(|name| *name != "membrane") {
-        let (_, problem) = standard(name);
+        let problem = standard(name);
         for certificate in [false, true] {
             let setting = Some(Setting { certificate, ..Setting::default() });
             let problem = problem.with_setting(setting);
@@ -237,7 +237,7 @@ fn condensed_models_that_are_cut_off() {
     let mut random = Random::new(9);
     let mut pulled = [0; 2];
     for name in SCENES {
-        let (_, problem) = standard(name);
+        let problem = standard(name);
         let (condensate, recovery) = recoverable(&problem).expect("a condensate");
         let condensed = (&condensate, &recovery);
         pulled[0] += condensed_ticks::<f64>(name, &problem, condensed, &mut random);

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use signorini_problem::fixtures::with_four_sides;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{Curve, Mesh};
 use signorini_tests::random::Random;
@@ -15,18 +16,10 @@ pub fn regular(n: u32, cells: Cells) -> Mesh {
 }
 
 /// A mesh of the rectangle whose curve `dirichlet` becomes `left`, `right`, `top`.
-pub fn four_sides(mut mesh: Mesh) -> Mesh {
-    let contact = mesh.curves.remove(0);
-    let rest = mesh.curves.remove(0).edges;
-    let on = |edge: &[u32; 2], k: usize, value: f64| {
-        edge.iter().all(|&vertex| mesh.vertices[vertex as usize][k] == value)
-    };
-    let side = |name: &str, k: usize, value: f64| Curve {
-        name: name.to_owned(),
-        edges: rest.iter().copied().filter(|edge| on(edge, k, value)).collect(),
-    };
-    let sides = [side("left", 0, -1.0), side("right", 0, 1.0), side("top", 1, 1.0)];
-    mesh.curves = [contact].into_iter().chain(sides).collect();
+pub fn four_sides(mesh: Mesh) -> Mesh {
+    let mut mesh = with_four_sides(mesh);
+    mesh.curves[1].name = "top".to_owned();
+    mesh.curves[1..].rotate_left(1);
     mesh
 }
 

@@ -1,21 +1,26 @@
-//! The standard scenes on their meshes, and values of their inputs.
+//! Scenes posed on meshes: the standard ones, and those of a text; and values of their inputs.
 
 use std::path::Path;
 
 use signorini_problem::Problem;
-use signorini_scene::mesh;
+use signorini_scene::error::Result;
+use signorini_scene::mesh::{self, Mesh};
 use signorini_scene::scene::{Input, Scene};
 
 /// Their names: the membrane is held by contact alone, the pit has no inputs.
 pub const SCENES: [&str; 5] = ["levee", "slab", "strip", "membrane", "pit"];
 
+/// A scene of this text on a mesh.
+pub fn posed(text: &str, mesh: Mesh) -> Result<Problem> {
+    Problem::new(&Scene::parse(text, Path::new("test.toml"))?, mesh)
+}
+
 /// The scene of this name.
-pub fn standard(name: &str) -> (Scene, Problem) {
+pub fn standard(name: &str) -> Problem {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes/scenes");
     let scene = Scene::read(&folder.join(format!("{name}.toml"))).expect("a scene");
     let mesh = mesh::read(&scene.mesh.value).expect("a mesh");
-    let problem = Problem::new(&scene, mesh).expect("a problem");
-    (scene, problem)
+    Problem::new(&scene, mesh).expect("a problem")
 }
 
 /// A value that f32 holds exactly, so far from an input's default, on the other side of it where that would leave the range.

@@ -10,8 +10,11 @@ use signorini_scene::mesh::{self, Mesh};
 use signorini_scene::scene::Scene;
 use signorini_session::tick::{Budget, play, schedule};
 use signorini_session::with_session;
+use signorini_solve::Solution;
 use signorini_solve::norms::errors;
 use signorini_tolerances::twins::STORED;
+
+use crate::standard::posed;
 
 /// A scene of the catalogue, with more of it.
 fn catalogue(name: &str, more: &str) -> Result<Scene> {
@@ -24,7 +27,7 @@ fn catalogue(name: &str, more: &str) -> Result<Scene> {
 /// ‖u − u_h‖ at the ends of steps of length `dt` up to `end`, from the exact u at the start: the largest, and the last.
 fn errors_in_time(name: &str, mesh: Mesh, dt: f64, end: f64) -> Result<[f64; 2]> {
     let scene = catalogue(name, "[setting]\ncertificate = false\nmodel = \"full\"\n")?;
-    let mut problem = Problem::new(&scene, mesh)?;
+    let problem = Problem::new(&scene, mesh)?;
     let exact = scene.exact.clone().expect("it is stated");
     let mean = |edge: usize| {
         let points = signorini_problem::quadrature::gauss(8);
@@ -35,21 +38,34 @@ fn errors_in_time(name: &str, mesh: Mesh, dt: f64, end: f64) -> Result<[f64; 2]>
         points.iter().map(of).sum::<f64>()
     };
     let start: Vec<f64> = (0..problem.ends.len()).map(mean).collect();
-    problem = problem.stepping(dt, State { u: start, ..State::default() })?;
     let mut found = [0.0_f64; 2];
-    let posed = problem.clone();
-    with_session(&posed, |session| {
-        for step in 1..=(end / dt).round() as u32 {
-            problem.set_time(f64::from(step) * dt)?;
-            session.play(&problem)?;
-            let solution = session.answer(&problem)?;
-            let last = errors(&exact, &problem, &solution.u, &solution.flux)?.l2;
-            found = [found[0].max(last), last];
-            problem.advance(solution.state());
-        }
+    stepped(&problem, start, (dt, (end / dt).round() as u32), |problem, solution| {
+        let last = errors(&exact, problem, &solution.u, &solution.flux)?.l2;
+        found = [found[0].max(last), last];
         Ok(())
     })?;
     Ok(found)
+}
+
+/// Looks at each of so many steps from these means.
+fn stepped(
+    problem: &Problem,
+    u: Vec<f64>,
+    (dt, steps): (f64, u32),
+    mut look: impl FnMut(&Problem, &Solution) -> Result<()>,
+) -> Result<()> {
+    let posed = problem.stepping(dt, State { u, ..State::default() })?;
+    let mut problem = posed.clone();
+    with_session(&posed, |session| {
+        for step in 1..=steps {
+            problem.set_time(f64::from(step) * dt)?;
+            session.play(&problem)?;
+            let solution = session.answer(&problem)?;
+            look(&problem, &solution)?;
+            problem.advance(solution.state());
+        }
+        Ok(())
+    })
 }
 
 /// The fluxes out of a cell add up to what it stores less ∫f.
@@ -59,21 +75,12 @@ fn every_cell_is_in_balance() {
         let text = "mesh = \"grid\"\n[material.default]\nconductivity = [2, 0.5, 1]\ncapacity = \"1 + x^2\"\n[source]\nf = \"x - t\"\n\
              [boundary.dirichlet]\nkind = \"robin\"\ncoefficient = 2\nambient = \"y\"\n[boundary.contact]\nkind = \"contact\"\n\
              [setting]\ncertificate = false\nmodel = \"full\"\n";
-        let scene = Scene::parse(text, Path::new("balance.toml")).unwrap();
-        let problem = Problem::new(&scene, grid(4, cells)).unwrap();
+        let problem = posed(text, grid(4, cells)).unwrap();
         let start = vec![0.25; problem.ends.len()];
-        let mut problem = problem.stepping(0.01, State { u: start, ..State::default() }).unwrap();
-        let posed = problem.clone();
-        with_session(&posed, |session| {
-            for step in 1..=5 {
-                problem.set_time(0.01 * f64::from(step))?;
-                session.play(&problem)?;
-                let solution = session.answer(&problem)?;
-                let stored: f64 = problem.stored(0, &solution.u).iter().sum();
-                let defect = solution.conservation_defect(&problem) * solution.largest_flux();
-                STORED.check("balance", defect / stored.abs().max(1.0));
-                problem.advance(solution.state());
-            }
+        stepped(&problem, start, (0.01, 5), |problem, solution| {
+            let stored: f64 = problem.stored(0, &solution.u).iter().sum();
+            let defect = solution.conservation_defect(problem) * solution.largest_flux();
+            STORED.check("balance", defect / stored.abs().max(1.0));
             Ok(())
         })
         .unwrap();

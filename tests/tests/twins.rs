@@ -1,24 +1,23 @@
 //! The kernel against the naive twin on random scenes: every kind of cell, tensor and condition.
 
 use crate::factored;
+use crate::numbering::NumberedMesh;
 use signorini_kernel::law::Law;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use signorini_kernel::assembly::{self, CellLoads};
 use signorini_kernel::csr::Csr;
-use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{Block, Edges};
-use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
 use signorini_kernel::refinement;
 use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::solver::{Settings, Status};
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::system::Shifts;
 use signorini_kernel::system::System;
-use signorini_kernel::{Index, Libm, Real, Tensor, contact, flux, psor};
+use signorini_kernel::{Index, Libm, Tensor, contact, flux, psor};
 use signorini_problem::scalar::Scalar as Number;
 use signorini_tests::cell::Cell;
 use signorini_tests::field::Scalar;
@@ -49,31 +48,19 @@ enum Method {
 fn by_kernel<R: Number, I: Index>(problem: &Problem, method: Method) -> Answer {
     let grid = &problem.grid;
     let index = |vertex: u32| I::new(vertex as usize).expect("a small grid");
-    let vertices: Vec<_> = grid.vertices.iter().map(|v| v.map(R::narrow)).collect();
-    let triangles: Vec<_> = grid.triangles.iter().map(|cell| cell.map(index)).collect();
-    let quads: Vec<_> = grid.quads.iter().map(|cell| cell.map(index)).collect();
-    let mesh = Mesh::new(&vertices, &triangles, &quads).expect("a valid grid");
+    let vertices = grid.vertices.iter().map(|v| v.map(R::narrow)).collect();
+    let triangles = grid.triangles.iter().map(|cell| cell.map(index)).collect();
+    let quads = grid.quads.iter().map(|cell| cell.map(index)).collect();
     let key = |ends: [I; 2]| edge(ends[0].at() as u32, ends[1].at() as u32);
-
-    let sides = mesh.half_edges();
-    let (mut of_triangles, mut of_quads) =
-        (vec![[I::NONE; 3]; triangles.len()], vec![[I::NONE; 4]; quads.len()]);
-    let mut half_edges = vec![[I::NONE; 2]; sides];
-    let buffers = NumberingBuffers {
-        of_triangles: &mut of_triangles,
-        of_quads: &mut of_quads,
-        half_edges: &mut half_edges,
-        at_vertex: &mut vec![[I::NONE; 2]; vertices.len()],
-        next: &mut vec![I::NONE; sides],
+    let block = |ends| match &problem.boundary[&key(ends)] {
+        Condition::Dirichlet { .. } => Block::Dirichlet,
+        Condition::Contact { .. } => Block::Contact,
+        Condition::Neumann { .. } | Condition::Robin { .. } => Block::Free,
     };
-    let block = |ends| {
-        problem.boundary.get(&key(ends)).map(|condition| match condition {
-            Condition::Dirichlet { .. } => Block::Dirichlet,
-            Condition::Contact { .. } => Block::Contact,
-            Condition::Neumann { .. } | Condition::Robin { .. } => Block::Free,
-        })
-    };
-    let edges = number(&mesh, buffers, block).expect("a valid grid");
+    let numbered = NumberedMesh::<R, I>::new(vertices, (triangles, quads), block);
+    let numbered = numbered.expect("a valid grid");
+    let (mesh, edges) = (numbered.mesh().expect("a mesh"), numbered.edges().expect("its edges"));
+    let (triangles, quads) = (numbered.triangles.len(), numbered.quads.len());
     let counts = edges.counts();
     let keys: Vec<Edge> = (0..counts.edges()).map(|at| key(edges.endpoints(&mesh, at))).collect();
 
@@ -81,10 +68,10 @@ fn by_kernel<R: Number, I: Index>(problem: &Problem, method: Method) -> Answer {
     let boundary = Boundary::new(&edges, &data.neumann, &data.robin, &data.contact_flux)
         .expect("valid conditions");
     let tensors: Vec<_> = (0..grid.cell_count()).map(|cell| tensor(problem, cell)).collect();
-    let (mut k3, mut k4) = (vec![[R::ZERO; 3]; triangles.len()], vec![[R::ZERO; 6]; quads.len()]);
+    let (mut k3, mut k4) = (vec![[R::ZERO; 3]; triangles], vec![[R::ZERO; 6]; quads]);
     stiffness::fill(&mesh, Coefficient::PerCell(&tensors), 8, &mut k3, &mut k4).expect("tensors");
     let k = Stiffness { triangles: &k3, quads: &k4 };
-    let (t, q) = data.loads.split_at(triangles.len());
+    let (t, q) = data.loads.split_at(triangles);
     let loads = CellLoads { triangles: t, quads: q };
 
     let (mut row_ptr, mut col_idx) =
@@ -102,7 +89,7 @@ fn by_kernel<R: Number, I: Index>(problem: &Problem, method: Method) -> Answer {
 
     let mut u = vec![R::ZERO; counts.unknowns()];
     u.extend(&data.dirichlet);
-    if quads.is_empty() {
+    if quads == 0 {
         rows_agree::<R, I, TRIANGLES>(&edges, k, diagonal, &system, &u);
     }
     rows_agree::<R, I, QUADS>(&edges, k, diagonal, &system, &u);
@@ -311,41 +298,4 @@ fn random_scenes_in_f32_and_with_wide_indices() {
         let u = distance(&kernel.means, &twin.means) / size(&twin.means);
         NARROW_AGREEMENT.check(format_args!("seed {seed}"), u);
     }
-}
-
-#[test]
-fn element_matrices() {
-    use signorini_kernel::element::{crouzeix_raviart, rannacher_turek};
-    for seed in 0..100 {
-        let problem = random::problem(&mut Random::new(1000 + seed), 3);
-        for cell in 0..problem.grid.cell_count() {
-            let naive = problem.cell_stiffness(cell);
-            let largest = naive.iter().flatten().fold(0.0_f64, |most, k| most.max(k.abs()));
-            let corner = |&vertex: &u32| problem.grid.vertices[vertex as usize];
-            let corners: Vec<_> = problem.grid.cell(cell).iter().map(corner).collect();
-            let a = tensor::<f64>(&problem, cell);
-            let columns: Vec<Vec<f64>> = match corners[..] {
-                [p, q, r] => {
-                    let k = crouzeix_raviart::stiffness([p, q, r], a);
-                    (0..3).map(|j| crouzeix_raviart::product(&k, &unit::<3>(j)).to_vec()).collect()
-                }
-                [p, q, r, s] => {
-                    let rule = f64::GAUSS[7];
-                    let k = rannacher_turek::stiffness([p, q, r, s], rule, |_, _| a);
-                    (0..4).map(|j| rannacher_turek::product(&k, &unit::<4>(j)).to_vec()).collect()
-                }
-                _ => unreachable!("cells have three or four corners"),
-            };
-            for (j, column) in columns.iter().enumerate() {
-                for (i, entry) in column.iter().enumerate() {
-                    let what = format!("seed {seed}, cell {cell}, entry ({i}, {j})");
-                    KERNEL_AGREEMENT.check(&what, (entry - naive[i][j]) / largest);
-                }
-            }
-        }
-    }
-}
-
-fn unit<const N: usize>(j: usize) -> [f64; N] {
-    std::array::from_fn(|i| f64::from(u8::from(i == j)))
 }

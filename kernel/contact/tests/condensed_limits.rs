@@ -4,17 +4,16 @@
 //!   (gap/U)² = (‖F z‖ + stability ‖δ‖)² + 2 Σ mean⁺ (τ − least) + mean⁻ (greatest − τ)
 //! ```
 
-use crate::memory::{Draw, bare};
+use crate::memory::{Dense, Draw, bare};
+use signorini_contact::Condensed;
 use signorini_contact::candidate::Candidate;
 use signorini_contact::certificate::{Corner, Form, Vertex};
-use signorini_contact::dense::Iterate;
 use signorini_contact::dense::ranges::Given;
 use signorini_contact::factor::Factor;
 use signorini_contact::method::Sweeps;
 use signorini_contact::outputs::Measure;
 use signorini_contact::sides::{Baked, ON_GAP, Sides};
 use signorini_contact::spans::{SpanBuffer, SpanColumns};
-use signorini_contact::{Condensed, Memory};
 use signorini_kernel::Error;
 use signorini_kernel::flux_range::{Room, Spans};
 use signorini_kernel::limits::Deadline;
@@ -250,7 +249,7 @@ impl Drawn {
 }
 
 #[test]
-fn the_bound_is_that_of_the_formulas() -> Result<(), Error> {
+fn bound_and_rounding_are_those_of_the_formulas_part_by_part() -> Result<(), Error> {
     let (mut draw, mut all) = (Draw(5), [[0; 3]; 2]);
     for case in 0..6000 {
         let drawn = Drawn::in_turn(&mut draw, case);
@@ -263,6 +262,8 @@ fn the_bound_is_that_of_the_formulas() -> Result<(), Error> {
                 LIMITED_FORM.check_relative(format_args!("{case}"), duality_gap, gap);
                 LIMITED_FORM.check_relative(format_args!("{case}"), algebraic, STABILITY * mended);
                 assert!(total >= gap && rounding > 0.0 && rounding < 1e-10 * gap, "{rounding}");
+                let parts = drawn.rounding(duality_gap).expect("a way out");
+                LIMITED_FORM.check_relative(format_args!("{case}: rounding"), rounding, parts);
                 seen[0] += 1;
             }
             Verdict::BelowGap => {
@@ -336,15 +337,9 @@ fn supplied(spans: &[f64], supply: f64, buffer: &mut [f64; 8]) -> Result<[f64; 3
         outputs: &[Measure::Flux { of_inputs: &[], of_contact: &[], of_reaction: &weights }],
         ..bare()
     };
-    let [mut x, mut residual, mut scratch, mut load] = [[0.0; 8]; 4];
-    let iterate = Iterate {
-        x: &mut x,
-        residual: &mut residual,
-        scratch: &mut scratch,
-        open: &mut [false; 8],
-    };
-    let spans = SpanBuffer::new(buffer);
-    let mut memory = Memory { iterate, load: &mut load, spans, combination: &mut [], sum: &mut [] };
+    let mut dense = Dense::new(2);
+    let (_, mut memory) = dense.ticking()?;
+    memory.spans = SpanBuffer::new(buffer);
     let mut sweeps = Sweeps { omega: 1.0, tolerance: 1e-15, most: 9 };
     let inputs = [1.0, supply];
     let report = model.tick(&inputs, &mut sweeps, &mut Deadline::never(), &mut memory)?;
@@ -448,22 +443,6 @@ impl Drawn {
         let sizes = 2.0 * largest + loads + if self.is_limited { of_spans } else { 0.0 };
         (n + m + 4.0) * 0.5 * epsilon * sizes
     }
-}
-
-#[test]
-fn what_rounding_hides_is_counted_part_by_part() -> Result<(), Error> {
-    let (mut draw, mut seen) = (Draw(9), 0);
-    for case in 0..4000 {
-        let drawn = Drawn::in_turn(&mut draw, case);
-        let Verdict::Certified(Certificate { duality_gap, rounding, .. }) = drawn.certify()? else {
-            continue;
-        };
-        let expected = drawn.rounding(duality_gap).expect("a way out");
-        LIMITED_FORM.check_relative(format_args!("{case}"), rounding, expected);
-        seen += 1;
-    }
-    assert!(seen > 500, "{seen}");
-    Ok(())
 }
 
 /// With F = 0, edges that touch at their least flux but for rounding, and u_D − ψ beside the first of them.

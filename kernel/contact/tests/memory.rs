@@ -49,10 +49,8 @@ impl<R: Real> Dense<R> {
 
     /// The tableau, and memory of the iterate beside it.
     pub fn parts(&mut self) -> Result<(Tableau<'_, R>, Iterate<'_, R>), Error> {
-        let Self { order, x, residual, scratch, open, blocks, exchanged, columns, .. } = self;
-        let [column, next] = columns;
-        let tableau = Tableau::new(*order, blocks, exchanged, [column, next])?;
-        Ok((tableau, Iterate { x, residual, scratch, open }))
+        let (tableau, memory) = self.ticking()?;
+        Ok((tableau, memory.iterate))
     }
 
     /// Solves by a method without a tableau.

@@ -1,5 +1,6 @@
 //! The bound against its definition, integrated from coordinates; and what it says of poor input.
 
+use crate::memory::Draw;
 use crate::numbering::{SIDES, Side};
 use crate::plate::foundation::{A, Foundation, GAP, LAW};
 use signorini_bound::certificate::{Buffers, Curved, Discretization, LoadCase, Verdict, certify};
@@ -19,12 +20,8 @@ struct Found {
 
 /// A pseudorandom iterate, above the gap on half of the contact edges.
 fn iterate(edges: usize, free: usize) -> Vec<f64> {
-    let mut state = 7_u64;
-    let mut next = || {
-        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (state >> 33) as f64 / (1_u64 << 31) as f64
-    };
-    let mut u: Vec<_> = (0..edges).map(|_| next()).collect();
+    let mut draw = Draw(7);
+    let mut u: Vec<_> = (0..edges).map(|_| draw.part()).collect();
     u[free..].iter_mut().step_by(2).for_each(|u| *u = GAP);
     u
 }

@@ -5,13 +5,11 @@ use signorini_device::condition::{BoundaryEdge, Condition};
 use signorini_device::{Workspace, workspace};
 use signorini_kernel::error::{Array, CellId};
 use signorini_kernel::flux_range::Spans;
-use signorini_kernel::law::Law;
 use signorini_kernel::mesh::boundary::{Boundary, Robin};
 use signorini_kernel::mesh::components::{Part, PartCounts, examine};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
-use signorini_kernel::relaxation::Relaxation;
-use signorini_kernel::solver::{Settings, Solver, Status};
+use signorini_kernel::solver::{Settings, Status};
 use signorini_kernel::{Error, Libm, Math, Mesh, Micromath, Real};
 use signorini_tolerances::kernel::{FAST_ROOT, SOLVED};
 
@@ -175,22 +173,4 @@ fn roots_and_the_larger_of_two_zeros() {
 fn errors_are_sentences() {
     assert!(Error::Relaxation.to_string().contains('2'), "{}", Error::Relaxation);
     assert!(CellId::Quad(7).to_string().contains('7'));
-}
-
-/// ω next to 2 keeps u going to and fro: no fall for 8 of the longest blocks is a stall.
-#[test]
-fn a_solve_that_gets_nowhere_stalls() -> Result<(), Error> {
-    use signorini_kernel::csr::Csr;
-    use signorini_kernel::rows::{Row, Rows};
-    use signorini_kernel::system::System;
-    let relaxation = Relaxation::Fixed(2.0 - 1e-9);
-    let matrix = Csr::new(&[0, 1], &[0_u16], &[1.0], 1)?;
-    let counts = EdgeCounts { free: 1, contact: 0, dirichlet: 0 };
-    let mut memory = [Row::<f64, u16, 2>::EMPTY; 1];
-    let mut rows = Rows::of_matrix(&matrix, counts, &mut memory)?;
-    let system = System::new(matrix, &[0.0], Law::above(&[]), counts)?;
-    let settings = Settings { relaxation, max_sweeps: u32::MAX, ..Settings::default() };
-    let outcome = Solver::new(settings)?.run(&system, &mut rows, &mut [1.0])?;
-    assert_eq!((outcome.status, outcome.sweeps), (Status::Stalled, 9 << 18));
-    Ok(())
 }

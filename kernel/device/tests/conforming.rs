@@ -2,7 +2,7 @@
 
 use crate::numbering::Side;
 use crate::owned::Packed;
-use crate::plate::Plate;
+use crate::plate::{Plate, plate};
 use signorini_bound::averages;
 use signorini_bound::conforming::{VertexData, impose};
 use signorini_kernel::Error;
@@ -20,11 +20,11 @@ fn conforming(
     given: fn([f64; 2]) -> f64,
     alpha: fn(usize) -> f64,
 ) -> Result<(Plate, Vec<f64>, f64), Error> {
-    let plate = Plate::new(SIDES)?;
-    let (mesh, edges) = (plate.mesh()?, plate.edges()?);
-    let counts = edges.counts();
+    let plate = plate(SIDES)?;
+    let (mesh, edges, counts) = (plate.mesh()?, plate.edges()?, plate.counts);
+    let vertex = |at: u16| plate.vertices[usize::from(at)];
     let ends: Vec<_> =
-        (0..counts.edges()).map(|edge| plate.ends(edge)).collect::<Result<_, _>>()?;
+        (0..counts.edges()).map(|edge| edges.endpoints(&mesh, edge).map(vertex)).collect();
     let middle = |[a, b]: [[f64; 2]; 2]| [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
     let mut means: Vec<_> = ends.iter().map(|&ends| u(middle(ends))).collect();
     let on_contact = &ends[counts.free..counts.unknowns()];

@@ -1,6 +1,6 @@
 //! The smallest and strangest problems first: what they answer, and how they are refused.
 
-use crate::workspace::{Edge, OPEN, SQUARE, TWO, UNIT, ZERO, sides};
+use crate::workspace::{Edge, OPEN, SQUARE, TWO, UNIT, ZERO, built, sides};
 use signorini_device::condition::Condition;
 use signorini_device::workspace;
 use signorini_kernel::csr::Csr;
@@ -11,24 +11,11 @@ use signorini_kernel::mesh::boundary::{Boundary, Robin};
 use signorini_kernel::mesh::components::{Part, PartCounts, examine};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
-use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::rows::{Row, Rows};
-use signorini_kernel::solver::{Settings, Solver, Status};
+use signorini_kernel::solver::{Settings, Status};
 use signorini_kernel::stiffness::{Coefficient, Stiffness};
-use signorini_kernel::system::System;
 use signorini_kernel::{Error, Libm, Mesh, Micromath, Tensor, psor};
 use signorini_tolerances::kernel::{BASIS, FAST_ROOT, SOLVED};
-
-type Small = workspace!(f64, u16: vertices 16, triangles 16, quads 16, boundary 16);
-
-fn build(
-    mesh: &Mesh<f64, u16>,
-    condition: impl FnMut(&Edge) -> Option<Condition<f64>>,
-) -> Result<Small, Error> {
-    let mut small = Small::new();
-    small.build(mesh, UNIT, condition)?;
-    Ok(small)
-}
 
 #[test]
 fn a_single_triangle_and_a_single_quad() {
@@ -36,7 +23,7 @@ fn a_single_triangle_and_a_single_quad() {
         let mesh = Mesh::new(&SQUARE, triangles, quads).expect("a valid cell");
         // All sides given: nothing to solve, and the flux of u = x through the sides is exact.
         let value = |edge: &Edge| Some(Condition::Dirichlet { value: edge.middle()[0] });
-        let mut cell = build(&mesh, value).expect("fits");
+        let mut cell = built(&mesh, UNIT, value).expect("fits");
         let outcome = cell.solve(Settings::default()).expect("finite");
         assert_eq!(outcome.status, Status::Converged);
         let total: f64 = cell.flux().iter().sum();
@@ -51,7 +38,7 @@ fn a_single_triangle_and_a_single_quad() {
 fn all_contact() {
     let mesh = Mesh::new(&SQUARE, &TWO, &[]).expect("valid");
     let gap = |_: &_| Some(Condition::Contact { gap: 1.0, flux: 0.0 });
-    let mut plate = build(&mesh, gap).expect("fits");
+    let mut plate = built(&mesh, UNIT, gap).expect("fits");
     plate.set_source(&[-2.0, -2.0], &[]).expect("lengths");
     let outcome = plate.solve(Settings::default()).expect("finite");
     assert!(matches!(outcome.status, Status::Converged | Status::RoundingLimit));
@@ -64,7 +51,7 @@ fn all_contact() {
 fn no_contact_is_a_linear_problem() {
     let mesh = Mesh::new(&SQUARE, &[], &[[0u16, 1, 2, 3]]).expect("valid");
     let sides = sides(1.0, [ZERO, Condition::Neumann { flux: 3.0 }, OPEN]);
-    let mut bar = build(&mesh, sides).expect("fits");
+    let mut bar = built(&mesh, UNIT, sides).expect("fits");
     bar.solve(Settings::default()).expect("finite");
     let highest = bar.u().iter().fold(0.0, |most: f64, u| most.max(*u));
     SOLVED.check("u", highest - 3.0);
@@ -80,7 +67,7 @@ fn parts_are_told_apart() {
         let conditions = |edge: &Edge| {
             Some(if edge.middle()[0] < 2.0 { Condition::Dirichlet { value: 0.0 } } else { second })
         };
-        let parts = build(&mesh, conditions)?;
+        let parts = built(&mesh, UNIT, conditions)?;
         let edges = parts.edges()?;
         let boundary = Boundary::new(&edges, &[], &[], &[])?;
         let unknowns = edges.counts().unknowns();
@@ -122,12 +109,12 @@ fn bad_topology_is_named() {
     let all = |_: &Edge| Some(OPEN);
     let error = |triangles: &[[u16; 3]]| {
         let vertices = [[0.0, 0.0], [1.0, 0.0], [0.5, 1.0], [0.5, -1.0], [0.5, 2.0]];
-        build(&Mesh::new(&vertices, triangles, &[])?, all).map(|_| ())
+        built(&Mesh::new(&vertices, triangles, &[])?, UNIT, all).map(|_| ())
     };
     assert_eq!(error(&[[0, 1, 2], [0, 1, 2]]), Err(Error::Overlap([0, 1])));
     assert_eq!(error(&[[0, 1, 2], [1, 0, 3], [0, 1, 4]]), Err(Error::Overlap([0, 1])));
     let mesh = Mesh::new(&SQUARE, &[[0u16, 1, 2]], &[]).expect("valid");
-    assert_eq!(build(&mesh, |_| None).map(|_| ()), Err(Error::NoCondition([0, 1])));
+    assert_eq!(built(&mesh, UNIT, |_| None).map(|_| ()), Err(Error::NoCondition([0, 1])));
 }
 
 #[test]
@@ -162,22 +149,6 @@ fn arrays_that_do_not_fit_are_refused() {
         |triangle: [u16; 3], half: u16| Edges::new(&[triangle], &[], &[[half, 1]], one).err();
     assert_eq!(edges([0, 0, 0], 0), length(Array::HalfEdges, 2, 3));
     assert_eq!(edges([7, 0, 0], 9), outside(Array::HalfEdges, 0));
-    for omega in [0.0, 2.0, -1.0, f64::NAN] {
-        let settings = Settings { relaxation: Relaxation::Fixed(omega), ..Settings::default() };
-        assert_eq!(Solver::new(settings).err(), Some(Error::Relaxation));
-    }
-}
-
-#[test]
-fn a_system_refuses_loads_and_gaps_that_are_no_numbers() {
-    let counts = EdgeCounts { free: 0, contact: 1, dirichlet: 0 };
-    let matrix = Csr::<f64, u16>::new(&[0, 1], &[0], &[1.0], 1).expect("one row");
-    for wrong in [f64::NAN, f64::INFINITY] {
-        for (load, gap, of) in [(wrong, 0.0, Array::Load), (0.0, wrong, Array::LowerBounds)] {
-            let refused = System::new(matrix, &[load], Law::above(&[gap]), counts).err();
-            assert_eq!(refused, Some(Error::NotFinite { of, at: 0 }));
-        }
-    }
 }
 
 #[test]
@@ -242,56 +213,6 @@ fn rows_and_sweeps_refuse_what_does_not_fit() {
 }
 
 const NONE: u16 = u16::MAX;
-
-/// The chain −u'' = −1 over an obstacle, small enough to write down.
-fn chain<R>(work: impl FnOnce(&System<f64, u16>, &mut Rows<f64, u16, 2>) -> R) -> R {
-    let (row_ptr, col_idx) = ([0, 2, 5, 7], [0u16, 1, 1, 0, 2, 2, 1]);
-    let values = [2.0, -1.0, 2.0, -1.0, -1.0, 2.0, -1.0];
-    let counts = EdgeCounts { free: 2, contact: 1, dirichlet: 0 };
-    let matrix = Csr::new(&row_ptr, &col_idx, &values, 3).expect("valid");
-    let mut memory = [Row::EMPTY; 3];
-    let mut rows = Rows::of_matrix(&matrix, counts, &mut memory).expect("valid");
-    let system =
-        System::new(matrix, &[-1.0, -1.0, -1.0], Law::above(&[-0.5]), counts).expect("valid");
-    work(&system, &mut rows)
-}
-
-#[test]
-fn every_start_and_every_relaxation_lead_to_the_same_answer() {
-    let factors = [0.5, 1.0, 1.5, 1.9].map(Relaxation::Fixed);
-    for relaxation in factors.into_iter().chain([Relaxation::Adaptive(1.0)]) {
-        for start in [[0.0; 3], [1e6, -1e6, 1e6], [-7.0, 3.0, f64::NAN]] {
-            let mut u = start;
-            let settings = Settings { relaxation, tolerance: 1e-14, ..Settings::default() };
-            let mut solver = Solver::new(settings).expect("valid");
-            let outcome = chain(|system, rows| solver.run(system, rows, &mut u)).expect("valid");
-            if start[2].is_nan() {
-                assert!(u[2].is_finite(), "the gap lifts what is not a number");
-            }
-            assert_eq!(outcome.status, Status::Converged, "{relaxation:?} from {start:?}");
-            // u₃ = −½ is active; 2u₁ − u₂ = −1 and −u₁ + 2u₂ = −1 − ½ give u₁ = −7/6, u₂ = −4/3.
-            for (u, exact) in u.iter().zip([-7.0 / 6.0, -4.0 / 3.0, -0.5]) {
-                SOLVED.check(format_args!("{relaxation:?} from {start:?}"), u - exact);
-            }
-        }
-    }
-}
-
-#[test]
-fn every_way_to_end() {
-    let settings = Settings::<f64>::default();
-    let run = |settings, start: [f64; 3]| {
-        let mut u = start;
-        let mut solver = Solver::new(settings).expect("valid");
-        chain(|system, rows| solver.run(system, rows, &mut u)).expect("valid").status
-    };
-    assert_eq!(run(Settings { tolerance: 1e-6, ..settings }, [0.0; 3]), Status::Converged);
-    let few = Settings { max_sweeps: 1, ..settings };
-    assert_eq!(run(few, [0.0; 3]), Status::OutOfSweeps);
-    let ended = run(settings, [0.0; 3]);
-    assert!(matches!(ended, Status::RoundingLimit | Status::Converged), "{ended:?}");
-    assert_eq!(run(settings, [f64::INFINITY, 0.0, 0.0]), Status::NotFinite);
-}
 
 /// micromath's root is off by up to 6 %: it may serve a length, and never changes the solution.
 #[test]

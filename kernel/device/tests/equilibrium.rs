@@ -2,7 +2,7 @@
 
 use crate::numbering::{NONE, SIDES, Side};
 use crate::owned::Packed;
-use crate::plate::Plate;
+use crate::plate::{free_edges, plate};
 use signorini_bound::averages;
 use signorini_bound::cells::Either;
 use signorini_bound::equilibrium::{Iterate, impose, pulled, walk};
@@ -32,19 +32,13 @@ struct Run {
 
 /// Sweeps `sweeps` times from zero and equilibrates; `load` is f.
 fn run(sides: [Side; 4], load: f64, sweeps: usize) -> Result<Run, Error> {
-    let topology = Plate::new(sides)?;
-    let (mesh, edges) = (topology.mesh()?, topology.edges()?);
-    let (counts, half_edges) = (edges.counts(), edges.half_edges());
-
-    let outer: Vec<u16> =
-        (0..counts.free as u16).filter(|&e| half_edges[usize::from(e)][1] == NONE).collect();
-    let is = |edge: u16, side| topology.side(edges.endpoints(&mesh, usize::from(edge))) == side;
-    let insulated = outer.iter().filter(|&&edge| is(edge, Side::Insulated));
-    let neumann: Vec<_> =
-        insulated.map(|&edge| Neumann { edge, flux: 0.01 * f64::from(edge) }).collect();
-    let transfer = outer.iter().filter(|&&edge| is(edge, Side::Transfer));
-    let robin: Vec<_> =
-        transfer.map(|&edge| Robin { edge, coefficient: 0.5, ambient: 1.0 }).collect();
+    let topology = plate(sides)?;
+    let (mesh, edges, counts) = (topology.mesh()?, topology.edges()?, topology.counts);
+    let given = |edge| Neumann { edge, flux: 0.01 * f64::from(edge) };
+    let law = |edge| Robin { edge, coefficient: 0.5, ambient: 1.0 };
+    let on = |side| free_edges(&topology, sides, side);
+    let neumann: Vec<_> = on(Side::Insulated)?.into_iter().map(given).collect();
+    let robin: Vec<_> = on(Side::Transfer)?.into_iter().map(law).collect();
     let (q, gap) = (vec![-0.3; counts.contact], vec![-0.5; counts.contact]);
     let boundary = Boundary::new(&edges, &neumann, &robin, &q)?;
 

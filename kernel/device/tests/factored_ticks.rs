@@ -8,10 +8,9 @@ use signorini_bound::certificate::LoadCase;
 use signorini_device::full::{DataMemory, Functional};
 use signorini_device::sparse::Exact;
 use signorini_device::tick::{
-    CertifiedSweeps, Data, Deadline, Ended, IfStoring, Limits, Progress, Report, Running,
-    Substitutions, Tick, UncertifiedSweeps,
+    CertifiedSweeps, Data, Deadline, Ended, Limits, Progress, Report, Running, Substitutions, Tick,
+    UncertifiedSweeps,
 };
-use signorini_kernel::law::Law;
 use signorini_kernel::mesh::boundary::{Boundary, Robin};
 use signorini_kernel::rows::QUADS;
 use signorini_kernel::{Error, Libm};
@@ -44,33 +43,9 @@ fn swept(tick: &mut Tick<f64, u16, QUADS>, data: Data<f64, u16>) -> Result<Repor
     tick.begin(data)?.advance(CertifiedSweeps(Libm), TO_THE_END, &mut Deadline::never())
 }
 
-/// Data whose source is multiplied, and whose gap bends along the contact.
-struct Input {
-    loads: (Vec<f64>, Vec<f64>),
-    lower: Vec<f64>,
-}
-
-impl Input {
-    fn new(foundation: &Foundation, source: f64, bend: f64) -> Self {
-        let times = |loads: &[f64]| loads.iter().map(|load| load * source).collect();
-        let bent = |(at, psi): (usize, &f64)| psi + bend * at as f64;
-        Self {
-            loads: (times(&foundation.loads.0), times(&foundation.loads.1)),
-            lower: foundation.lower.iter().enumerate().map(bent).collect(),
-        }
-    }
-
-    fn data<'a>(&'a self, foundation: &'a Foundation) -> Result<Data<'a, f64, u16>, Error> {
-        let mut given = foundation.given()?;
-        given.loads.triangles = &self.loads.0;
-        given.loads.quads = &self.loads.1;
-        Ok(Data {
-            given,
-            law: Law::above(&self.lower),
-            dirichlet: &foundation.dirichlet,
-            step: IfStoring::NOTHING,
-        })
-    }
+/// With a source that is multiplied, and a gap that bends along the contact.
+fn bent(foundation: &Foundation, source: f64, bend: f64) -> Foundation {
+    foundation.with(source, |at, psi| psi + bend * at as f64)
 }
 
 /// Until rounding is all that is left.
@@ -92,8 +67,8 @@ fn beside_sweeps(
     let (mut reference, _) = other.of(&foundation, &baked)?;
     let mut counts = Vec::new();
     for (source, bend) in INPUTS {
-        let input = Input::new(&foundation, source, bend);
-        let data = input.data(&foundation)?;
+        let input = bent(&foundation, source, bend);
+        let data = input.data()?;
         let expected = swept(&mut reference, data)?;
         let report = advance(&mut tick.begin(data)?, &mut exact, has_bound, NO_SWEEPS)?;
         assert_eq!((report.active, report.sweeps), (expected.active, 0), "{source} {bend}");
@@ -147,12 +122,12 @@ fn without_a_bound_it_leaves_the_fluxes_of_the_solution() -> Result<(), Error> {
 #[test]
 fn a_factor_of_another_matrix_leaves_it_to_sweeps() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
-    let input = Input::new(&foundation, 1.0, 0.02);
+    let input = bent(&foundation, 1.0, 0.02);
     let sound = Baked::new(&foundation)?;
     let mut store = Store::new(&foundation)?;
     let (mut tick, mut exact) = store.of(&foundation, &sound)?;
     let never = &mut Deadline::never();
-    let data = input.data(&foundation)?;
+    let data = input.data()?;
     tick.begin(data)?.advance(certified(&mut exact), TO_THE_END, never)?;
     let expected = tick.u().to_vec();
     for (what, spoil) in [
@@ -168,7 +143,7 @@ fn a_factor_of_another_matrix_leaves_it_to_sweeps() -> Result<(), Error> {
         for has_bound in [true, false] {
             let mut store = Store::new(&foundation)?;
             let (mut tick, mut exact) = store.of(&foundation, &baked)?;
-            let mut running = tick.begin(input.data(&foundation)?)?;
+            let mut running = tick.begin(input.data()?)?;
             let report = advance(&mut running, &mut exact, has_bound, TO_THE_END)?;
             assert!(report.sweeps > 0 && report.ended == Ended::Settled, "{what}: {report:?}");
             SWEPT.check(what, off(tick.u(), &expected));
@@ -188,7 +163,7 @@ fn a_matrix_that_changes_between_warm_ticks_is_noticed() -> Result<(), Error> {
         for (times, source) in
             [1.5, 30.0, 1e-6, 1e9].into_iter().flat_map(|t| [(t, 1.0), (t, 1.00001)])
         {
-            let [first, second] = [1.0, source].map(|part| Input::new(&foundation, part, 0.02));
+            let [first, second] = [1.0, source].map(|part| bent(&foundation, part, 0.02));
             let mut store = Store::new(&foundation)?;
             let (mut tick, mut exact) = store.of(&foundation, &baked)?;
             let mut solve = |tick: &mut Tick<f64, u16, QUADS>, data: Data<f64, u16>| {
@@ -196,7 +171,7 @@ fn a_matrix_that_changes_between_warm_ticks_is_noticed() -> Result<(), Error> {
             };
             // As close to the answer as it gets before the matrix changes.
             for _ in 0..2 {
-                assert_eq!(solve(&mut tick, first.data(&foundation)?)?.sweeps, 0);
+                assert_eq!(solve(&mut tick, first.data()?)?.sweeps, 0);
             }
             let law =
                 |law: &Robin<f64, u16>| Robin { coefficient: times * law.coefficient, ..*law };
@@ -205,7 +180,7 @@ fn a_matrix_that_changes_between_warm_ticks_is_noticed() -> Result<(), Error> {
             let flux: Vec<_> =
                 (0..edges.counts().contact).map(|at| given.contact_flux(at).base()).collect();
             let boundary = Boundary::new(&edges, given.neumann(), &robin, &flux)?;
-            let data = second.data(&foundation)?;
+            let data = second.data()?;
             let data = Data { given: LoadCase { boundary, ..data.given }, ..data };
             solve(&mut tick, data)?;
             let mut own = Store::new(&foundation)?;
@@ -223,10 +198,10 @@ fn a_matrix_that_changes_between_warm_ticks_is_noticed() -> Result<(), Error> {
 fn a_factor_that_is_another_on_a_warm_tick_is_noticed() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
     let sound = Baked::new(&foundation)?;
-    let [first, second] = [1.0, 1.001].map(|part| Input::new(&foundation, part, 0.02));
+    let [first, second] = [1.0, 1.001].map(|part| bent(&foundation, part, 0.02));
     let mut own = Store::new(&foundation)?;
     let (mut reference, _) = own.of(&foundation, &sound)?;
-    swept(&mut reference, second.data(&foundation)?)?;
+    swept(&mut reference, second.data()?)?;
     let never = &mut Deadline::never();
     for (times, has_bound) in [(1e4, true), (1e4, false), (1e9, true), (1e9, false)] {
         let mut other = Baked::new(&foundation)?;
@@ -234,13 +209,13 @@ fn a_factor_that_is_another_on_a_warm_tick_is_noticed() -> Result<(), Error> {
         other.scale.iter_mut().for_each(|scale| *scale /= f64::sqrt(times));
         let mut store = Store::new(&foundation)?;
         let (mut tick, mut exact) = store.of(&foundation, &sound)?;
-        let mut running = tick.begin(first.data(&foundation)?)?;
+        let mut running = tick.begin(first.data()?)?;
         let report = running.advance(certified(&mut exact), TO_THE_END, never)?;
         assert_eq!(report.sweeps, 0);
         let progress = tick.progress();
         let (memory, mut exact) = store.memory(&foundation, &other)?;
         let mut tick = Tick::resume(foundation.discretization()?, memory, progress)?;
-        let mut running = tick.begin(second.data(&foundation)?)?;
+        let mut running = tick.begin(second.data()?)?;
         let report = advance(&mut running, &mut exact, has_bound, TO_THE_END)?;
         assert!(report.sweeps > 0 && report.ended == Ended::Settled, "{times:e}: {report:?}");
         let off = off(tick.u(), reference.u());
@@ -252,10 +227,10 @@ fn a_factor_that_is_another_on_a_warm_tick_is_noticed() -> Result<(), Error> {
 #[test]
 fn limits_and_deadlines_hold() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
-    let (baked, input) = (Baked::new(&foundation)?, Input::new(&foundation, 1.0, 0.0));
+    let (baked, input) = (Baked::new(&foundation)?, bent(&foundation, 1.0, 0.0));
     let mut store = Store::new(&foundation)?;
     let (mut tick, mut exact) = store.of(&foundation, &baked)?;
-    let mut running = tick.begin(input.data(&foundation)?)?;
+    let mut running = tick.begin(input.data()?)?;
     let short = &mut Deadline { remaining: || 9, sweep: 7, certificate: 3 };
     let report = running.advance(certified(&mut exact), TO_THE_END, short)?;
     assert_eq!((report.ended, report.sweeps), (Ended::OutOfTime, 0));

@@ -1,14 +1,13 @@
 //! Forces of contact keep their sign wherever the solver was stopped, and are those of the law of contact.
 
 use crate::memory::{Dense, Draw, bare};
+use crate::numbering::{Cut, cells, corners};
 use crate::strip::Strip;
 use signorini_contact::method::Sweeps;
 use signorini_contact::outputs::Measure;
 use signorini_contact::{Condensed, Memory};
 use signorini_device::condition::{BoundaryEdge, Condition};
 use signorini_device::workspace;
-use signorini_kernel::flux_range::FluxRange;
-use signorini_kernel::law::EdgeLaw;
 use signorini_kernel::limits::Deadline;
 use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::report::Ended;
@@ -16,17 +15,6 @@ use signorini_kernel::solver::Settings;
 use signorini_kernel::stiffness::Coefficient;
 use signorini_kernel::{Error, Mesh, Real, Tensor};
 use signorini_tolerances::kernel::{FORCE_AT_THE_END, FORCE_BY_LAW};
-
-#[test]
-fn the_law_of_an_edge() {
-    let (gap, q) = (2.0_f64, -0.5);
-    let (law, range) = (EdgeLaw::above(gap), FluxRange::from(q));
-    assert_eq!(law.flux(2.1, 3.0, range), q, "an open edge carries q");
-    assert_eq!(law.flux(gap, 3.0, range), 3.0, "a touching edge carries what presses it");
-    assert_eq!(law.flux(gap, -0.7, range), q, "and is not pulled at");
-    assert!(law.flux(gap, f64::NAN, range).is_nan());
-    assert!(law.flux(f64::NAN, f64::NAN, range).is_nan());
-}
 
 /// Cells along a side of the plate.
 const N: usize = 8;
@@ -53,22 +41,11 @@ fn plate<R: Real>(vertices: &[[R; 2]], triangles: &[[u16; 3]]) -> Result<Box<Pla
     Ok(plate)
 }
 
-fn grid<R: Real>() -> (Vec<[R; 2]>, Vec<[u16; 3]>) {
-    let at = |i: usize| R::from_f64(i as f64 / N as f64).unwrap_or(R::ZERO);
-    let vertices = (0..=N).flat_map(|j| (0..=N).map(move |i| [at(i), at(j)])).collect();
-    let number = |i: usize, j: usize| (j * (N + 1) + i) as u16;
-    let cells = (0..N).flat_map(|j| (0..N).map(move |i| (i, j)));
-    let halves = cells.flat_map(|(i, j)| {
-        let [a, b] = [number(i, j), number(i + 1, j)];
-        let [c, d] = [number(i + 1, j + 1), number(i, j + 1)];
-        [[a, b, c], [a, c, d]]
-    });
-    (vertices, halves.collect())
-}
-
 /// Every stop of a cold solve. Returns how often the plain sum of σ·n − q was negative.
 fn stops<R: Real + Into<f64>>() -> Result<usize, Error> {
-    let (vertices, triangles) = grid::<R>();
+    let at = |x: f64| R::from_f64(x / N as f64).unwrap_or(R::ZERO);
+    let vertices: Vec<_> = corners([N, N]).map(|corner| corner.map(at)).collect();
+    let (triangles, _) = cells([N, N], |_, _| Cut::First);
     let mesh = Mesh::new(&vertices, &triangles, &[])?;
     let mut pulled = 0;
     for sweeps in 0..120 {

@@ -1,7 +1,7 @@
 //! Owned memory of what bounds and ticks borrow.
 
 use signorini_bound::cells::{CellBuffers, Cells, Quad, Triangle, pack};
-use signorini_bound::certificate::{Metric, Stability, stability};
+use signorini_bound::certificate::{Discretization, Metric, POINTS, Stability, stability};
 use signorini_bound::forest::{Forest, ForestBuffers, grow};
 use signorini_device::full::{self, DataMemory, HandedOn, Past};
 use signorini_device::tick::{Memory, Progress};
@@ -10,9 +10,10 @@ use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::rows::{QUADS, Row, Rows};
 use signorini_kernel::stiffness::Stiffness;
-use signorini_kernel::{Error, Real};
+use signorini_kernel::{Error, Real, Tensor};
 
 /// Ways out of the cells, and the cells packed along them.
+#[derive(Clone)]
 pub struct Packed<R> {
     /// Order, parents, places.
     pub ways: [Vec<u16>; 3],
@@ -66,6 +67,43 @@ impl<R: Real> Packed<R> {
     ) -> Result<Stability<R>, Error> {
         let way = &mut vec![R::ZERO; edges.cells()];
         stability(edges, &self.cells(edges)?, metric, boundary, &self.forest(edges)?, way)
+    }
+}
+
+/// A at points of cells, and which of these a cell has.
+pub type Points<R> = (Vec<[Tensor<R>; POINTS * POINTS]>, Vec<u32>);
+
+/// All that a certificate stands on besides the matrix: packed cells, A at points, the cost of surplus.
+#[derive(Clone)]
+pub struct Ground<R> {
+    pub packed: Packed<R>,
+    points: Points<R>,
+    pub stability: Stability<R>,
+}
+
+impl<R: Real> Ground<R> {
+    pub fn new(
+        packed: Packed<R>,
+        points: Points<R>,
+        edges: &Edges<u16>,
+        boundary: &Boundary<R, u16>,
+    ) -> Result<Self, Error> {
+        let metric = Metric { at_points: &points.0, place: &points.1, ..Metric::default() };
+        let stability = packed.stability(edges, metric, boundary)?;
+        Ok(Self { packed, points, stability })
+    }
+
+    /// The view that the kernel takes.
+    pub fn discretization<'a>(
+        &'a self,
+        mesh: Mesh<'a, R, u16>,
+        edges: Edges<'a, u16>,
+        stiffness: Stiffness<'a, R>,
+    ) -> Result<Discretization<'a, R, u16>, Error> {
+        let Self { packed, points: (at_points, place), stability } = self;
+        let metric = Metric { at_points, place, ..Metric::default() };
+        let cells = packed.cells(&edges)?;
+        Ok(Discretization { mesh, edges, stiffness, cells, metric, stability: *stability })
     }
 }
 

@@ -5,15 +5,12 @@ use std::cell::Cell;
 use crate::numbering::SIDES;
 use crate::owned::TickArrays;
 use crate::plate::foundation::{Foundation, GAP};
-use signorini_bound::certificate::{Certificate, Discretization, LoadCase, Verdict};
-use signorini_bound::conforming::VertexData;
+use signorini_bound::certificate::{Certificate, Discretization, Verdict};
 use signorini_device::tick::{
-    CertifiedSweeps, Data, Deadline, Ended, IfStoring, Limits, Memory, Progress, Report, Tick,
+    CertifiedSweeps, Data, Deadline, Ended, Limits, Memory, Progress, Report, Tick,
     UncertifiedSweeps,
 };
-use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::error::Array;
-use signorini_kernel::law::Law;
 use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::rows::{OwnedRows, QUADS};
 use signorini_kernel::stiffness::Stiffness;
@@ -84,19 +81,10 @@ fn exactly(sweeps: u32) -> Limits<f64> {
 }
 
 /// The plate with another gap.
-struct Gap(Vec<[f64; 2]>, Vec<f64>);
-
-impl Gap {
-    fn at(gap: f64, foundation: &Foundation) -> Self {
-        let contact = foundation.lower.len();
-        Self(vec![[gap; 2]; contact], vec![gap; contact])
-    }
-
-    fn data<'a>(&'a self, foundation: &'a Foundation) -> Result<Data<'a, f64, u16>, Error> {
-        let good = foundation.data()?;
-        let ends = VertexData { gap: &self.0, ..good.given.ends };
-        Ok(Data { given: LoadCase { ends, ..good.given }, law: Law::above(&self.1), ..good })
-    }
+fn with_gap(gap: f64, foundation: &Foundation) -> Foundation {
+    let mut other = foundation.with(1.0, |_, _| gap);
+    other.gap.fill([gap; 2]);
+    other
 }
 
 fn certificate(report: &Report<f64>) -> Certificate<f64> {
@@ -307,8 +295,8 @@ fn edges_in_contact_follow_the_gap() -> Result<(), Error> {
     let mut tick = cold(&mut store, &foundation)?;
     let before = certified(&mut tick, foundation.data()?, Limits::default())?;
     // The gap falls: what was in contact stays, though nothing but the bound pushes it down.
-    let gap = Gap::at(GAP - 0.01, &foundation);
-    let after = certified(&mut tick, gap.data(&foundation)?, exactly(0))?;
+    let lower = with_gap(GAP - 0.01, &foundation);
+    let after = certified(&mut tick, lower.data()?, exactly(0))?;
     assert_eq!((after.active, after.figures.changes, after.sweeps), (before.active, 0, 0));
     Ok(())
 }
@@ -326,7 +314,7 @@ fn after_an_overflow_a_tick_starts_on_the_gap() -> Result<(), Error> {
     let progress = Progress::new(Relaxation::Adaptive(1.0))?;
     let mut tick = resumed(&mut store, &foundation, &mut rows, progress)?;
     // A gap above 0, where everything else starts.
-    certified(&mut tick, Gap::at(2.0, &foundation).data(&foundation)?, exactly(0))?;
+    certified(&mut tick, with_gap(2.0, &foundation).data()?, exactly(0))?;
     assert!(tick.u()[contact].iter().all(|&u| u == 2.0), "{:?}", tick.u());
     Ok(())
 }
@@ -342,8 +330,8 @@ fn fluxes_that_overflow_are_said_to() -> Result<(), Error> {
     let stiffness = Stiffness { triangles: &triangles, quads: &quads };
     let mut store = arrays(&foundation)?;
     let mut tick = on(&mut store, Discretization { stiffness, ..foundation.discretization()? })?;
-    let gap = Gap::at(f64::MAX / 1e33, &foundation);
-    let report = uncertified(&mut tick, gap.data(&foundation)?, exactly(0))?;
+    let high = with_gap(f64::MAX / 1e33, &foundation);
+    let report = uncertified(&mut tick, high.data()?, exactly(0))?;
     let numbers = tick.u().iter().chain([&report.figures.residual]);
     assert!(numbers.into_iter().all(|x| x.is_finite()), "{report:?}");
     assert_eq!(report.ended, Ended::NotFinite, "{report:?}");
@@ -356,14 +344,9 @@ fn takes(
     foundation: &Foundation,
     [gap, given, source]: [f64; 3],
 ) -> Result<bool, Error> {
-    let times = |numbers: &[f64], by: f64| numbers.iter().map(|x| x * by).collect::<Vec<_>>();
-    let (lower, dirichlet) = (times(&foundation.lower, gap), times(&foundation.dirichlet, given));
-    let (triangles, quads) =
-        (times(&foundation.loads.0, source), times(&foundation.loads.1, source));
-    let loads = CellLoads { triangles: &triangles, quads: &quads };
-    let given = LoadCase { loads, ..foundation.given()? };
-    let (law, dirichlet, step) = (Law::above(&lower), &dirichlet, IfStoring::NOTHING);
-    match tick.begin(Data { given, law, dirichlet, step }) {
+    let mut other = foundation.with(source, |_, psi| psi * gap);
+    other.dirichlet.iter_mut().for_each(|value| *value *= given);
+    match tick.begin(other.data()?) {
         Ok(mut running) => {
             running.advance(CertifiedSweeps(Libm), Limits::default(), &mut Deadline::never())?;
             Ok(true)
@@ -435,24 +418,17 @@ fn data_that_are_not_finite_change_nothing() -> Result<(), Error> {
     let good = certified(&mut tick, foundation.data()?, Limits::default())?;
     let u = tick.u().to_vec();
     for poison in [f64::NAN, f64::INFINITY] {
-        let good_data = foundation.data()?;
-        let lower = vec![poison; foundation.lower.len()];
-        let dirichlet = vec![poison; foundation.dirichlet.len()];
-        let cells = vec![poison; foundation.loads.0.len()];
-        let mut loads = good_data.given.loads;
-        loads.triangles = &cells;
-        let ends = vec![[poison; 2]; lower.len()];
-        let gap = VertexData { gap: &ends, ..good_data.given.ends };
-        let given = good_data.given;
-        let refused = [
-            Data { law: Law::above(&lower), ..good_data },
-            Data { dirichlet: &dirichlet, ..good_data },
-            Data { given: LoadCase { loads, ..given }, ..good_data },
-            Data { given: LoadCase { ends: gap, ..given }, ..good_data },
-            Data { given: LoadCase { oscillation: poison, ..given }, ..good_data },
+        let spoilt: [fn(&mut Foundation, f64); 5] = [
+            |of, poison| of.lower.fill(poison),
+            |of, poison| of.dirichlet.fill(poison),
+            |of, poison| of.loads.0.fill(poison),
+            |of, poison| of.gap.fill([poison; 2]),
+            |of, poison| of.oscillation = poison,
         ];
-        for data in refused {
-            assert!(matches!(tick.begin(data), Err(Error::NotFinite { .. })));
+        for spoil in spoilt {
+            let mut other = foundation.clone();
+            spoil(&mut other, poison);
+            assert!(matches!(tick.begin(other.data()?), Err(Error::NotFinite { .. })));
             assert_eq!((tick.u(), tick.report()), (&u[..], Some(&good)));
         }
     }

@@ -1,7 +1,7 @@
 //! The foundation of a certificate, for any sound numbering: owned arrays, filled from bytes.
 
 use signorini_bound::certificate::{
-    Buffers, Certificate, Curved, Discretization, LoadCase, Metric, Stability, Verdict, certify,
+    Buffers, Certificate, Curved, Discretization, LoadCase, Verdict, certify,
 };
 use signorini_bound::conforming::VertexData;
 use signorini_bound::equilibrium::{Iterate, is_root};
@@ -17,7 +17,7 @@ use signorini_kernel::{Error, Tensor};
 
 use super::bytes::{Bits, Bytes};
 use super::numbering::NONE;
-use super::owned::Packed;
+use super::owned::{Ground, Packed};
 
 /// Conditions on the boundary.
 pub struct Conditions<R> {
@@ -54,10 +54,7 @@ impl<R: Bits> Conditions<R> {
 /// Ways out and packed cells.
 pub struct Foundation<R> {
     pub stiffness: (Vec<[R; 3]>, Vec<[R; 6]>),
-    points: Vec<[Tensor<R>; 64]>,
-    place: Vec<u32>,
-    packed: Packed<R>,
-    stability: Stability<R>,
+    ground: Ground<R>,
 }
 
 impl<R: Bits> Foundation<R> {
@@ -87,9 +84,8 @@ impl<R: Bits> Foundation<R> {
         let k = Stiffness { triangles: &stiffness.0, quads: &stiffness.1 };
         let a = [&alpha[..], &compliance];
         let packed = Packed::new((mesh, edges), k, a, |cell| cost[cell], root)?;
-        let metric = Metric { at_points: &points, place: &place, ..Metric::default() };
-        let stability = packed.stability(edges, metric, boundary)?;
-        Ok(Self { stiffness, points, place, packed, stability })
+        let ground = Ground::new(packed, (points, place), edges, boundary)?;
+        Ok(Self { stiffness, ground })
     }
 
     /// The view that the kernel takes.
@@ -98,14 +94,8 @@ impl<R: Bits> Foundation<R> {
         mesh: Mesh<'a, R, u16>,
         edges: Edges<'a, u16>,
     ) -> Result<Discretization<'a, R, u16>, Error> {
-        Ok(Discretization {
-            mesh,
-            edges,
-            stiffness: Stiffness { triangles: &self.stiffness.0, quads: &self.stiffness.1 },
-            cells: self.packed.cells(&edges)?,
-            metric: Metric { at_points: &self.points, place: &self.place, ..Metric::default() },
-            stability: self.stability,
-        })
+        let (triangles, quads) = &self.stiffness;
+        self.ground.discretization(mesh, edges, Stiffness { triangles, quads })
     }
 }
 

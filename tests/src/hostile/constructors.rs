@@ -19,9 +19,8 @@ use signorini_kernel::{Error, Libm, Tensor};
 use signorini_solve::prolongation::{Origin, prolong};
 
 use super::bytes::{Bits, Bytes};
-use super::numbering::NONE;
-use super::plate::Plate;
-use super::{condensed, stages};
+use super::numbering::{NONE, NumberedMesh};
+use super::{condensed, plate, stages};
 
 /// The first byte chooses a constructor and the scalar; the rest fills arrays.
 pub fn constructors(data: &[u8]) {
@@ -50,8 +49,8 @@ fn construct<R: Bits>(which: u8, bytes: &mut Bytes) -> Result<(), Error> {
 
 /// Any mesh that the kernel takes, on its own numbering.
 fn of_mesh<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
-    let plate =
-        if bytes.flag() { Plate::arbitrary(bytes)? } else { Plate::<R>::grid(bytes, true)? };
+    let plate: NumberedMesh<R> =
+        if bytes.flag() { plate::arbitrary(bytes)? } else { plate::grid(bytes, true)? };
     let (mesh, edges) = (plate.mesh()?, plate.edges()?);
     let matrices = stages::filled(bytes, &mesh)?;
     stages::all(bytes, &mesh, &edges, matrices)
@@ -170,7 +169,7 @@ fn of_matrix<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
 
 /// The short way through the layers, with data set anew.
 fn in_a_workspace<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
-    let plate = Plate::<R>::arbitrary(bytes)?;
+    let plate = plate::arbitrary::<R>(bytes)?;
     let mesh = plate.mesh()?;
     let mut workspace = <workspace!(R, u16: vertices 10, triangles 8, quads 6, boundary 24)>::new();
     let tensor = Tensor { xx: bytes.real(), xy: bytes.real(), yy: bytes.real() };
@@ -222,7 +221,7 @@ fn small_ones<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
 
 /// Orders and parents of any bits for a grid.
 fn ways_out<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
-    let plate = Plate::<R>::grid(bytes, false)?;
+    let plate = plate::grid::<R>(bytes, false)?;
     let edges = plate.edges()?;
     Boundary::<R, u16>::new(&edges, &[], &[], &bytes.reals(edges.counts().contact))?;
     let cells = edges.cells();

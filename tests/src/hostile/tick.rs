@@ -13,10 +13,9 @@ use signorini_kernel::{Error, Libm, Tensor};
 
 use super::bytes::{Bits, Bytes, bits, check_settled};
 use super::certified::{Conditions, Foundation, Loads, is_bound};
-use super::condensed;
 use super::owned::TickArrays;
-use super::plate::Plate;
 use super::scenes::{self, Kept};
+use super::{condensed, plate};
 
 /// The first byte chooses the loop and the scalar; the rest is what it is told.
 pub fn tick(data: &[u8]) {
@@ -39,7 +38,7 @@ const TENSORS: [[f64; 3]; 3] = [[1.0, 0.0, 1.0], [3.0, -1.2, 1.5], [100.0, 0.0, 
 
 /// The kernel's tick on a grid.
 fn held<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
-    let plate = Plate::<R>::grid(bytes, false)?;
+    let plate = plate::grid::<R>(bytes, false)?;
     let (mesh, edges) = (plate.mesh()?, plate.edges()?);
     let counts = edges.counts();
     let mut k = (vec![[R::ZERO; 3]; plate.triangles.len()], vec![[R::ZERO; 6]; plate.quads.len()]);

@@ -57,8 +57,8 @@ fn cut_off_the_bound_is_not_far_from_the_error() {
     for (name, written) in slow {
         let text = written.scene([Side::Dirichlet; 3], Units::ONE);
         for cells in [Cells::Triangles, Cells::Quads] {
-            let (scene, problem) = posed(&text, regular(16, cells));
-            let exact = scene.exact.as_ref().expect("an exact solution");
+            let problem = posed(&text, regular(16, cells));
+            let exact = problem.scene.exact.as_ref().expect("an exact solution");
             // Evaluated once for all stops.
             let exact = Table::of(&Known { exact, problem: &problem }, &problem).expect("finite");
             for sweeps in [1, 5, 20, 80, 320] {

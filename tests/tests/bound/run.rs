@@ -1,18 +1,16 @@
 //! From the text of a scene to its bound and the errors that it bounds.
 
-use std::path::Path;
-
 use signorini_certify::ErrorBound;
 use signorini_problem::Problem;
 use signorini_scene::mesh::Mesh;
-use signorini_scene::scene::Scene;
 use signorini_solve::energy_norm::nonconformity;
 use signorini_solve::norms::{Errors, errors, of_solution};
 use signorini_solve::{Options, ScalarKind, Solution, solve};
 
+use crate::standard;
+
 /// A solved scene.
 pub struct Run {
-    pub scene: Scene,
     pub problem: Problem,
     pub solution: Solution,
 }
@@ -35,18 +33,15 @@ pub fn options(scalar: ScalarKind, sweeps: Option<u32>) -> Options {
 }
 
 /// A scene on its mesh.
-pub fn posed(text: &str, mesh: Mesh) -> (Scene, Problem) {
-    let read = Scene::parse(text, Path::new("test.toml"));
-    let scene = read.unwrap_or_else(|error| panic!("{error}\n{text}"));
-    let problem = Problem::new(&scene, mesh).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    (scene, problem)
+pub fn posed(text: &str, mesh: Mesh) -> Problem {
+    standard::posed(text, mesh).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
 /// Solves a scene that has a solution.
 pub fn run(text: &str, mesh: Mesh, options: &Options) -> Run {
-    let (scene, problem) = posed(text, mesh);
+    let problem = posed(text, mesh);
     let solution = solve(&problem, options).unwrap_or_else(|error| panic!("{error}"));
-    Run { scene, problem, solution }
+    Run { problem, solution }
 }
 
 impl Run {
@@ -68,8 +63,8 @@ impl Run {
 
     /// The errors of u_h and σ_h.
     pub fn errors(&self) -> Errors {
-        let Self { scene, problem, solution } = self;
-        let exact = scene.exact.as_ref().expect("an exact solution");
+        let Self { problem, solution } = self;
+        let exact = problem.scene.exact.as_ref().expect("an exact solution");
         errors(exact, problem, &solution.u, &solution.flux).expect("finite")
     }
 }

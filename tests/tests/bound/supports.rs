@@ -87,7 +87,7 @@ boundary.default = { kind = "neumann", flux = 0 }
 "#;
 
 fn summary(text: &str, mesh: Mesh) -> Value {
-    let (_, problem) = posed(text, mesh);
+    let problem = posed(text, mesh);
     let solution = solve(&problem, &Options::default()).expect("loads in balance");
     assert!(solution.converged() && solution.bound.is_none());
     let answer = Answer::new(problem, solution, None, SolverKind::Kernel, Coverage::Usual, None);

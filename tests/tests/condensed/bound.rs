@@ -42,7 +42,7 @@ fn judge<R: Bakes>(model: &Model, mut draw: impl FnMut(usize) -> f64, found: &mu
         let baked: Baked<R> = model.baked(work);
         let mut controller = Controller::new(&baked);
         for _ in 0..3 {
-            let inputs = 0..model.scene.inputs.len();
+            let inputs = 0..model.problem.scene.inputs.len();
             let p: Vec<R> = inputs.map(|at| R::narrow(draw(at))).collect();
             let (_, report) = controller.tick(&p).expect("a tick");
             let p: Vec<f64> = std::iter::once(1.0).chain(p.iter().map(|p| p.wide())).collect();
@@ -74,7 +74,8 @@ fn of_random_scenes() {
     for seed in 0..signorini_tolerances::cases(SEEDS) {
         let Some(model) = Model::random(seed, 5) else { continue };
         let random = &mut Random::new(seed);
-        let defaults: Vec<f64> = model.scene.inputs.iter().map(|input| input.default).collect();
+        let defaults: Vec<f64> =
+            model.problem.scene.inputs.iter().map(|input| input.default).collect();
         let mut draw = |at: usize| defaults[at] + random.between(-2.0, 2.0);
         judge::<f32>(&model, &mut draw, &mut narrow);
         judge::<f64>(&model, &mut draw, &mut wide);

@@ -40,7 +40,7 @@ struct Output {
 /// Values of the inputs that f32 holds exactly, on the other side of the default where they would leave their range.
 fn inputs(model: &Model, amount: f64, random: &mut Random) -> Vec<f64> {
     let near = |input| moved(input, amount * (f64::from(random.below(256)) / 64.0 - 2.0));
-    model.scene.inputs.iter().map(near).collect()
+    model.problem.scene.inputs.iter().map(near).collect()
 }
 
 /// Y_p and Y_x of an output, its reactions being linear in p and x.
@@ -158,8 +158,7 @@ fn the_standard_scenes_have_the_outputs_of_the_full_model() {
     for (name, amount) in
         [("levee", 0.2), ("slab", 2.0), ("strip", 0.1), ("membrane", 0.0), ("pit", 0.0)]
     {
-        let (scene, problem) = standard(name);
-        let model = Model::new(name.to_owned(), scene, problem).expect("a model");
+        let model = Model::new(name.to_owned(), standard(name)).expect("a model");
         check::<f64>(&model, CONDENSED, amount, 1);
         check::<f32>(&model, CONDENSED_NARROW, amount, 1);
     }

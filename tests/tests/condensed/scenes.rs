@@ -1,18 +1,16 @@
 //! Random scenes with inputs on every field and outputs of every kind.
 
-use std::path::Path;
-
 use signorini_bake::Bakes;
 use signorini_bake::condensed::{Baked, Work};
 use signorini_condense::{CondensedModel, condense};
 use signorini_problem::Problem;
 use signorini_scene::mesh::Mesh;
-use signorini_scene::scene::Scene;
 use signorini_solve::Solution;
 use signorini_solve::fixtures::full_at;
 use signorini_tests::random::{Random, tensor};
 
 use crate::mesh::{KINDS, regular, scattered};
+use crate::standard::posed;
 
 /// Solves to the end.
 pub const EXACT: Work = Work { pivots: Some(1000), sweeps: 50 };
@@ -20,15 +18,14 @@ pub const EXACT: Work = Work { pivots: Some(1000), sweeps: 50 };
 /// A scene with its condensed model.
 pub struct Model {
     pub what: String,
-    pub scene: Scene,
     pub problem: Problem,
     pub condensate: CondensedModel,
 }
 
 impl Model {
-    pub fn new(what: String, scene: Scene, problem: Problem) -> Result<Self, String> {
+    pub fn new(what: String, problem: Problem) -> Result<Self, String> {
         let condensate = condense(&problem).map_err(|error| format!("{what}: {error}"))?;
-        Ok(Self { what, scene, problem, condensate })
+        Ok(Self { what, problem, condensate })
     }
 
     /// A random one: 2 to `2 * most` edges along the bottom, up to three sides more.
@@ -48,10 +45,8 @@ impl Model {
     }
 
     pub fn of_text(what: String, text: &str, mesh: Mesh) -> Result<Self, String> {
-        let told = |error: &dyn std::fmt::Display| format!("{what}: {error}");
-        let scene = Scene::parse(text, Path::new("test.toml")).map_err(|error| told(&error))?;
-        let problem = Problem::new(&scene, mesh).map_err(|error| told(&error))?;
-        Self::new(what, scene, problem)
+        let problem = posed(text, mesh).map_err(|error| format!("{what}: {error}"))?;
+        Self::new(what, problem)
     }
 
     pub fn baked<R: Bakes>(&self, work: Work) -> Baked<R> {

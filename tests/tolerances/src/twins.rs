@@ -82,10 +82,6 @@ table! {
         "some roundings of data that are no longer powers of two apart";
     AGAIN: "outputs of a tick that is repeated, over its inputs, in ε as of f64", 7.2e-15,
         "32 ε: the same exchanges, in another order";
-    AFTER_HUGE: "openings after huge ticks against those without, over 1 and their size", 2e-6,
-        "f32: what is left over in a tableau";
-    WORN: "outputs of 1000 ticks in f32 against f64, over the inputs", 1e-5,
-        "f32: a tableau is built anew before it has worn";
     SUM_OF_LENGTHS: "length of contact, over all lengths, in ε as of f64", 1.8e-15,
         "8 ε: a sum of a dozen lengths";
     OSCILLATING: "what rounding adds to a bound that oscillation dominates, in f32, over the bound", 1e-4,

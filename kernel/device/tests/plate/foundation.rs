@@ -1,6 +1,6 @@
 //! The plate with full data: what a certificate and a tick stand on.
 
-use signorini_bound::certificate::{self, Discretization, LoadCase, Metric};
+use signorini_bound::certificate::{self, Discretization, LoadCase};
 use signorini_bound::conforming::VertexData;
 use signorini_bound::equilibrium::is_root;
 use signorini_device::full::{Base, Full, Functional};
@@ -13,9 +13,9 @@ use signorini_kernel::relaxation::Relaxation;
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::{Error, Real, Tensor};
 
-use super::Plate;
-use crate::numbering::{NONE, Side};
-use crate::owned::Packed;
+use super::{Plate, free_edges, plate};
+use crate::numbering::Side;
+use crate::owned::{Ground, Packed, Points};
 
 pub const A: Tensor<f64> = Tensor { xx: 3.0, xy: -1.2, yy: 1.5 };
 pub const LOAD: f64 = -0.8;
@@ -25,50 +25,60 @@ pub const LAW: [f64; 2] = [0.7, 0.4];
 pub const GIVEN: f64 = 0.9;
 
 /// Owned arrays.
+#[derive(Clone)]
 pub struct Foundation {
     pub plate: Plate,
     neumann: Vec<Neumann<f64, u16>>,
     robin: Vec<Robin<f64, u16>>,
     flux: Vec<f64>,
     stiffness: (Vec<[f64; 3]>, Vec<[f64; 6]>),
-    points: Vec<[Tensor<f64>; 64]>,
-    place: Vec<u32>,
-    packed: Packed<f64>,
+    ground: Ground<f64>,
     pub loads: (Vec<f64>, Vec<f64>),
-    gap: Vec<[f64; 2]>,
+    pub gap: Vec<[f64; 2]>,
     given: Vec<[f64; 2]>,
     pub lower: Vec<f64>,
     pub dirichlet: Vec<f64>,
+    pub oscillation: f64,
 }
 
 impl Foundation {
     pub fn new(sides: [Side; 4], at_points: bool) -> Result<Self, Error> {
-        let plate = Plate::new(sides)?;
-        let counts = plate.edges()?.counts();
+        let plate = plate(sides)?;
+        let counts = plate.counts;
         let law = |edge| Robin { edge, coefficient: LAW[0], ambient: LAW[0] * LAW[1] };
-        let on = |side| free_edges(&plate, side);
+        let on = |side| free_edges(&plate, sides, side);
         let neumann = on(Side::Insulated)?.into_iter().map(|edge| Neumann { edge, flux: 0.3 });
         let (neumann, robin): (Vec<_>, Vec<_>) =
             (neumann.collect(), on(Side::Transfer)?.into_iter().map(law).collect());
         let mut k = (vec![[0.0; 3]; plate.triangles.len()], vec![[0.0; 6]; plate.quads.len()]);
         stiffness::fill(&plate.mesh()?, Coefficient::Uniform(A), 2, &mut k.0, &mut k.1)?;
         let flux = vec![-0.2; counts.contact];
-        let packed = packed(&plate, (&neumann, &robin, &flux), &k)?;
+        let points = if at_points { metric(&plate) } else { Vec::new() };
+        let places = (0..(k.0.len() + k.1.len()) as u32).collect();
+        let ground = ground(&plate, (&neumann, &robin, &flux), &k, (points, places))?;
         Ok(Self {
             neumann,
             robin,
             flux,
-            points: if at_points { metric(&plate) } else { Vec::new() },
-            place: (0..(k.0.len() + k.1.len()) as u32).collect(),
-            packed,
+            ground,
             loads: (vec![LOAD / 2.0; k.0.len()], vec![LOAD; k.1.len()]),
             gap: vec![[GAP; 2]; counts.contact],
             given: vec![[GIVEN; 2]; counts.dirichlet],
             lower: vec![GAP; counts.contact],
             dirichlet: vec![GIVEN; counts.dirichlet],
+            oscillation: 0.0,
             stiffness: k,
             plate,
         })
+    }
+
+    /// A copy whose source is multiplied, with other means of ψ.
+    pub fn with(&self, source: f64, psi: impl Fn(usize, f64) -> f64) -> Self {
+        let mut other = self.clone();
+        let loads = other.loads.0.iter_mut().chain(&mut other.loads.1);
+        loads.for_each(|load| *load *= source);
+        other.lower.iter_mut().enumerate().for_each(|(at, lower)| *lower = psi(at, *lower));
+        other
     }
 
     pub fn boundary(&self) -> Result<Boundary<'_, f64, u16>, Error> {
@@ -79,20 +89,8 @@ impl Foundation {
         Stiffness { triangles: &self.stiffness.0, quads: &self.stiffness.1 }
     }
 
-    fn metric(&self) -> Metric<'_, f64> {
-        Metric { at_points: &self.points, place: &self.place, ..Metric::default() }
-    }
-
     pub fn discretization(&self) -> Result<Discretization<'_, f64, u16>, Error> {
-        let edges = self.plate.edges()?;
-        Ok(Discretization {
-            mesh: self.plate.mesh()?,
-            edges,
-            stiffness: self.stiffness(),
-            cells: self.packed.cells(&edges)?,
-            metric: self.metric(),
-            stability: self.packed.stability(&edges, self.metric(), &self.boundary()?)?,
-        })
+        self.ground.discretization(self.plate.mesh()?, self.plate.edges()?, self.stiffness())
     }
 
     pub fn given(&self) -> Result<LoadCase<'_, f64, u16>, Error> {
@@ -100,6 +98,7 @@ impl Foundation {
             loads: CellLoads { triangles: &self.loads.0, quads: &self.loads.1 },
             boundary: self.boundary()?,
             ends: VertexData { gap: &self.gap, given: &self.given },
+            oscillation: self.oscillation,
             ..LoadCase::default()
         })
     }
@@ -143,24 +142,19 @@ impl Foundation {
 
 type Records<'a> = (&'a [Neumann<f64, u16>], &'a [Robin<f64, u16>], &'a [f64]);
 
-fn packed(
+fn ground(
     plate: &Plate,
     (neumann, robin, flux): Records,
     k: &(Vec<[f64; 3]>, Vec<[f64; 6]>),
-) -> Result<Packed<f64>, Error> {
+    points: Points<f64>,
+) -> Result<Ground<f64>, Error> {
     let (mesh, edges) = (plate.mesh()?, plate.edges()?);
     let boundary = Boundary::new(&edges, neumann, robin, flux)?;
     let compliance = vec![0.25 / (A.xx * A.yy - A.xy * A.xy); k.0.len()];
     let stiffness = Stiffness { triangles: &k.0, quads: &k.1 };
     let is_root = |edge| is_root(&edges, &boundary, edge);
-    Packed::new((&mesh, &edges), stiffness, [&[], &compliance], |_| 1.0, is_root)
-}
-
-fn free_edges(plate: &Plate, side: Side) -> Result<Vec<u16>, Error> {
-    let (mesh, edges) = (plate.mesh()?, plate.edges()?);
-    let outer = (0..edges.counts().free).filter(|&edge| edges.half_edges()[edge][1] == NONE);
-    let on = outer.filter(|&edge| plate.side(edges.endpoints(&mesh, edge)) == side);
-    Ok(on.map(|edge| edge as u16).collect())
+    let packed = Packed::new((&mesh, &edges), stiffness, [&[], &compliance], |_| 1.0, is_root)?;
+    Ground::new(packed, points, &edges, &boundary)
 }
 
 /// A in reference coordinates at the points of every cell, though it is constant.

@@ -1,27 +1,23 @@
 //! A scene as the arrays that the kernel borrows.
 
+use std::ops::Deref;
+
 use signorini_bound::conforming::VertexData;
 use signorini_kernel::assembly::{self, CellLoads};
 use signorini_kernel::csr::Csr;
 use signorini_kernel::law::Law;
-use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
-use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::system::{Shifts, System};
 use signorini_kernel::{Error, Tensor};
 
 use super::scene::{Draw, Scalar, Scene};
-use crate::numbering::{NONE, Numbering, Side};
+use crate::numbering::{NONE, NumberedMesh, Side};
 
 #[derive(Clone)]
 pub struct Arrays<R> {
-    pub vertices: Vec<[R; 2]>,
-    pub triangles: Vec<[u16; 3]>,
-    pub quads: Vec<[u16; 4]>,
-    numbering: Numbering,
-    pub counts: EdgeCounts,
+    mesh: NumberedMesh<R>,
     /// Of the cells.
     pub tensors: Vec<Tensor<R>>,
     pub k: (Vec<[R; 3]>, Vec<[R; 6]>),
@@ -44,18 +40,25 @@ pub struct Arrays<R> {
     pub start: Vec<R>,
 }
 
+/// A scene is its mesh, with data.
+impl<R> Deref for Arrays<R> {
+    type Target = NumberedMesh<R>;
+
+    fn deref(&self) -> &NumberedMesh<R> {
+        &self.mesh
+    }
+}
+
 impl<R: Scalar> Arrays<R> {
     pub fn new(scene: &Scene) -> Result<Self, Error> {
-        let (vertices, triangles, quads) = scene.mesh();
-        let vertices: Vec<_> = vertices.iter().map(|v| v.map(R::of)).collect();
-        let mesh = Mesh::new(&vertices, &triangles, &quads)?;
-        let numbering = Numbering::new(&mesh, |ends| scene.side(ends).block())?;
-        let counts = numbering.counts;
-        let cells = triangles.len() + quads.len();
+        let (vertices, cells) = scene.mesh();
+        let vertices = vertices.iter().map(|v| v.map(R::of)).collect();
+        let mesh = NumberedMesh::new(vertices, cells, |ends| scene.side(ends).block())?;
+        let (triangles, quads, counts) = (mesh.triangles.len(), mesh.quads.len(), mesh.counts);
         let mut arrays = Self {
-            tensors: vec![Tensor::scalar(R::ONE); cells],
-            k: (vec![[R::ZERO; 3]; triangles.len()], vec![[R::ZERO; 6]; quads.len()]),
-            loads: (vec![R::ZERO; triangles.len()], vec![R::ZERO; quads.len()]),
+            tensors: vec![Tensor::scalar(R::ONE); triangles + quads],
+            k: (vec![[R::ZERO; 3]; triangles], vec![[R::ZERO; 6]; quads]),
+            loads: (vec![R::ZERO; triangles], vec![R::ZERO; quads]),
             neumann: Vec::new(),
             robin: Vec::new(),
             flux: Vec::new(),
@@ -68,11 +71,7 @@ impl<R: Scalar> Arrays<R> {
             values: Vec::new(),
             load: vec![R::ZERO; counts.unknowns()],
             start: Vec::new(),
-            vertices,
-            triangles,
-            quads,
-            numbering,
-            counts,
+            mesh,
         };
         arrays.draw(scene)?;
         arrays.assemble()?;
@@ -140,14 +139,6 @@ impl<R: Scalar> Arrays<R> {
         assembly::load(&edges, self.cell_loads(), &boundary, &mut load)?;
         (self.row_ptr, self.col_idx, self.values, self.load) = (row_ptr, col_idx, values, load);
         Ok(())
-    }
-
-    pub fn mesh(&self) -> Result<Mesh<'_, R, u16>, Error> {
-        Mesh::new(&self.vertices, &self.triangles, &self.quads)
-    }
-
-    pub fn edges(&self) -> Result<Edges<'_, u16>, Error> {
-        self.numbering.edges()
     }
 
     pub fn boundary(&self) -> Result<Boundary<'_, R, u16>, Error> {

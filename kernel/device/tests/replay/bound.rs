@@ -1,8 +1,6 @@
 //! The parts of a certificate, and certificates themselves.
 
-use signorini_bound::certificate::{
-    Buffers, Curved, Discretization, LoadCase, Metric, Stability, certify, of_quad, of_triangle,
-};
+use signorini_bound::certificate::{Buffers, Curved, LoadCase, certify, of_quad, of_triangle};
 use signorini_bound::conforming::VertexData;
 use signorini_bound::equilibrium::{Iterate, is_root};
 use signorini_kernel::assembly::CellLoads;
@@ -14,58 +12,31 @@ use signorini_kernel::{Error, Tensor};
 use super::arrays::Arrays;
 use super::journal::Journal;
 use super::scene::{Draw, Scalar};
-use crate::owned::Packed;
+use crate::owned::{Ground, Packed};
 
-/// The part of the discretization that stays in memory.
-pub struct EquilibrationForest<R> {
-    packed: Packed<R>,
-    points: Vec<[Tensor<R>; 64]>,
-    place: Vec<u32>,
-    stability: Stability<R>,
-}
-
-impl<R: Scalar> EquilibrationForest<R> {
-    /// With A at the points of the cells whose number is a multiple of `every`; of none where that is 0.
-    pub fn new(arrays: &Arrays<R>, every: usize) -> Result<Self, Error> {
-        let (edges, boundary, mesh) = (arrays.edges()?, arrays.boundary()?, arrays.mesh()?);
-        let alpha: Vec<_> = arrays.tensors.iter().map(|a| (a.xx + a.yy) * R::HALF).collect();
-        let determinant = |a: &Tensor<R>| R::QUARTER / (a.xx * a.yy - a.xy * a.xy);
-        let triangles = &arrays.tensors[..arrays.triangles.len()];
-        let compliance: Vec<_> = triangles.iter().map(determinant).collect();
-        let cost = |cell: usize| R::ONE / alpha[cell];
-        // Contact edges are roots where nothing else is.
-        let held = arrays.counts.dirichlet + arrays.robin.len() > 0;
-        let is_way_out = |edge| {
-            is_root(&edges, &boundary, edge)
-                || (!held && arrays.counts.block(edge) == Block::Contact)
-        };
-        let (k, a) = (arrays.stiffness(), [&alpha[..], &compliance]);
-        let packed = Packed::new((&mesh, &edges), k, a, cost, is_way_out)?;
-        let mut place = vec![u32::MAX; if every > 0 { edges.cells() } else { 0 }];
-        let mut points = Vec::new();
-        for at in (0..edges.cells()).step_by(every.max(1)).filter(|_| every > 0) {
-            place[at] = points.len() as u32;
-            points.push(at_points(arrays, at));
-        }
-        let metric = Metric { at_points: &points, place: &place, ..Metric::default() };
-        let stability = packed.stability(&edges, metric, &boundary)?;
-        Ok(Self { packed, points, place, stability })
+/// The part of the discretization that stays in memory, with A at the points of the cells whose number is a multiple of
+/// `every`; of none where that is 0.
+pub fn ground<R: Scalar>(arrays: &Arrays<R>, every: usize) -> Result<Ground<R>, Error> {
+    let (edges, boundary, mesh) = (arrays.edges()?, arrays.boundary()?, arrays.mesh()?);
+    let alpha: Vec<_> = arrays.tensors.iter().map(|a| (a.xx + a.yy) * R::HALF).collect();
+    let determinant = |a: &Tensor<R>| R::QUARTER / (a.xx * a.yy - a.xy * a.xy);
+    let triangles = &arrays.tensors[..arrays.triangles.len()];
+    let compliance: Vec<_> = triangles.iter().map(determinant).collect();
+    let cost = |cell: usize| R::ONE / alpha[cell];
+    // Contact edges are roots where nothing else is.
+    let held = arrays.counts.dirichlet + arrays.robin.len() > 0;
+    let is_way_out = |edge| {
+        is_root(&edges, &boundary, edge) || (!held && arrays.counts.block(edge) == Block::Contact)
+    };
+    let (k, a) = (arrays.stiffness(), [&alpha[..], &compliance]);
+    let packed = Packed::new((&mesh, &edges), k, a, cost, is_way_out)?;
+    let mut place = vec![u32::MAX; if every > 0 { edges.cells() } else { 0 }];
+    let mut points = Vec::new();
+    for at in (0..edges.cells()).step_by(every.max(1)).filter(|_| every > 0) {
+        place[at] = points.len() as u32;
+        points.push(at_points(arrays, at));
     }
-
-    pub fn discretization<'a>(
-        &'a self,
-        arrays: &'a Arrays<R>,
-    ) -> Result<Discretization<'a, R, u16>, Error> {
-        let edges = arrays.edges()?;
-        Ok(Discretization {
-            mesh: arrays.mesh()?,
-            edges,
-            stiffness: arrays.stiffness(),
-            cells: self.packed.cells(&edges)?,
-            metric: Metric { at_points: &self.points, place: &self.place, ..Metric::default() },
-            stability: self.stability,
-        })
-    }
+    Ground::new(packed, (points, place), &edges, &boundary)
 }
 
 /// A of a cell in reference coordinates, a little different at each point.
@@ -123,7 +94,7 @@ fn given<R: Scalar>(arrays: &Arrays<R>) -> Result<LoadCase<'_, R, u16>, Error> {
 pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), Error> {
     let (curved, transfer) = more(arrays);
     for every in [0, 1, 2] {
-        let ways = EquilibrationForest::new(arrays, every)?;
+        let ways = ground(arrays, every)?;
         let Packed { ways: [order, parent, places], triangles, quads, weights } = &ways.packed;
         journal.digest("forest", (order, parent, places));
         journal.digest("cells", (triangles, quads));
@@ -138,7 +109,7 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
         certified(arrays, &ways, &bent, journal)?;
     }
     closed(arrays, journal)?;
-    let ways = EquilibrationForest::new(arrays, 0)?;
+    let ways = ground(arrays, 0)?;
     nothing(arrays, &ways, journal)
 }
 
@@ -152,7 +123,7 @@ fn closed<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), Er
         let way_out = is_root(&arrays.edges()?, &arrays.boundary()?, edge);
         journal.line("a way out", way_out);
         let given = given(&arrays)?;
-        certified(&arrays, &EquilibrationForest::new(&arrays, 0)?, &given, journal)?;
+        certified(&arrays, &ground(&arrays, 0)?, &given, journal)?;
     }
     Ok(())
 }
@@ -160,10 +131,11 @@ fn closed<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), Er
 /// All zeros: what is left of the bound is what squares near the smallest number may lose.
 fn nothing<R: Scalar>(
     arrays: &Arrays<R>,
-    ways: &EquilibrationForest<R>,
+    ways: &Ground<R>,
     journal: &mut Journal,
 ) -> Result<(), Error> {
-    let discretization = ways.discretization(arrays)?;
+    let discretization =
+        ways.discretization(arrays.mesh()?, arrays.edges()?, arrays.stiffness())?;
     let zeros = |count: usize| vec![R::ZERO; count];
     let (triangles, quads) = (zeros(arrays.loads.0.len()), zeros(arrays.loads.1.len()));
     let counts = arrays.counts;
@@ -187,12 +159,14 @@ fn nothing<R: Scalar>(
 
 fn certified<R: Scalar>(
     arrays: &Arrays<R>,
-    ways: &EquilibrationForest<R>,
+    ways: &Ground<R>,
     given: &LoadCase<R, u16>,
     journal: &mut Journal,
 ) -> Result<(), Error> {
     let all = arrays.counts.edges();
     let lengths = [arrays.vertices.len(), all, all, arrays.tensors.len()];
+    let discretization =
+        ways.discretization(arrays.mesh()?, arrays.edges()?, arrays.stiffness())?;
     for factor in [1.0, 0.125] {
         let mut numbers = lengths.map(|length| vec![R::ONE; length]);
         let [vertices, bubbles, tau, indicators] = &mut numbers;
@@ -201,7 +175,7 @@ fn certified<R: Scalar>(
         free.iter_mut().for_each(|u| *u *= R::of(factor));
         let iterate = Iterate { u: &u, law: Law::above(&arrays.lower) };
         let buffers = Buffers { vertices, bubbles, tau, indicators };
-        let verdict = certify(&ways.discretization(arrays)?, given, iterate, buffers)?;
+        let verdict = certify(&discretization, given, iterate, buffers)?;
         journal.line("verdict", verdict);
         journal.digest("s and tau", &numbers[..3]);
         journal.digest("indicators", &numbers[3]);
@@ -209,7 +183,7 @@ fn certified<R: Scalar>(
         let [vertices, bubbles, tau, _] = &mut numbers;
         let bubbles = if arrays.quads.is_empty() { &mut [][..] } else { bubbles };
         let buffers = Buffers { vertices, bubbles, tau, indicators: &mut [] };
-        let lean = certify(&ways.discretization(arrays)?, given, iterate, buffers)?;
+        let lean = certify(&discretization, given, iterate, buffers)?;
         journal.digest("lean", (lean, &numbers[..3]));
     }
     Ok(())

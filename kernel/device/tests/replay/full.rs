@@ -4,10 +4,10 @@ use signorini_bound::certificate::Curved;
 use signorini_bound::conforming::VertexData;
 use signorini_device::full::{
     Along, Base, Contribution, CurvedPart, CurvedSum, DataMemory, EdgeTrace, Full, Functional,
-    Lengths, Pattern, Points, Product, Storage,
+    Lengths, Memory, Pattern, Points, Product, Storage,
 };
 use signorini_device::tick::{
-    CertifiedSweeps, Deadline, IfStoring, Limits, Progress, UncertifiedSweeps,
+    CertifiedSweeps, Deadline, IfStoring, Limits, Progress, Report, UncertifiedSweeps,
 };
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::relaxation::Relaxation;
@@ -15,7 +15,7 @@ use signorini_kernel::rows::{QUADS, Row};
 use signorini_kernel::{Error, Libm};
 
 use super::arrays::Arrays;
-use super::bound::EquilibrationForest;
+use super::bound;
 use super::journal::Journal;
 use super::scene::{Draw, Scalar};
 use crate::owned::{TickArrays, of_full};
@@ -76,12 +76,12 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
         Functional::Probe(&probe),
         Functional::Bound,
     ];
-    let ways = EquilibrationForest::new(arrays, 0)?;
+    let ways = bound::ground(arrays, 0)?;
     let oscillation = [0.125, 0.0625, 0.25, 0.5, 0.03125, 0.125, 0.0625].map(R::of);
     let corner = |at: usize, place: usize| [at as u16, place as u16];
     let corners = [corner(1, 2 * counts.contact), corner(2 * counts.contact - 1, 0)];
     let full = Full {
-        discretization: ways.discretization(arrays)?,
+        discretization: ways.discretization(arrays.mesh()?, arrays.edges()?, arrays.stiffness())?,
         base: Base {
             loads: arrays.cell_loads(),
             neumann: &arrays.neumann,
@@ -146,6 +146,22 @@ fn stored<R: Scalar>(lengths: &Lengths) -> Stored<R> {
     )
 }
 
+/// A tick by sweeps, with certificates or without.
+fn tick<R: Scalar>(
+    full: &Full<R, u16>,
+    inputs: &[R],
+    is_certified: bool,
+    limits: Limits<R>,
+    memory: Memory<R, u16, QUADS>,
+) -> Result<(Report<R>, [R; 5]), Error> {
+    let (limits, never, mut outputs) = ((None, limits), &mut Deadline::never(), [R::ZERO; 5]);
+    let report = match is_certified {
+        true => full.tick(inputs, CertifiedSweeps(Libm), limits, never, memory, &mut outputs),
+        false => full.tick(inputs, UncertifiedSweeps(Libm), limits, never, memory, &mut outputs),
+    };
+    Ok((report?, outputs))
+}
+
 fn play<R: Scalar>(
     arrays: &Arrays<R>,
     full: &Full<R, u16>,
@@ -164,8 +180,7 @@ fn play<R: Scalar>(
     let (mut neumann, mut robin) = (arrays.neumann.clone(), arrays.robin.clone());
     let edges = &full.discretization.edges;
     let mut own_arrays = TickArrays::new(edges, arrays.vertices.len());
-    let (mut progress, mut outputs) = (Progress::NONE, [R::ZERO; 5]);
-    let lengths = Lengths::of(full);
+    let (mut progress, lengths) = (Progress::NONE, Lengths::of(full));
     let mut storage = stored(&lengths);
     let mut draw = Draw(21);
     for at in 0..ticks {
@@ -189,39 +204,12 @@ fn play<R: Scalar>(
         };
         let memory = of_full(own_arrays.memory(edges)?, data, &mut progress);
         let limits = Limits { share: R::of(0.0625), error: R::ZERO, sweeps: 10 + 30 * (at % 4) };
-        let never = &mut Deadline::never();
-        let report = match at % 3 {
-            0 | 1 => full.tick(
-                inputs,
-                CertifiedSweeps(Libm),
-                (None, limits),
-                never,
-                memory,
-                &mut outputs,
-            )?,
-            _ => full.tick(
-                inputs,
-                UncertifiedSweeps(Libm),
-                (None, limits),
-                never,
-                memory,
-                &mut outputs,
-            )?,
-        };
+        let (report, outputs) = tick(full, inputs, at % 3 < 2, limits, memory)?;
         if at == 0 {
             for _ in 0..2 {
                 storage.reset();
                 let memory = storage.memory(full, &lengths)?;
-                let mut stored = [R::ZERO; 5];
-                let same = full.tick(
-                    inputs,
-                    CertifiedSweeps(Libm),
-                    (None, limits),
-                    never,
-                    memory,
-                    &mut stored,
-                )?;
-                assert_eq!((same, stored), (report, outputs));
+                assert_eq!(tick(full, inputs, true, limits, memory)?, (report, outputs));
             }
             let kept = storage.numbers(&lengths).expect("its own lengths");
             let [load, vertices, bubbles, tau, u] = &own_arrays.numbers;

@@ -1,6 +1,9 @@
 //! The problems: a grid whose inner vertices are moved at random, random data, and what makes it awkward.
 
-use crate::numbering::Side::{self, Contact, Given, Insulated, Transfer};
+use crate::numbering::{
+    self,
+    Side::{self, Contact, Given, Insulated, Transfer},
+};
 use signorini_kernel::Real;
 
 /// A scalar that takes numbers of the host.
@@ -109,11 +112,9 @@ impl Draw {
     }
 }
 
-/// Vertices, triangles and quads.
-type Grid = (Vec<[f64; 2]>, Vec<[u16; 3]>, Vec<[u16; 4]>);
-
 impl Scene {
-    pub fn mesh(&self) -> Grid {
+    /// Vertices and cells.
+    pub fn mesh(&self) -> (Vec<[f64; 2]>, numbering::Cells<u16>) {
         let (mut draw, width) = (Draw(self.seed), self.columns + 1);
         let place = |at: usize| {
             let (i, j) = (at % width, at / width);
@@ -142,7 +143,7 @@ impl Scene {
                 (true, _) => triangles.extend([[d, a, b], [b, c, d]]),
             }
         }
-        (vertices, triangles, quads)
+        (vertices, (triangles, quads))
     }
 
     /// The condition on a boundary edge.

@@ -12,14 +12,15 @@ use signorini_kernel::rows::QUADS;
 use signorini_kernel::{Error, Libm};
 
 use super::arrays::Arrays;
-use super::bound::EquilibrationForest;
+use super::bound;
 use super::journal::Journal;
 use super::scene::{Draw, Scalar};
 use crate::owned::TickArrays;
 
 pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), Error> {
-    let ways = EquilibrationForest::new(arrays, 4)?;
-    let discretization = ways.discretization(arrays)?;
+    let ways = bound::ground(arrays, 4)?;
+    let discretization =
+        ways.discretization(arrays.mesh()?, arrays.edges()?, arrays.stiffness())?;
     let mut own = TickArrays::new(&discretization.edges, arrays.vertices.len());
     let memory = own.memory(&discretization.edges)?;
     let relaxation = Relaxation::for_unknowns(arrays.counts.unknowns());

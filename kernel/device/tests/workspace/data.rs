@@ -1,6 +1,6 @@
 //! Workspaces whose data change: what stays, what is another mesh, what is too large, and what rounding of data costs.
 
-use super::{Edge, OPEN, Plate, SQUARE, TWO, UNIT, ZERO, beside, sides, sweeps};
+use super::{Edge, OPEN, SQUARE, TWO, UNIT, ZERO, beside, built, sides, sweeps};
 use signorini_device::condition::Condition;
 use signorini_device::tick::Deadline;
 use signorini_kernel::error::Array;
@@ -26,11 +26,10 @@ const QUADS: [[u16; 4]; 1] = [[2, 4, 5, 3]];
 fn new_conditions_keep_the_source() -> Result<(), Error> {
     let mesh = Mesh::new(&NODES, &TRIANGLES, &QUADS)?;
     let contact = Condition::Contact { gap: 0.5, flux: 0.25 };
-    let (mut changed, mut new) = (Plate::new(), Plate::new());
-    changed.build(&mesh, UNIT, bar(contact, OPEN))?;
+    let mut changed = built(&mesh, UNIT, bar(contact, OPEN))?;
     changed.set_source(&[1.0, 2.0], &[3.0])?;
     changed.set_conditions(&mesh, bar(contact, Condition::Neumann { flux: -0.5 }))?;
-    new.build(&mesh, UNIT, bar(contact, Condition::Neumann { flux: -0.5 }))?;
+    let mut new = built(&mesh, UNIT, bar(contact, Condition::Neumann { flux: -0.5 }))?;
     new.set_source(&[1.0, 2.0], &[3.0])?;
     for plate in [&mut changed, &mut new] {
         plate.solve(Settings::default())?;
@@ -42,8 +41,7 @@ fn new_conditions_keep_the_source() -> Result<(), Error> {
 #[test]
 fn a_solve_goes_on_from_the_last() -> Result<(), Error> {
     let mesh = Mesh::new(&NODES, &TRIANGLES, &QUADS)?;
-    let mut plate = Plate::new();
-    plate.build(&mesh, UNIT, bar(Condition::Contact { gap: 0.5, flux: 0.25 }, OPEN))?;
+    let mut plate = built(&mesh, UNIT, bar(Condition::Contact { gap: 0.5, flux: 0.25 }, OPEN))?;
     plate.set_source(&[1.0, 2.0], &[3.0])?;
     let [first, second] = [(); 2].map(|()| plate.solve(Settings::default()));
     let [first, second] = [first?.sweeps, second?.sweeps];
@@ -56,8 +54,7 @@ fn a_solve_goes_on_from_the_last() -> Result<(), Error> {
 fn lengths_of_contact_are_those_of_its_edges() -> Result<(), Error> {
     let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [2.0, 4.0], [0.0, 4.0]];
     let mesh = Mesh::new(&corners, &[[0_u16, 1, 2], [0, 2, 4], [2, 3, 4]], &[])?;
-    let mut plate = Plate::new();
-    plate.build(&mesh, UNIT, bar(Condition::Contact { gap: 1.0, flux: 0.0 }, OPEN))?;
+    let mut plate = built(&mesh, UNIT, bar(Condition::Contact { gap: 1.0, flux: 0.0 }, OPEN))?;
     plate.solve(Settings::default())?;
     assert_eq!(plate.contact_length::<Libm>(&mesh)?, 4.0);
     Ok(())
@@ -68,8 +65,7 @@ fn cells_that_differ_in_one_corner_are_another_mesh() -> Result<(), Error> {
     let [one, other] = [[[0_u16, 2, 3]], [[1, 2, 3]]];
     let (one, other) = (Mesh::new(&SQUARE, &one, &[])?, Mesh::new(&SQUARE, &other, &[])?);
     let limits = sweeps(1);
-    let mut plate = Plate::new();
-    plate.build(&one, UNIT, |_| Some(ZERO))?;
+    let mut plate = built(&one, UNIT, |_| Some(ZERO))?;
     plate.tick(&one, limits, &mut Deadline::never())?;
     assert_eq!(plate.tick(&other, limits, &mut Deadline::never()), Err(Error::OtherMesh));
     Ok(())
@@ -85,8 +81,7 @@ fn loads_are_as_large_as_what_they_move() -> Result<(), Error> {
     for (times, fits) in [(0.25, true), (1.0, true), (3.0, false), (16.0, false)] {
         // Rows hold ω b_i/K_ii: what is told of the load does not know ω.
         for omega in [0.5, 1.0, 1.75] {
-            let mut plate = Plate::new();
-            plate.build(&mesh, thin, bar(OPEN, OPEN))?;
+            let mut plate = built(&mesh, thin, bar(OPEN, OPEN))?;
             plate.set_relaxation(Relaxation::Fixed(omega))?;
             plate.set_source(&[times * 3.0 * 2.0_f64.powi(720)], &[])?;
             let ticked = plate.tick(&mesh, limits, &mut Deadline::never()).map(drop);
@@ -106,9 +101,8 @@ fn a_gap_that_rounding_lifts_costs_what_it_lifts() -> Result<(), Error> {
     let mesh = Mesh::new(&SQUARE, &TWO, &[])?;
     for steps in [0.0, 2.0, 16.0, 64.0] {
         let value = 1.0 - steps * f64::EPSILON;
-        let mut plate = Plate::new();
         let contact = Condition::Contact { gap: 1.0, flux: 0.0 };
-        plate.build(&mesh, UNIT, beside(Condition::Dirichlet { value }, contact))?;
+        let mut plate = built(&mesh, UNIT, beside(Condition::Dirichlet { value }, contact))?;
         let report = plate.tick(&mesh, sweeps(100), &mut Deadline::never())?;
         let rounding = report.verdict.certificate().expect("a bound").rounding;
         // Both edges have the cell with Σ|K| = 4. Storing moves each by 2 ε, and ψ follows s by `steps` ε.

@@ -1,6 +1,6 @@
 //! Workspaces where the scalar or the caller fails them: no bound that is none, no answer to another question.
 
-use super::{OPEN, Plate, SQUARE, TWO, UNIT, sides, sweeps};
+use super::{OPEN, Plate, SQUARE, TWO, UNIT, built, sides, sweeps};
 use signorini_bound::certificate::Verdict;
 use signorini_device::condition::{BoundaryEdge, Condition};
 use signorini_device::tick::Deadline;
@@ -134,9 +134,8 @@ fn a_condition_that_changes_its_mind() -> Result<(), Error> {
         let robin = Condition::Robin { coefficient, ambient: 0.0 };
         sides(1.0, [robin, Condition::Dirichlet { value }, OPEN])
     };
-    let (mut plate, mut plain) = (Plate::<f64>::new(), Plate::<f64>::new());
-    plate.build(&mesh, UNIT, law(1.0, 1.0))?;
-    plain.build(&mesh, UNIT, law(0.0, 1.0))?;
+    let mut plate = built(&mesh, UNIT, law(1.0, 1.0))?;
+    let mut plain = built(&mesh, UNIT, law(0.0, 1.0))?;
     let mut asked = 0;
     plate.set_conditions(&mesh, |edge| {
         asked += 1;
@@ -186,8 +185,7 @@ fn the_last_answer_outlives_new_conditions() -> Result<(), Error> {
     let at_least = |gap: f64, value: f64| {
         sides(1.0, [Condition::Dirichlet { value }, Condition::Contact { gap, flux: 0.0 }, OPEN])
     };
-    let mut plate = Plate::<f64>::new();
-    plate.build(&mesh, UNIT, at_least(2.0, 0.0))?;
+    let mut plate = built(&mesh, UNIT, at_least(2.0, 0.0))?;
     plate.tick(&mesh, sweeps(10_000), &mut Deadline::never())?;
     let u = plate.u().to_vec();
     assert!((plate.contact_force() - 2.0).abs() < 1e-9, "{}", plate.contact_force());

@@ -9,7 +9,7 @@ use signorini_device::condition::{BoundaryEdge, Condition};
 use signorini_device::tick::Limits;
 use signorini_device::workspace;
 use signorini_kernel::stiffness::Coefficient;
-use signorini_kernel::{Real, Tensor};
+use signorini_kernel::{Error, Mesh, Real, Tensor};
 
 pub type Plate<R = f64> = workspace!(R, u16: vertices 16, triangles 16, quads 4, boundary 16);
 pub type Edge = BoundaryEdge<f64, u16>;
@@ -22,6 +22,17 @@ pub const UNIT: Coefficient<'static, f64> = Coefficient::Uniform(ONE);
 /// Nothing passes.
 pub const OPEN: Condition<f64> = Condition::Neumann { flux: 0.0 };
 pub const ZERO: Condition<f64> = Condition::Dirichlet { value: 0.0 };
+
+/// A workspace with this A and these conditions.
+pub fn built(
+    mesh: &Mesh<f64, u16>,
+    a: Coefficient<f64>,
+    condition: impl FnMut(&Edge) -> Option<Condition<f64>>,
+) -> Result<Plate, Error> {
+    let mut plate = Plate::new();
+    plate.build(mesh, a, condition)?;
+    Ok(plate)
+}
 
 /// Conditions where x = 0, where x is this, and on the rest.
 pub fn sides<R: Real>(

@@ -10,12 +10,12 @@ use signorini_condense::{Recovery, recoverable};
 use signorini_kernel::report::Ended;
 use signorini_problem::Problem;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_scene::scene::Scene;
 use signorini_tests::random::Random;
 use signorini_tolerances::bake::GUARANTEE;
 use signorini_tolerances::twins::IDENTITY;
 
 use super::Pair;
+use crate::standard::posed;
 
 /// A scene whose exact solution is that of its default inputs.
 struct Exact {
@@ -31,8 +31,7 @@ impl Exact {
         let text = std::fs::read_to_string(folder.join(format!("{file}.toml"))).expect("a file");
         let input = "[input.drop]\nof = \"contact\"\nfield = \"gap\"\npattern = \"(1 - x^2)*(1 + x/2)\"\ndefault = 0.0\n";
         let range = format!("range = [{}, {by}]\n", -by);
-        let scene = Scene::parse(&(text + input + &range), Path::new("test.toml"));
-        let problem = Problem::new(&scene.expect("a scene"), grid(6, cells)).expect("a problem");
+        let problem = posed(&(text + input + &range), grid(6, cells)).expect("a problem");
         let (whole, recovery) = recoverable(&problem).expect("a condensed model");
         let what = format!("{file} {cells:?} {by}");
         let pair = Pair::new(&what, &whole).expect("edges to take out");

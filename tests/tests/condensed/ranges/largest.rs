@@ -7,8 +7,7 @@ use signorini_tolerances::bake::GUARANTEE;
 use signorini_tolerances::{cases, is_whole};
 
 use super::standard::standard;
-use super::{drawn, limit};
-use crate::condensed::scenes::Model;
+use super::{drawn, limited};
 
 fn largest(whole: &CondensedModel) -> Option<LargestBound> {
     LargestBound::new(whole).expect("finite loads")
@@ -30,14 +29,12 @@ fn holds(what: &str, model: &CondensedModel, found: LargestBound, samples: usize
 fn no_random_scene_exceeds_what_is_proved() {
     let (mut sharp, mut wide, mut refused) = (0, 0, 0);
     for seed in 0..cases(120) {
-        let Some(model) = Model::random(seed, 5) else { continue };
-        let mut whole = model.condensate;
-        limit(&mut whole, &mut Random::new(seed ^ 0x5eed));
+        let Some((what, whole)) = limited(seed) else { continue };
         let Some(found) = largest(&whole) else {
             refused += 1;
             continue;
         };
-        holds(&model.what, &whole, found, 40);
+        holds(&what, &whole, found, 40);
         *if found.is_sharp() { &mut sharp } else { &mut wide } += 1;
     }
     assert!(sharp >= cases(40) && (refused > 0 || !is_whole()), "{sharp} {wide} {refused}");

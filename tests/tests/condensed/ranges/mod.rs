@@ -73,10 +73,7 @@ impl Pair {
 
     /// A random scene, with a range for each input; `None` where nothing can be taken out.
     pub fn random(seed: u64) -> Option<Self> {
-        let model = Model::random(seed, 5)?;
-        let mut whole = model.condensate;
-        limit(&mut whole, &mut Random::new(seed ^ 0x5eed));
-        Self::new(&model.what, &whole)
+        limited(seed).and_then(|(what, whole)| Self::new(&what, &whole))
     }
 
     /// At the solution of p, each model's own; that of the whole model.
@@ -203,6 +200,13 @@ impl Pair {
         };
         self.reduced.model.limits.iter().map(draw).collect()
     }
+}
+
+/// A random scene, with a range for each input.
+fn limited(seed: u64) -> Option<(String, CondensedModel)> {
+    let Model { what, condensate: mut whole, .. } = Model::random(seed, 5)?;
+    limit(&mut whole, &mut Random::new(seed ^ 0x5eed));
+    Some((what, whole))
 }
 
 /// Gives every input a range around its default or far away from it, and a default within.

@@ -15,7 +15,7 @@ const TICKS: usize = 10_000;
 /// The condensed model of a standard scene.
 pub fn standard(name: &str) -> CondensedModel {
     static ALL: LazyLock<[CondensedModel; 5]> =
-        LazyLock::new(|| SCENES.map(|name| condense(&scene(name).1).expect("a condensed model")));
+        LazyLock::new(|| SCENES.map(|name| condense(&scene(name)).expect("a condensed model")));
     let at = SCENES.iter().position(|other| *other == name).expect("a standard scene");
     ALL[at].clone()
 }
