@@ -140,7 +140,8 @@ fn ticks<R: Bakes>(what: &str, problem: &Problem, allowed: Tolerance, random: &m
             let narrow: Vec<R> = p.iter().map(|&p| R::narrow(p)).collect();
             let limits = Limits { sweeps, share: R::ZERO, error: R::ZERO };
             let (values, report) = controller.tick_within(&narrow, limits).expect("a tick");
-            let flux: Vec<_> = controller.tau().iter().map(|x| x.wide() * units.flux()).collect();
+            let flux: Vec<_> =
+                controller.numbers().tau.iter().map(|x| x.wide() * units.flux()).collect();
             let touches = |at: usize| controller.u()[free + at] == controller.lower()[at];
             let table = table(&posed(problem, &p), &flux, touches);
             let force = report.figures.force.wide();

@@ -129,7 +129,7 @@ fn the_release_of_contact_is_found_in_time() {
 fn the_bound_over_time_is_above_the_error_of_the_release() {
     let scene = catalogue("release", "").unwrap();
     let problem = Problem::new(&scene, mesh::read(&scene.mesh.value).unwrap()).unwrap();
-    let moments = schedule::moments(&scene, Some(12)).unwrap();
+    let moments = schedule::moments_after(&scene, Some(12), None).unwrap();
     let budget = Budget { intervals: false, ..Budget::of(&scene) };
     let ticks = play(&problem, None, &moments, &budget, |_, _| Ok(())).unwrap();
     let ratios: Vec<f64> = ticks[1..]

@@ -1,5 +1,9 @@
 //! The text that makes a module's `Controller` of the kernel's: the scene's types and constants, its memory, an alias.
 
+use std::fmt::Debug;
+
+use crate::module_api::ModuleApi;
+
 /// The parts that are the model's own.
 #[derive(Debug, Clone)]
 pub(super) struct Parts<'a> {
@@ -11,12 +15,6 @@ pub(super) struct Parts<'a> {
     pub ends: &'a str,
     /// The value of `LIMITS`.
     pub limits: &'a str,
-    /// Whether the inputs have ranges.
-    pub has_ranges: bool,
-    /// The rows that inputs have to meet.
-    pub exclusions: Vec<String>,
-    /// The outputs that are the bound over time.
-    pub windows: Vec<&'a str>,
     /// Whether every tick starts anew.
     pub is_cold: bool,
     /// The type of the memory.
@@ -27,34 +25,21 @@ pub(super) struct Parts<'a> {
     pub lent: [&'a str; 2],
 }
 
-/// The alias, and the scene behind it.
-pub(super) fn controller(parts: &Parts) -> String {
-    let Parts {
-        first,
-        from,
-        ends,
-        limits,
-        has_ranges,
-        exclusions,
-        windows,
-        is_cold,
-        storage,
-        zeros,
-        lent: [model, setup],
-    } = parts;
-    let exclusions = match &exclusions[..] {
+/// The alias, and the scene behind it, whose inputs have to meet the rows of `exclusions`.
+pub(super) fn controller(parts: &Parts, api: &ModuleApi, exclusions: &[impl Debug]) -> String {
+    let Parts { first, from, ends, limits, is_cold, storage, zeros, lent: [model, setup] } = parts;
+    let exclusions = match exclusions {
         [] => String::new(),
         rows => format!(
             "
     fn exclusions(&self) -> &[Scalar] {{
-        &[{}]
+        &{rows:?}
     }}
-",
-            rows.join(", ")
+"
         ),
     };
-    let windows = told(windows);
-    let ranges = if *has_ranges { "&Inputs::RANGES" } else { "&[]" };
+    let windows = told(&api.told().collect::<Vec<_>>());
+    let ranges = if api.has_ranges() { "&Inputs::RANGES" } else { "&[]" };
     format!(
         "
 use signorini_device::controller;

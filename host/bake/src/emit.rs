@@ -38,7 +38,7 @@ pub(crate) fn module<R: Bakes>(problem: &Problem, choice: &Choice<R>) -> Emitted
         }
         Model::Full(baked) => ("full", baked.features(), WorstCase::default(), full::source(baked)),
     };
-    let known = intervals::of_choice(problem, choice);
+    let known = R::intervals(problem, choice);
     let ranges = choice.condensed().map(|(baked, origin)| ranges::found(baked, origin));
     let steps = choice.condensed().and_then(|(_, origin)| origin.steps.as_ref());
     let states = steps.map(|of| [of.fading.len(), of.modes]);

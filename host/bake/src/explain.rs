@@ -13,11 +13,6 @@ use signorini_problem::scalar::Scalar;
 use signorini_problem::{EdgeKind, Problem, QuadCoefficient};
 use signorini_scene::scene::Quantity;
 
-/// The page that `--explain` prints.
-pub fn explanation<R: Bakes>(problem: &Problem, choice: &Choice<R>) -> String {
-    R::explain(problem, choice)
-}
-
 pub(crate) fn in_words<R: Bakes>(problem: &Problem, choice: &Choice<R>) -> String {
     let mut text = candidates(choice);
     let chosen = choice.candidate();

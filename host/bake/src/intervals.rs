@@ -35,11 +35,6 @@ pub struct OutputIntervals {
     pub midpoints: Vec<Option<Midpoint>>,
 }
 
-/// Intervals of a chosen model.
-pub fn of_choice<R: Bakes>(problem: &Problem, choice: &Choice<R>) -> OutputIntervals {
-    R::intervals(problem, choice)
-}
-
 pub(crate) fn guaranteed<R: Bakes>(problem: &Problem, choice: &Choice<R>) -> OutputIntervals {
     let origin = choice.condensed().map(|(_, origin)| origin);
     if let Some(step) = problem.scene.step() {

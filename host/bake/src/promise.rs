@@ -2,11 +2,10 @@
 //!
 //! A mesh is refined by solves in f64. What a tick rounds, its setting leaves to sweeps, or a condensed model leaves out, comes on top.
 
-use std::cell::Cell;
-
 use crate::choice::{Choice, Model, Wanted};
 use crate::narrow::narrow;
 use crate::{Bakes, condensed, full};
+use signorini_kernel::Verdict;
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::{InputError, Result};
@@ -29,19 +28,6 @@ impl Tick<'_> {
     fn ratio(&self) -> f64 {
         if self.bound == 0.0 { 0.0 } else { self.bound / self.allowed.bound }
     }
-}
-
-/// The model of `problem` that keeps `promise`, and with how many inputs it was ticked: the one that is chosen anyway, or the full
-/// one where a condensed one does not and none was asked for.
-///
-/// # Errors
-/// As for [`Choice::new`] and [`check`].
-pub fn kept<R: Bakes>(
-    problem: &Problem,
-    wanted: Wanted,
-    promise: &Promise,
-) -> Result<(Choice<R>, usize)> {
-    R::keep(problem, wanted, promise)
 }
 
 pub(crate) fn keep<R: Bakes>(
@@ -76,10 +62,7 @@ pub fn check<R: Bakes>(scene: &Scene, choice: &Choice<R>, promise: &Promise) -> 
     if scene.setting.is_some_and(|setting| !setting.certificate) || scene.stores() {
         return Ok(0);
     }
-    let ticks = match &choice.candidates[choice.chosen].model {
-        Model::Condensed(baked) => of_condensed(baked, &promise.allowed),
-        Model::Full(baked) => of_full(baked, &promise.allowed),
-    };
+    let ticks = ticked(&choice.candidate().model, &promise.allowed);
     let worst = ticks.iter().max_by(|a, b| a.ratio().total_cmp(&b.ratio()));
     match worst.filter(|worst| worst.ratio() > 1.0) {
         None => Ok(ticks.len()),
@@ -107,30 +90,38 @@ fn not_kept<R: Scalar>(scene: &Scene, promise: &Promise, worst: &Tick) -> InputE
     InputError::new(message).file(scene.file()).hint(hint)
 }
 
-fn of_condensed<'a, R: Bakes>(baked: &condensed::Baked<R>, all: &'a [Allowed]) -> Vec<Tick<'a>> {
-    let mut controller = condensed::Controller::new(baked);
-    let bound = |inputs: &[R]| Some(controller.tick(inputs).ok()?.1.certificate()?.total.wide());
-    ticks(all, bound).collect()
+/// The ticks of a model with all of these inputs, one after the other.
+fn ticked<'a, R: Bakes>(model: &Model<R>, all: &'a [Allowed]) -> Vec<Tick<'a>> {
+    match model {
+        Model::Condensed(baked) => {
+            let mut controller = condensed::Controller::new(baked);
+            ticks(all, |inputs| {
+                let (_, report) = controller.tick(inputs).ok()?;
+                Some((report.verdict, 0.0))
+            })
+        }
+        Model::Full(baked) => {
+            let mut controller = full::Controller::new(baked);
+            ticks(all, |inputs| {
+                let (_, report) = controller.tick(inputs).ok()?;
+                Some((report.verdict, f64::from(report.sweeps) * baked.unknowns() as f64))
+            })
+        }
+    }
 }
 
-fn of_full<'a, R: Bakes>(baked: &full::Baked<R>, all: &'a [Allowed]) -> Vec<Tick<'a>> {
-    let mut controller = full::Controller::new(baked);
-    let updates = Cell::new(0.0);
-    let bound = |inputs: &[R]| {
-        let (_, report) = controller.tick(inputs).ok()?;
-        updates.set(updates.get() + f64::from(report.sweeps) * baked.unknowns() as f64);
-        Some(report.verdict.certificate()?.total.wide())
-    };
-    ticks(all, bound).take_while(|_| updates.get() <= UPDATES).collect()
-}
-
-/// Ticks with all of these inputs, one after the other.
+/// Ticks with these inputs, each a verdict and updates of unknowns, as long as there are no more than [`UPDATES`] of them.
 fn ticks<'a, R: Scalar>(
     all: &'a [Allowed],
-    mut bound: impl FnMut(&[R]) -> Option<f64>,
-) -> impl Iterator<Item = Tick<'a>> {
-    all.iter().map(move |allowed| Tick {
-        allowed,
-        bound: bound(&narrow(&allowed.inputs)).unwrap_or(f64::INFINITY),
-    })
+    mut tick: impl FnMut(&[R]) -> Option<(Verdict<R>, f64)>,
+) -> Vec<Tick<'a>> {
+    let mut updates = 0.0;
+    let each = all.iter().map_while(|allowed| {
+        let ticked = tick(&narrow(&allowed.inputs));
+        updates += ticked.as_ref().map_or(0.0, |(_, updates)| *updates);
+        let total = ticked.as_ref().and_then(|(verdict, _)| Some(verdict.certificate()?.total));
+        let bound = total.map_or(f64::INFINITY, R::wide);
+        (updates <= UPDATES).then_some(Tick { allowed, bound })
+    });
+    each.collect()
 }

@@ -5,13 +5,13 @@ mod condensed_bound;
 mod condensed_length;
 mod condensed_limits;
 mod crossed_ends;
-mod direct;
+pub mod direct;
 mod excluded;
 mod limit_inputs;
 mod means;
 mod plus_minus;
 mod promise;
-mod transfer;
+pub mod transfer;
 mod unsolvable;
 mod warm_inputs;
 
@@ -19,19 +19,45 @@ use std::path::Path;
 
 use crate::compiled::printed;
 use crate::narrow::narrow;
+use crate::{Bakes, condensed};
+use signorini_condense::condense;
 use signorini_kernel::Error;
 use signorini_problem::Problem;
+use signorini_problem::fixtures::changed;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::mesh::adapted;
 use signorini_scene::scene::Scene;
+use signorini_scene::scene::units::Units;
 
 /// A standard scene, changed by `change`.
 pub fn standard(name: &str, change: impl FnOnce(&mut Scene)) -> Problem {
-    let path = format!("../../meshes/scenes/{name}.toml");
-    let mut scene = Scene::read(Path::new(&path)).expect("a standard scene");
+    of_file(&format!("scenes/{name}"), ("", &[]), change)
+}
+
+/// A scene below `meshes` with `more` at its end and other text here and there, changed by `change`.
+pub fn of_file(
+    name: &str,
+    (more, changes): (&str, &[(&str, &str)]),
+    change: impl FnOnce(&mut Scene),
+) -> Problem {
+    let path = format!("../../meshes/{name}.toml");
+    let text = std::fs::read_to_string(&path).expect("a scene") + more;
+    let scene = Scene::parse(&changed(&text, changes), Path::new(&path));
+    let mut scene = scene.expect("a sound scene");
     change(&mut scene);
     let mesh = adapted::of_scene(&scene).expect("its mesh");
     Problem::new(&scene, mesh).expect("a sound problem")
+}
+
+/// The condensed model of a problem, whose exchanges come to an end.
+pub fn exact<R: Bakes>(problem: &Problem) -> signorini_scene::error::Result<condensed::Baked<R>> {
+    let work = condensed::Work { pivots: Some(1000), sweeps: 100 };
+    Ok(condensed::Baked::new(&condense(problem)?, work, true).expect("in range"))
+}
+
+/// Units that are powers of 2.
+pub fn powers(u: i32, conductivity: i32) -> Units {
+    Units { u: 2f64.powi(u), conductivity: 2f64.powi(conductivity), zero: 0.0 }
 }
 
 /// A firmware that knows nothing of the model: all that every module offers, by the same names. It prints whether a

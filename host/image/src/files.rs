@@ -3,11 +3,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The words for a failure of a file.
+/// The outcome of a call on a file, its name before the words for a failure.
 ///
 /// # Errors
-/// Always: these words.
-fn named<T>(path: &Path, done: std::io::Result<T>) -> Result<T, String> {
+/// That of `done`.
+pub fn named<T>(path: &Path, done: std::io::Result<T>) -> Result<T, String> {
     done.map_err(|error| format!("{}: {error}", path.display()))
 }
 

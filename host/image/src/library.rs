@@ -215,8 +215,7 @@ impl<'a> Bench<'a> {
             |of: &str| self.tools.size(whole, &format!("{}_size_of_{of}", self.name), &self.folder);
         let (state, report) = (size("state")?, size("report")?);
         let saved = self.steps_in_time.then(|| size("saved")).transpose()?;
-        let archive =
-            fs::read(&archive).map_err(|error| format!("{}: {error}", archive.display()))?;
+        let archive = files::named(&archive, fs::read(&archive))?;
         Ok(Library { archive, state, report, saved, mark: self.mark.clone() })
     }
 }

@@ -11,12 +11,11 @@ use crate::files;
 /// # Errors
 /// A file that cannot be made.
 pub fn hold(path: &Path) -> Result<File, String> {
-    let failed = |error: std::io::Error| format!("{}: {error}", path.display());
     files::folder(path.parent().unwrap_or(Path::new(".")))?;
-    let file = File::options().create(true).append(true).open(path).map_err(failed)?;
+    let file = files::named(path, File::options().create(true).append(true).open(path))?;
     if let Err(TryLockError::WouldBlock) = file.try_lock() {
         eprintln!("waiting for another command that uses {}", path.display());
-        file.lock().map_err(failed)?;
+        files::named(path, file.lock())?;
     }
     Ok(file)
 }

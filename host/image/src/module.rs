@@ -83,7 +83,7 @@ impl Module {
     /// # Errors
     /// There is no such file.
     pub fn that_replays(&self, file: &Path) -> Result<Self, String> {
-        let log = file.canonicalize().map_err(|error| format!("{}: {error}", file.display()))?;
+        let log = files::named(file, file.canonicalize())?;
         let name = log.file_stem().unwrap_or_default().display().to_string();
         Ok(Self { log: Some(log), ..self.with_programs(&name) })
     }
@@ -108,9 +108,7 @@ impl Module {
     /// A log that cannot be read.
     pub fn played(&self) -> Result<usize, String> {
         let Some(log) = &self.log else { return Ok(DRAWN) };
-        let text =
-            fs::read_to_string(log).map_err(|error| format!("{}: {error}", log.display()))?;
-        Ok(text.lines().count().saturating_sub(1))
+        Ok(files::text(log)?.lines().count().saturating_sub(1))
     }
 
     /// The file that holds it.
@@ -225,8 +223,7 @@ impl Module {
             let _turn = lock::hold(&program.with_extension("lock"))?;
             build(command, self.quiet)?;
             let kept = folder()?.join(format!("{}.{machine}", self.name));
-            let copied = fs::copy(program, &kept);
-            copied.map(|_| kept).map_err(|error| format!("{}: {error}", program.display()))
+            files::named(program, fs::copy(program, &kept)).map(|_| kept)
         })
     }
 }
@@ -238,7 +235,7 @@ impl Module {
 pub fn take(fresh: &Path, kept: &Path) -> Result<(), String> {
     let equal = fs::read(fresh).ok() == fs::read(kept).ok();
     let done = if equal { fs::remove_file(fresh) } else { fs::rename(fresh, kept) };
-    done.map_err(|error| format!("{}: {error}", kept.display()))
+    files::named(kept, done)
 }
 
 fn folder() -> Result<PathBuf, String> {

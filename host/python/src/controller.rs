@@ -26,14 +26,8 @@ use crate::work::work;
 /// As large as that of a main thread: a controller may be.
 const STACK: usize = 64 << 20;
 
-/// A call.
-enum Call {
-    Tick(Vec<f64>, Sender<Result<Told>>),
-    Reset(Sender<()>),
-    Window(Sender<Option<[f64; 2]>>),
-    State(Sender<Option<Vec<u8>>>),
-    Restore(Vec<u8>, Sender<Result<()>>),
-}
+/// A call, which sends its own answer.
+type Call = Box<dyn FnOnce(&Problem, &mut dyn Session, &Module) + Send>;
 
 /// What a tick came to: how it ended, outputs, how far each may be off and between which values it lies (∞ where nothing is
 /// guaranteed), bound and its part of u, exchanges and sweeps, contact force and length.
@@ -92,42 +86,45 @@ impl Controller {
             (0..).zip(&inputs).try_for_each(|(at, &value)| self.scene.check_input(at, value))
         };
         checked().map_err(|error| raised(py, error, self.is_file))?;
-        let told = self.ask(py, |answer| Call::Tick(inputs, answer))?;
+        let told =
+            self.ask(py, move |problem, session, module| told(problem, session, module, &inputs))?;
         told.map_err(|error| raised(py, error, self.is_file))
     }
 
     fn reset(&self, py: Python<'_>) -> PyResult<()> {
-        self.ask(py, Call::Reset)
+        self.ask(py, |_, session, _| session.restart())
     }
 
     fn window(&self, py: Python<'_>) -> PyResult<Option<[f64; 2]>> {
-        self.ask(py, Call::Window)
+        self.ask(py, |_, session, _| session.window())
     }
 
     fn state<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyBytes>>> {
-        Ok(self.ask(py, Call::State)?.map(|state| PyBytes::new(py, &state)))
+        let state = self.ask(py, |_, session, _| session.state())?;
+        Ok(state.map(|state| PyBytes::new(py, &state)))
     }
 
     fn restore(&self, py: Python<'_>, state: Vec<u8>) -> PyResult<()> {
-        let told = self.ask(py, |answer| Call::Restore(state, answer))?;
+        let told = self.ask(py, move |_, session, _| session.set_state(&state))?;
         told.map_err(|error| raised(py, error, self.is_file))
     }
 }
 
 impl Controller {
     /// Makes a call, and waits for its answer without the interpreter's lock.
-    fn ask<T: Send>(
+    fn ask<T: Send + 'static>(
         &self,
         py: Python<'_>,
-        call: impl FnOnce(Sender<T>) -> Call + Send,
+        answer: impl FnOnce(&Problem, &mut dyn Session, &Module) -> T + Send + 'static,
     ) -> PyResult<T> {
         let ended =
             || PyRuntimeError::new_err("the controller has ended: this is a fault of signorini");
         py.detach(|| {
             let (send, receive) = channel();
-            let calls = self.calls.lock().unwrap_or_else(PoisonError::into_inner);
-            calls.send(call(send)).ok()?;
-            drop(calls);
+            let call: Call = Box::new(move |problem, session, module| {
+                let _ = send.send(answer(problem, session, module));
+            });
+            self.calls.lock().unwrap_or_else(PoisonError::into_inner).send(call).ok()?;
             receive.recv().ok()
         })
         .ok_or_else(ended)
@@ -141,7 +138,8 @@ fn started(problem: Problem, asked: Option<ScalarKind>, calls: Receiver<Call>) -
         let begun = send.clone();
         let lent = with_module(&problem, asked, |session, module| {
             let _ = begun.send(Ok(module.name.clone()));
-            serve(&problem, session, module, &calls);
+            // Until nobody can make another one.
+            calls.iter().for_each(|call| call(&problem, session, module));
             Ok(())
         });
         if let Err(error) = lent {
@@ -151,30 +149,6 @@ fn started(problem: Problem, asked: Option<ScalarKind>, calls: Receiver<Call>) -
     let thread = thread::Builder::new().stack_size(STACK).spawn(run);
     thread.map_err(|error| Error::Check(format!("no thread: {error}")))?;
     receive.recv().unwrap_or_else(|_| Err(Error::Check("the controller has not begun".to_owned())))
-}
-
-/// Answers calls until nobody can make another one.
-fn serve(problem: &Problem, session: &mut dyn Session, module: &Module, calls: &Receiver<Call>) {
-    for call in calls {
-        match call {
-            Call::Tick(inputs, answer) => {
-                let _ = answer.send(told(problem, session, module, &inputs));
-            }
-            Call::Reset(done) => {
-                session.restart();
-                let _ = done.send(());
-            }
-            Call::Window(answer) => {
-                let _ = answer.send(session.window());
-            }
-            Call::State(answer) => {
-                let _ = answer.send(session.state());
-            }
-            Call::Restore(state, answer) => {
-                let _ = answer.send(session.set_state(&state));
-            }
-        }
-    }
 }
 
 fn told(

@@ -30,15 +30,14 @@ pub(crate) struct Condensed<'b, R: Bakes> {
 }
 
 impl<'b, R: Bakes> Condensed<'b, R> {
-    /// A session of `baked`, the model of `problem` that was made of `origin`.
-    pub fn new(problem: &'b Problem, baked: &'b Baked<R>, origin: &'b Origin) -> Self {
-        let (controller, midpoints, past) = (Controller::new(baked), Vec::new(), Vec::new());
-        Self { problem, origin, baked, controller, midpoints, inputs: Vec::new(), past, last: None }
-    }
-
-    /// This session with the midpoints of its outputs.
-    pub fn with_midpoints(self, midpoints: Vec<Option<NarrowMidpoint<R>>>) -> Self {
-        Self { midpoints, ..self }
+    /// A session of `baked`, the model of `problem` that was made of `origin`, with the midpoints of its outputs.
+    pub fn new(
+        problem: &'b Problem,
+        (baked, origin): (&'b Baked<R>, &'b Origin),
+        midpoints: Vec<Option<NarrowMidpoint<R>>>,
+    ) -> Self {
+        let (controller, inputs, past) = (Controller::new(baked), Vec::new(), Vec::new());
+        Self { problem, origin, baked, controller, midpoints, inputs, past, last: None }
     }
 
     fn ran(&self, ended: Ended) -> Ran {

@@ -10,7 +10,7 @@ use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_solve::{Factored, Ran, Solution, unfit};
 
-use crate::on_mesh::{Arrays, answer};
+use crate::on_mesh::answer;
 use crate::{Session, Then};
 
 struct Full<'b, R: Bakes> {
@@ -58,15 +58,10 @@ impl<R: Bakes> Session for Full<'_, R> {
 
     fn answer(&self, at: &Problem) -> Result<Solution> {
         let Some((outputs, report)) = &self.last else { return Ok(Solution::default()) };
-        let arrays = Arrays {
-            u: self.controller.u(),
-            tau: self.controller.tau(),
-            vertices: self.controller.vertices(),
-            bubbles: self.controller.bubbles(),
-        };
-        let found = answer(report, &arrays, &self.baked.units());
+        let left = self.controller.numbers();
+        let found = answer(report, &left, &self.baked.units());
         let factored = self.factored();
-        let active = arrays.u.iter().skip(at.topology.counts.free).zip(self.controller.lower());
+        let active = left.u.iter().skip(at.topology.counts.free).zip(self.controller.lower());
         let solution = Solution {
             ran: if factored.is_some() { Ran::Factor } else { Ran::Sweeps },
             factored,

@@ -1,6 +1,7 @@
 //! The kernel's tick on a scene whose parts D or R holds: the code of a device, on data that are integrated for each moment.
 
 use signorini_certify::{Certifier, Enclosed, NoBound};
+use signorini_device::full::Numbers;
 use signorini_device::tick::{
     CertifiedSweeps, Data, Deadline, IfStoring, Limits, Memory, Progress, Report, Tick,
 };
@@ -14,7 +15,7 @@ use signorini_scene::scene::units::Units;
 use signorini_solve::{Solution, unfit};
 
 use crate::Session;
-use crate::on_mesh::{self, Arrays};
+use crate::on_mesh::answer;
 use crate::saved::{SavedSession, check_length, narrowed};
 
 struct KernelTick<'p, R: Scalar, const WIDTH: usize> {
@@ -181,8 +182,8 @@ impl<R: Scalar, const WIDTH: usize> Session for KernelTick<'_, R, WIDTH> {
     fn answer(&self, at: &Problem) -> Result<Solution> {
         let Some(report) = &self.report else { return Ok(Solution::default()) };
         let Owned { u, tau, vertices, bubbles, .. } = &self.memory;
-        let found =
-            on_mesh::answer(report, &Arrays { u, tau, vertices, bubbles }, &Units::default());
+        let left = Numbers { u: &u[..], tau, vertices, bubbles, ..Numbers::default() };
+        let found = answer(report, &left, &Units::default());
         let (counts, law) = (at.topology.counts, self.moving.law());
         let active = (0..counts.contact).map(|at| contact::is_active(counts, law, u, at));
         let bound = found.bound.filter(|_| self.data.has_bound());

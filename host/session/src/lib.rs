@@ -15,7 +15,7 @@ mod condensed;
 mod full;
 mod kernel_tick;
 mod module;
-mod on_mesh;
+pub mod on_mesh;
 pub mod request;
 mod saved;
 mod setting;

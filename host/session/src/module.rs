@@ -1,7 +1,7 @@
 //! The controller that `bake` would write, on this machine.
 
 use signorini_bake::choice::{Choice, Model, Wanted};
-use signorini_bake::intervals::{NarrowMidpoint, OutputIntervals, narrowed, of_choice};
+use signorini_bake::intervals::{NarrowMidpoint, OutputIntervals, narrowed};
 use signorini_bake::{Bakes, setting};
 use signorini_certify::ErrorBound;
 use signorini_kernel::verdict::Certificate;
@@ -101,7 +101,7 @@ fn in_scalar<R: Bakes>(
     then: &mut dyn FnMut(&mut dyn Session, &Module) -> Result<()>,
 ) -> Result<()> {
     let choice = Choice::<R>::new(problem, Wanted::default())?;
-    let OutputIntervals { weighed, midpoints } = of_choice(problem, &choice);
+    let OutputIntervals { weighed, midpoints } = R::intervals(problem, &choice);
     let reasons = weighed.iter().map(|of| of.as_ref().err().cloned()).collect();
     let weights: Vec<_> = weighed.iter().map(narrowed::<R>).collect();
     let plus_minus = move |bound: &ErrorBound| {
@@ -139,9 +139,9 @@ fn with_choice<R: Bakes>(
     if let Model::Full(baked) = &choice.candidate().model {
         return with_full(&problem.scene, baked, then);
     }
-    let Some((baked, origin)) = choice.condensed() else {
+    let Some(model) = choice.condensed() else {
         let message = "setting.model: there is no condensed model of this scene";
         return Err(InputError::new(message).file(&problem.scene.path).into());
     };
-    then(&mut Condensed::new(problem, baked, origin).with_midpoints(midpoints))
+    then(&mut Condensed::new(problem, model, midpoints))
 }

@@ -2,31 +2,20 @@
 
 use signorini_certify::admissible::Following;
 use signorini_certify::{CertifiedFields, ErrorBound};
+use signorini_device::full::Numbers;
 use signorini_device::tick::Report;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::scene::units::Units;
 use signorini_solve::{Ending, Solution};
 
-/// Arrays that a tick left, in the units in which it was played.
-pub(crate) struct Arrays<'a, R> {
-    /// Means of u, one per edge.
-    pub u: &'a [R],
-    /// ∫τ·n, one per edge.
-    pub tau: &'a [R],
-    /// s at the vertices.
-    pub vertices: &'a [R],
-    /// The bubbles of s, one per edge; empty where there are none.
-    pub bubbles: &'a [R],
-}
-
-/// The answer in the scene's units; which edges are active, and why there is no bound, is for the session to add.
-pub(crate) fn answer<R: Scalar>(report: &Report<R>, arrays: &Arrays<R>, units: &Units) -> Solution {
+/// The answer in the scene's units, `left` by a tick in others; which edges are active, and why there is no bound, is for the session to add.
+pub fn answer<R: Scalar>(report: &Report<R>, left: &Numbers<&[R]>, units: &Units) -> Solution {
     let wide = |numbers: &[R], unit: f64| -> Vec<f64> {
         numbers.iter().map(|x| x.wide() * unit).collect()
     };
-    let u = wide(arrays.u, units.u);
-    let tau = wide(arrays.tau, units.flux());
-    let bubbles = match arrays.bubbles {
+    let u = wide(left.u, units.u);
+    let tau = wide(left.tau, units.flux());
+    let bubbles = match left.bubbles {
         [] => vec![0.0; u.len()],
         bubbles => wide(bubbles, units.u),
     };
@@ -40,7 +29,7 @@ pub(crate) fn answer<R: Scalar>(report: &Report<R>, arrays: &Arrays<R>, units: &
         contact_force: report.figures.force.wide(),
         bound: report.verdict.certificate().map(ErrorBound::new),
         certified: CertifiedFields {
-            vertices: wide(arrays.vertices, units.u),
+            vertices: wide(left.vertices, units.u),
             bubbles,
             tau,
             indicators: Vec::new(),

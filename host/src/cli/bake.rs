@@ -12,8 +12,7 @@ use super::{bake_c, carried};
 use signorini_bake::Bakes;
 use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::emit::{Emitted, emit};
-use signorini_bake::explain::{explanation, warnings};
-use signorini_bake::promise;
+use signorini_bake::explain::warnings;
 use signorini_bake::setting;
 use signorini_image::library::{MACHINES, Machine};
 use signorini_problem::Problem;
@@ -179,7 +178,7 @@ impl Arguments {
             Wanted { model: kind, is_compared: self.explain, has_all_edges: self.full_edges };
         let unknowns = problem.topology.counts.unknowns();
         let (choice, ticked) = waiting(&format!("baking {unknowns} unknowns"), || match promise {
-            Some(promise) => promise::kept::<R>(problem, wanted, promise),
+            Some(promise) => R::keep(problem, wanted, promise),
             None => Ok((Choice::<R>::new(problem, wanted)?, 0)),
         })?;
         if let Some(promise) = promise {
@@ -204,7 +203,7 @@ impl Arguments {
             eprintln!("{warning}");
         }
         if self.explain {
-            say(explanation(problem, &choice));
+            say(R::explain(problem, &choice));
         }
         Ok(emit(problem, &choice))
     }

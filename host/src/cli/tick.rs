@@ -12,6 +12,7 @@ use super::series::Series;
 use super::step_advice::step_advice;
 use super::tick_report::{contradiction, report, without_interval, without_window};
 use super::tick_setting::check_ticks;
+use signorini_bake::setting;
 use signorini_draw::chart_file;
 use signorini_files::atomic::{writable_file, write_atomically};
 use signorini_files::fields::{Drawn, picture as vtu};
@@ -25,7 +26,7 @@ use signorini_session::tick::refusals::refusals;
 use signorini_session::tick::window_error::without_window_error;
 use signorini_session::tick::{
     Begin, Budget, Onward, Played, Saved, ScheduledTick, TickRecord, log, play_on, replay_on,
-    scalar_of_controller, schedule,
+    schedule,
 };
 use signorini_solve::warnings;
 use signorini_solve::{Ending, ScalarKind, Solution};
@@ -160,7 +161,7 @@ impl Arguments {
         }
         let (out, own) = (self.place.out()?, Budget::of(&scene));
         let scalar = match self.baked {
-            true => scalar_of_controller(&scene, self.scalar)?,
+            true => setting::scalar(&scene, self.scalar)?,
             false => self.scalar.unwrap_or(own.scalar),
         };
         self.check_state(&scene)?;

@@ -73,8 +73,9 @@ fn judged(problem: &Problem, solution: &Solution) {
 
 /// The first ticks of its schedule.
 fn played(problem: &Problem) -> Result<Vec<TickRecord>> {
-    let moments = schedule::moments(&problem.scene, problem.scene.time.is_none().then_some(2))?;
-    let own = Budget { scalar: ScalarKind::F64, sweeps: SWEEPS / 2, ..Budget::of(&problem.scene) };
+    let scene = &problem.scene;
+    let moments = schedule::moments_after(scene, scene.time.is_none().then_some(2), None)?;
+    let own = Budget { scalar: ScalarKind::F64, sweeps: SWEEPS / 2, ..Budget::of(scene) };
     let budget = Budget { intervals: false, shows_start: false, ..own };
     play(problem, None, &moments[..moments.len().min(3)], &budget, |_, _| Ok(()))
 }

@@ -3,6 +3,7 @@
 use std::cell::Cell;
 
 use signorini_bake::full::{Baked, Controller};
+use signorini_device::full::Numbers;
 use signorini_device::tick::{
     CertifiedSweeps, Deadline, Ended, Limits, Report, Tick, UncertifiedSweeps,
 };
@@ -125,10 +126,13 @@ fn driven<R: Bits + Kept>(bytes: &mut Bytes) {
     for _ in 0..1 + bytes.below(4) {
         let inputs = bytes.reals::<R>(scenes::INPUTS);
         let limits = limits(bytes);
-        let state = |of: &Controller<R>| [bits(of.u()), bits(of.tau()), bits(of.vertices())];
-        let before = state(&controller);
+        let left = |of: &Controller<R>| {
+            let Numbers { u, tau, vertices, .. } = of.numbers();
+            [u, tau, vertices].map(bits)
+        };
+        let before = left(&controller);
         let Ok((values, report)) = controller.tick_within(&inputs, limits) else {
-            assert_eq!(state(&controller), before, "{inputs:?}: a refused tick has left a trace");
+            assert_eq!(left(&controller), before, "{inputs:?}: a refused tick has left a trace");
             continue;
         };
         answered(&report);

@@ -12,7 +12,7 @@ use signorini_problem::Problem;
 use signorini_problem::inputs::InputSpace;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::units::Units;
-use signorini_solve::Scaled;
+use signorini_solve::{Scaled, Start};
 
 /// The solver that the setting asks for, in `units`; where it leaves that open both, the quicker first: one that comes
 /// to its end before one that does not. `excluded` gets the reason why there is no factor.
@@ -23,13 +23,13 @@ pub(super) fn of_full<R: Bakes>(
     excluded: &mut Vec<String>,
 ) -> Result<Vec<Candidate<R>>> {
     let setting = problem.scene.setting.unwrap_or_default();
-    let posed = full::Posed::new(problem)?;
-    let problem = &Scaled::new(&posed.problem, units)?;
+    // Where a material stores something, the module answers for the first step from the start.
+    let start = Start::of(problem, problem.scene.time.as_ref().map_or(0.0, |time| time.step))?;
+    let stepping = start.as_ref().map(|start| start.stepping(problem)).transpose()?;
+    let problem = &Scaled::new(stepping.as_ref().unwrap_or(problem), units)?;
     let baked = full::Baked::<R>::of_scaled(problem)?;
-    let baked = baked.evolving(problem, posed.evolution.as_ref())?;
-    if let Some(why) =
-        baked.no_bound().filter(|_| posed.problem.loads.step.is_some() && baked.is_certified())
-    {
+    let baked = baked.evolving(problem, start.and_then(|start| start.evolution).as_ref())?;
+    if let Some(why) = baked.no_bound().filter(|_| stepping.is_some() && baked.is_certified()) {
         let error = InputError::new(format!("there is no error bound: {why}"));
         let hint = "certificate = false in [setting] leaves the bound out";
         return Err(error.file(&problem.own.scene.path).hint(hint).into());

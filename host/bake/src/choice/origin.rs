@@ -74,19 +74,25 @@ impl Origin {
             false => settled(problem, &of, &sides, memory)?,
         };
         let (of, recovery) = fewer.unwrap_or((of, recovery));
-        Ok(Self {
-            sides,
-            unproved,
+        let all = Self::of(problem, whole, recovery, sides);
+        Ok(Self { unproved, has_all_edges, steps: Some(of), ..all })
+    }
+
+    /// With all contact edges.
+    fn of(problem: &Problem, whole: CondensedModel, recovery: Recovery, sides: Sides) -> Self {
+        Self {
             whole,
             recovery,
+            sides,
+            unproved: None,
             reduced: None,
             clear: BTreeMap::new(),
-            has_all_edges,
+            has_all_edges: false,
             modes: None,
-            steps: Some(of),
+            steps: None,
             followed: None,
             exclusions: problem.exclusions(),
-        })
+        }
     }
 
     /// Shares of modes up to `negligible` are left out.
@@ -119,21 +125,8 @@ impl Origin {
             (whole, recovery, clear) = (of.model, of.recovery, of.clear);
             reduced = Reduced::new(&whole, sides.clone());
         }
-        let has_all_edges = wanted.has_all_edges;
-        let exclusions = problem.exclusions();
-        Ok(Self {
-            whole,
-            recovery,
-            sides,
-            unproved: None,
-            reduced,
-            clear,
-            has_all_edges,
-            modes,
-            steps: None,
-            followed,
-            exclusions,
-        })
+        let all = Self::of(problem, whole, recovery, sides);
+        Ok(Self { reduced, clear, has_all_edges: wanted.has_all_edges, modes, followed, ..all })
     }
 
     /// The model that is baked.

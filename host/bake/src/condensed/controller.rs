@@ -58,16 +58,6 @@ impl<'b, R: Bakes> Controller<'b, R> {
         self.own.storage().shared().combination()
     }
 
-    /// The amplitudes of the last tick, where there are modes.
-    pub fn amplitudes(&self) -> &[R] {
-        match self.own.storage() {
-            DeskStorage::Plain(_) | DeskStorage::Stepped(_) => &[],
-            DeskStorage::Modal(of) => {
-                of.iterate.inputs().get(self.baked.inputs..).unwrap_or_default()
-            }
-        }
-    }
-
     /// Numbers that the last tick has left for the next one, in a model that steps in time.
     pub fn past(&self) -> &[R] {
         match (self.own.storage(), &self.baked.steps) {
@@ -104,11 +94,6 @@ impl<'b, R: Bakes> Controller<'b, R> {
             }
             _ => Err(Error::ForeignState),
         }
-    }
-
-    /// Goes back to before the first tick.
-    pub fn reset(&mut self) {
-        self.own.reset();
     }
 
     /// The scaled openings of the last tick; before the first, those that it begins with.

@@ -111,7 +111,7 @@ fn controller<R: Bakes>(face: &ModuleApi, baked: &Baked<R>) -> String {
         Solver::Sweeps => "Effort { sweeps: SWEEPS, ..Effort::NONE }",
         Solver::Exchanges(_) => "Effort { pivots: PIVOTS, sweeps: SWEEPS }",
     };
-    let text = controller::controller(&Parts {
+    let parts = Parts {
         first: match &baked.steps {
             None => "begins with the answer to the scene's own inputs",
             Some(_) => "is a step from the start",
@@ -122,15 +122,12 @@ fn controller<R: Bakes>(face: &ModuleApi, baked: &Baked<R>) -> String {
         },
         ends,
         limits: &format!("Limits {{ error: 0.0, share: 0.0, sweeps: {sweeps} }}"),
-        has_ranges: face.has_ranges(),
-        exclusions: baked.exclusions.iter().map(|number| format!("{number:?}")).collect(),
-        windows: face.told().collect(),
         is_cold: baked.cold,
         storage: &storage,
         zeros: &zeros,
         lent: ["data::SYSTEM", effort],
-    });
-    text + "\npub use data::SYSTEM;\n"
+    };
+    controller::controller(&parts, face, &baked.exclusions) + "\npub use data::SYSTEM;\n"
 }
 
 /// The type of the memory, and what it is before the first tick.

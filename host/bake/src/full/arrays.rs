@@ -12,7 +12,7 @@ use signorini_kernel::stiffness::Stiffness;
 
 use super::data::{Data, refuse_faint};
 use super::factored::Factored;
-use super::options::{Scale, TickOptions};
+use super::options::TickOptions;
 use super::output::{Output, output};
 use super::storing::Stored;
 use crate::Bakes;
@@ -26,6 +26,7 @@ use signorini_problem::scalar::Scalar;
 use signorini_problem::{Approach, Assembled, Parts, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Field;
+use signorini_scene::scene::units::Units;
 use signorini_scene::setting::Method;
 use signorini_solve::unfit;
 
@@ -60,8 +61,8 @@ pub struct Baked<R: Scalar> {
     pub(super) corners: Vec<[u32; 2]>,
     pub(super) start: R,
     pub(super) how: TickOptions<R>,
-    /// Where the numbers above are not in the scene's units.
-    pub(super) scale: Option<Scale<R>>,
+    /// The units of the numbers above, where they are not the scene's.
+    pub(super) scale: Option<Units>,
     pub(super) factored: Option<Factored<R>>,
     /// Rows that inputs without a range have to meet.
     pub(super) exclusions: Vec<R>,
@@ -231,8 +232,8 @@ impl<R: Bakes> Baked<R> {
             ("pieces", !(self.factors.is_empty() && self.data.forms.laws.is_empty())),
             ("distorted", !self.distortions.is_empty()),
             ("contact", self.counts.contact > 0),
-            ("limited", !self.data.spans.is_empty()),
-            ("robin", !self.data.robin.is_empty()),
+            ("limited", !self.data.loads.spans.is_empty()),
+            ("robin", !self.data.loads.robin.is_empty()),
             ("transfer", self.data.varies(Field::Coefficient)),
             ("storage", self.stored.is_some()),
             ("curved", self.data.is_curved()),

@@ -3,12 +3,13 @@
 use super::arrays::Baked;
 use super::controller::Controller;
 use super::factored::Factored;
-use super::options::Scale;
 use super::storing::short;
 use crate::Bakes;
 use crate::module_api::ModuleApi;
 use crate::narrow::exclusions;
+use crate::range::refuse_answers;
 use signorini_certify::evolution::Evolution;
+use signorini_device::full;
 use signorini_kernel::relaxation::Relaxation;
 use signorini_problem::functional::wanted;
 use signorini_problem::{Approach, Problem};
@@ -39,10 +40,8 @@ impl<R: Bakes> Baked<R> {
     pub fn of_scaled(problem: &Scaled) -> Result<Self> {
         problem.own.check_limits_within_ranges()?;
         let face = ModuleApi::new(problem.own);
-        let scale = match problem.units == Units::default() {
-            true => None,
-            false => Some(Scale::new(&problem.own.scene, problem.units)?),
-        };
+        let scale = Some(problem.units).filter(|units| *units != Units::default());
+        scale.iter().try_for_each(|units| refuse_answers::<R>(&problem.own.scene, units))?;
         let exclusions = exclusions(&problem.own.exclusions());
         let baked = Self::in_its_units(problem.problem(), face)?;
         let wanted = wanted(&problem.own.scene);
@@ -69,7 +68,15 @@ impl<R: Bakes> Baked<R> {
 
     /// What 1 stands for in [`Controller::u`] and the other arrays of a controller.
     pub fn units(&self) -> Units {
-        self.scale.as_ref().map_or(Units::default(), |scale| scale.units)
+        self.scale.unwrap_or_default()
+    }
+
+    /// The units of a controller as the kernel takes them, where they are not the scene's.
+    pub(super) fn kernel_units(&self) -> Option<full::Units<R>> {
+        self.scale.map(|units| {
+            let [u, flux, energy] = [units.u, units.flux(), units.energy()].map(R::narrow);
+            full::Units { u, flux, energy }
+        })
     }
 
     /// The same with ticks that a factor solves; `problem` is what it was baked from, in its units.

@@ -3,7 +3,6 @@
 use signorini_bound::certificate::TransferForms;
 use signorini_bound::conforming::VertexData;
 use signorini_device::full::{Along, Base, CurvedSum, Full, Functional, Lengths};
-use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::flux_range::{Room, Spans};
 use signorini_kernel::storage::IfStoring;
 
@@ -64,19 +63,20 @@ impl<R: Scalar> Data<R> {
         rooms: &'a [Room<'a, R>],
         along: &'a (&'a [[[R; 2]; 8]], TransferForms<'a, R, u32>),
     ) -> Base<'a, R, u32> {
+        let loads = &self.loads;
         Base {
-            loads: CellLoads { triangles: &self.triangles, quads: &self.quads },
-            neumann: &self.neumann,
-            robin: &self.robin,
-            contact_flux: &self.contact_flux,
-            spans: match self.spans.is_empty() {
+            loads: loads.cells(),
+            neumann: &loads.neumann,
+            robin: &loads.robin,
+            contact_flux: &loads.contact_flux,
+            spans: match loads.spans.is_empty() {
                 true => Spans::UNLIMITED,
-                false => Spans::baked(&self.spans, self.span_excess),
+                false => Spans::baked(&loads.spans, loads.span_excess),
             },
             rooms,
             settling: self.settling,
-            gap: &self.gap,
-            dirichlet: &self.dirichlet,
+            gap: &loads.gap,
+            dirichlet: &loads.dirichlet,
             ends: VertexData { gap: &self.gap_ends, given: &self.dirichlet_ends },
             curved: &self.curved,
             curved_sums,

@@ -1,13 +1,14 @@
 //! The controller of a baked module, on this machine and on the same numbers.
 
-use signorini_device::controller::Window;
+use signorini_device::controller::{Answer, Window};
 use signorini_device::full::{Lengths, Numbers};
 use signorini_device::sparse::Solved;
-use signorini_device::tick::{Limits, Report};
+use signorini_device::tick::{Deadline, Limits, Report};
 use signorini_kernel::Error;
 
 use super::arrays::Baked;
-use super::on_rows::OnRows;
+use super::on_rows::{OnRows, on_rows};
+use crate::desk::{Terms, Values};
 use crate::{Bakes, state};
 
 /// The controller of a baked scene.
@@ -15,14 +16,14 @@ use crate::{Bakes, state};
 pub struct Controller<'b, R: Bakes> {
     baked: &'b Baked<R>,
     lengths: Lengths,
-    own: Box<dyn OnRows<R> + 'b>,
+    own: OnRows<'b, R>,
     certificates: u32,
 }
 
 impl<'b, R: Bakes> Controller<'b, R> {
     /// Before the first tick.
     pub fn new(baked: &'b Baked<R>) -> Self {
-        Self { baked, lengths: baked.lengths(), own: R::on_rows(baked), certificates: 0 }
+        Self { baked, lengths: baked.lengths(), own: OnRows::new(baked), certificates: 0 }
     }
 
     /// Outputs and report for these inputs, within the limits of the baked module.
@@ -43,23 +44,39 @@ impl<'b, R: Bakes> Controller<'b, R> {
         inputs: &[R],
         limits: Limits<R>,
     ) -> Result<(Vec<R>, Report<R>), Error> {
-        let mut looks = 0;
-        let answer = self.own.tick(inputs, limits, &mut looks)?;
+        R::sweep(self, inputs, limits)
+    }
+
+    pub(crate) fn sweep(
+        &mut self,
+        inputs: &[R],
+        limits: Limits<R>,
+    ) -> Result<(Vec<R>, Report<R>), Error> {
+        let mut looks = 0_u32;
+        let clock = || {
+            looks += 1;
+            u32::MAX
+        };
+        let never = &mut Deadline { remaining: clock, sweep: 0, certificate: 0 };
+        let (Answer { outputs: Values(outputs), report }, figures) = on_rows!(&mut self.own, own => {
+            let answer = own.tick_within(Terms::new(inputs), limits, never)?;
+            (answer, own.storage().solver.figures)
+        });
         // The clock is asked before every sweep and once more at the end, at every certificate, and after each but the last.
-        self.certificates = (looks.saturating_sub(answer.1.sweeps) / 2).max(1);
-        Ok(answer)
+        self.certificates = (looks.saturating_sub(report.sweeps) / 2).max(1);
+        Ok((outputs, report.with(figures)))
     }
 
     /// The bound of the evolution until the end of the last tick, of steps in time that have one.
     pub fn window(&self) -> Option<Window<R>> {
-        self.own.window()
+        on_rows!(&self.own, own => own.window())
     }
 
     /// The bytes of the `State` that firmware has after the last tick; nothing where ticks are no steps in time.
     pub fn state(&self) -> Option<Vec<u8>> {
         self.baked.stored.as_ref()?;
         let mut numbers = vec![R::ZERO; self.lengths.handed_on()];
-        self.own.hand_on(&self.lengths, &mut numbers);
+        on_rows!(&self.own, of => of.storage().own.hand_on(&self.lengths, &mut numbers));
         Some(state::bytes(self.baked.face.hash, &numbers))
     }
 
@@ -69,12 +86,7 @@ impl<'b, R: Bakes> Controller<'b, R> {
     /// The bytes of a state of another scene, or damaged ones: nothing has changed then.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), Error> {
         let numbers = state::numbers(self.baked.face.hash, bytes)?;
-        self.own.take_over(&self.lengths, &numbers)
-    }
-
-    /// Goes back to before the first tick.
-    pub fn reset(&mut self) {
-        self.own.reset();
+        on_rows!(&mut self.own, of => of.storage_mut().own.take_over(&self.lengths, &numbers))
     }
 
     /// Certificates of the last tick, where it was swept.
@@ -84,7 +96,7 @@ impl<'b, R: Bakes> Controller<'b, R> {
 
     /// Work of the factor in the last tick; `None` without one, or where sweeps had to help.
     pub fn solved(&self) -> Option<Solved<R>> {
-        self.own.solved()
+        on_rows!(&self.own, own => own.storage().solver.solved)
     }
 
     /// Whether the factor alone answers for these inputs.
@@ -98,28 +110,14 @@ impl<'b, R: Bakes> Controller<'b, R> {
         self.numbers().u
     }
 
-    /// ∫τ·n of every edge along its direction: balanced, or of a tick without certificate σ_h of (15).
-    pub fn tau(&self) -> &[R] {
-        self.numbers().tau
-    }
-
     /// Means of ψ over the contact edges in the last tick.
     pub fn lower(&self) -> &[R] {
         let own = self.numbers().gap;
-        if own.is_empty() { &self.baked.data.gap } else { own }
+        if own.is_empty() { &self.baked.data.loads.gap } else { own }
     }
 
-    /// s at the vertices; empty without a certificate.
-    pub fn vertices(&self) -> &[R] {
-        self.numbers().vertices
-    }
-
-    /// The bubbles of s, one an edge; empty without quads or certificate.
-    pub fn bubbles(&self) -> &[R] {
-        self.numbers().bubbles
-    }
-
-    fn numbers(&self) -> Numbers<&[R]> {
-        self.own.numbers(&self.lengths)
+    /// The arrays of the last tick, in [`Baked::units`]: τ is balanced, or σ_h of (15) of a tick without certificate, and s is empty then.
+    pub fn numbers(&self) -> Numbers<&[R]> {
+        on_rows!(&self.own, of => of.storage().own.numbers(&self.lengths)).unwrap_or_default()
     }
 }

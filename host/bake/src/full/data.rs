@@ -3,7 +3,7 @@
 use signorini_bound::certificate::Curved;
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::error::Array;
-use signorini_kernel::mesh::boundary::{Neumann, Robin};
+use signorini_kernel::mesh::boundary::Neumann;
 use signorini_kernel::stiffness::Stiffness;
 
 use super::bent::{Bent, bent};
@@ -17,25 +17,18 @@ use signorini_certify::term::rooms_of;
 use signorini_certify::transfer_forms::Forms;
 use signorini_certify::{NoBound, TermData};
 use signorini_problem::scalar::Scalar;
-use signorini_problem::{Problem, excess_within_ranges};
+use signorini_problem::{Loads, Problem, excess_within_ranges};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Field, Input, Scene};
 
 /// The arrays of [`signorini_device::full::Base`], the patterns, the oscillation.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Data<R> {
-    pub triangles: Vec<R>,
-    pub quads: Vec<R>,
-    pub neumann: Vec<Neumann<R, u32>>,
-    pub robin: Vec<Robin<R, u32>>,
-    pub contact_flux: Vec<R>,
-    pub spans: Vec<R>,
-    pub span_excess: R,
+    /// Of the base, with a record of each Neumann edge on which some part has a flux.
+    pub loads: Loads<R>,
     pub rooms: Vec<Room<R>>,
     pub settling: R,
-    pub gap: Vec<R>,
     pub gap_ends: Vec<[R; 2]>,
-    pub dirichlet: Vec<R>,
     pub dirichlet_ends: Vec<[R; 2]>,
     pub curved: Vec<Curved<R, u32>>,
     pub curved_sums: Vec<Bent<R>>,
@@ -69,23 +62,23 @@ impl<R: Scalar> Data<R> {
         let (forms, of_ambient) = forms(problem, parts)?;
         let changed = || NoBound::of_changed_transfer(problem, &forms.laws);
         let of_base = neumann.iter().zip(fluxes(&neumann, base));
+        let loads = Loads {
+            neumann: of_base.map(|(&edge, flux)| Neumann { edge, flux: R::narrow(flux) }).collect(),
+            // Where inputs change a limit, these are not the ones that are stated.
+            spans: narrow(&base.spans),
+            span_excess: R::narrow(span_excess(problem)),
+            step: None,
+            ..base.loads().narrowed()
+        };
         let rooms = rooms_of(problem, parts);
         let along = base.transfer.iter().filter(|_| !is_uniform);
         let lost = cancellation::lost(least, reach, parts, &neumann, R::EPSILON.wide());
         let settling = if rooms.is_empty() { 0.0 } else { reach.of_contact().sum() };
         let mut data = Self {
-            triangles: narrow(&base.loads().triangles),
-            quads: narrow(&base.loads().quads),
-            neumann: of_base.map(|(&edge, flux)| Neumann { edge, flux: R::narrow(flux) }).collect(),
-            robin: base.loads().robin.iter().map(robin).collect(),
-            contact_flux: narrow(&base.loads().contact_flux),
-            spans: narrow(&base.spans),
-            span_excess: R::narrow(span_excess(problem)),
+            loads,
             rooms: rooms.iter().map(Room::new).collect(),
             settling: R::narrow(settling),
-            gap: narrow(&base.loads().gap),
             gap_ends: pairs(&base.ends.gap),
-            dirichlet: narrow(&base.loads().dirichlet),
             dirichlet_ends: pairs(&base.ends.given),
             curved,
             curved_sums,
@@ -125,9 +118,9 @@ impl<R: Scalar> Data<R> {
         };
         let source = self.varies(Field::Source);
         let flux = !self.rooms.is_empty() || self.patterns.iter().any(Pattern::moves_contact_flux);
-        fit(&mut self.triangles, source, problem.mesh.triangles.len());
-        fit(&mut self.quads, source, problem.mesh.quads.len());
-        fit(&mut self.contact_flux, flux, problem.topology.counts.contact);
+        fit(&mut self.loads.triangles, source, problem.mesh.triangles.len());
+        fit(&mut self.loads.quads, source, problem.mesh.quads.len());
+        fit(&mut self.loads.contact_flux, flux, problem.topology.counts.contact);
     }
 
     /// Whether a gap or a value is not linear along an edge, with inputs or without.
@@ -165,11 +158,6 @@ pub(super) fn refuse_faint<R: Scalar>(scene: &Scene, data: &Data<R>) -> Result<(
         }
     }
     Ok(())
-}
-
-fn robin<R: Scalar>(law: &Robin<f64, u32>) -> Robin<R, u32> {
-    let (coefficient, ambient) = (R::narrow(law.coefficient), R::narrow(law.ambient));
-    Robin { edge: law.edge, coefficient, ambient }
 }
 
 /// The forms of transfer laws whose points do not see h, with the numbers of the inputs that change u_ext.

@@ -34,10 +34,8 @@ mod tests;
 
 pub use arrays::Baked;
 pub use controller::Controller;
-pub(crate) use on_rows::{OnRows, on_rows};
 pub use sizes::{Sizes, sizes};
 pub use source::source;
-pub use storing::Posed;
 
 /// What the algebraic part of a tick's bound may be of the whole. Outputs follow the iterate: at a tenth, which is
 /// enough for the bound, they are off by some thousandths.

@@ -63,26 +63,26 @@ const NAMES: &str = "\
     tick::CertifiedSweeps tick::UncertifiedSweeps";
 
 /// The scene with its memory, and the alias.
-fn controller<R: Scalar>(baked: &Baked<R>) -> String {
+fn controller<R: Bakes>(baked: &Baked<R>) -> String {
     let how = &baked.how;
     let (storage, zeros) = memory(baked);
     let Limits { error, share, sweeps } = how.limits;
     let factored = if baked.factored.is_some() { "Some(&data::FACTORED)" } else { "None" };
-    let units = baked.scale.as_ref().map(|scale| scale.kernel);
-    let setup = format!("Setup {{ lengths: &LENGTHS, factored: {factored}, units: {units:?} }}");
-    controller::controller(&Parts {
+    let setup = format!(
+        "Setup {{ lengths: &LENGTHS, factored: {factored}, units: {:?} }}",
+        baked.kernel_units()
+    );
+    let parts = Parts {
         first: "starts cold",
         from: if how.cold { "from a cold start" } else { "from where the last tick ended" },
         ends: ends(baked),
         limits: &format!("Limits {{ error: {error:?}, share: {share:?}, sweeps: {sweeps} }}"),
-        has_ranges: baked.face.has_ranges(),
-        exclusions: baked.exclusions.iter().map(|number| format!("{number:?}")).collect(),
-        windows: baked.face.told().collect(),
         is_cold: how.cold,
         storage: &storage,
         zeros: &zeros,
         lent: ["data::FULL", &setup],
-    })
+    };
+    controller::controller(&parts, &baked.face, &baked.exclusions)
 }
 
 /// How long its memory is: the kernel works it out of the statics, when the module is compiled.

@@ -7,11 +7,11 @@ use signorini_kernel::evolution::{Carried, Rates};
 use signorini_certify::Certifier;
 use signorini_certify::evolution::{Evolution, rates};
 use signorini_problem::scalar::Scalar;
-use signorini_problem::{Assembled, Problem};
+use signorini_problem::{Assembled, Problem, State, Step};
 use signorini_scene::error::Result;
 use signorini_scene::scene::units::Units;
-use signorini_scene::setting::{Setting, Start as Sweeps};
-use signorini_solve::{Start, unfit};
+use signorini_scene::setting::{Setting, Start};
+use signorini_solve::unfit;
 
 /// Above this part of the diagonal that is proved for the least eigenvalue, sweeps need no ω.
 const SHORT: f64 = 0.5;
@@ -22,40 +22,12 @@ const MOST: f64 = 1.98;
 /// The arrays of [`Storing`].
 #[derive(Debug, Clone)]
 pub(super) struct Stored<R> {
-    length: R,
-    masses: [Vec<R>; 2],
+    step: Step<R>,
     diagonal: Vec<R>,
-    pub cells: Vec<StoredCell<R>>,
+    cells: Vec<StoredCell<R>>,
     rates: Rates<R>,
-    u: Vec<R>,
-    pub vertices: Vec<R>,
-    pub bubbles: Vec<R>,
-    pub openings: Vec<[R; 2]>,
     carried: Carried<R>,
     is_cold: bool,
-}
-
-/// A problem as the first step from a start, with what is known of the evolution there.
-#[derive(Debug)]
-pub struct Posed {
-    /// The problem, steady where nothing stores.
-    pub problem: Problem,
-    /// What the bound of the evolution begins with.
-    pub evolution: Option<Evolution>,
-}
-
-impl Posed {
-    /// The problem that a module answers for, `problem` being the steady one.
-    ///
-    /// # Errors
-    /// A scene that does not say how long a step is; no steady solution, where the start is one.
-    pub fn new(problem: &Problem) -> Result<Self> {
-        let step = problem.scene.time.as_ref().map_or(0.0, |time| time.step);
-        Ok(match Start::of(problem, step)? {
-            Some(start) => Self { problem: start.stepping(problem)?, evolution: start.evolution },
-            None => Self { problem: problem.clone(), evolution: None },
-        })
-    }
 }
 
 impl<R: Scalar> Stored<R> {
@@ -77,20 +49,21 @@ impl<R: Scalar> Stored<R> {
             }
         }
         let has_bound = setting.certificate;
-        let bound = |all: &[R]| if has_bound { all.to_vec() } else { Vec::new() };
-        let begin = &step.begin;
+        let cells = if has_bound { certifier.stored_cells(held, step) } else { Vec::new() };
+        let mut step = step.clone();
+        if !has_bound {
+            step.begin.vertices.clear();
+        }
+        if !has_bound || problem.mesh.quads.is_empty() {
+            step.begin.bubbles.clear();
+        }
         Ok(Some(Self {
-            length: R::narrow(step.length),
-            masses: step.masses().map(<[R]>::to_vec),
+            step,
             diagonal,
-            cells: if has_bound { certifier.stored_cells(held, step) } else { Vec::new() },
+            cells,
             rates: Rates::default(),
-            u: begin.u.clone(),
-            vertices: bound(&begin.vertices),
-            bubbles: if problem.mesh.quads.is_empty() { Vec::new() } else { bound(&begin.bubbles) },
-            openings: begin.openings.clone(),
             carried: Carried { bound: R::INFINITY, before: R::ZERO },
-            is_cold: setting.start == Sweeps::Cold,
+            is_cold: setting.start == Start::Cold,
         }))
     }
 
@@ -101,25 +74,20 @@ impl<R: Scalar> Stored<R> {
         let Carried { bound, before } = of.in_unit(units.energy()).carried();
         let up = |x: f64| R::narrow(x * (1.0 + 2.0 * R::EPSILON.wide()));
         let carried = Carried { bound: up(bound), before: up(before).or_smaller(R::ONE) };
-        Self { rates: rates(of.rate, self.length.wide()), carried, ..self }
+        Self { rates: rates(of.rate, R::narrow(self.step.length).wide()), carried, ..self }
     }
 
     /// As the kernel takes it.
     pub fn view(&self) -> Storing<'_, R> {
-        let Self { length, masses: [triangles, quads], diagonal, cells, rates, is_cold, .. } = self;
+        let Self { step, diagonal, cells, rates, carried, is_cold } = self;
+        let State { u, vertices, bubbles, openings, .. } = &step.begin;
         Storing {
-            length: *length,
-            masses: [triangles, quads],
+            length: R::narrow(step.length),
+            masses: step.masses(),
             diagonal,
             cells,
             rates: *rates,
-            begin: Begin {
-                u: &self.u,
-                vertices: &self.vertices,
-                bubbles: &self.bubbles,
-                openings: &self.openings,
-                carried: self.carried,
-            },
+            begin: Begin { u, vertices, bubbles, openings, carried: *carried },
             is_cold: *is_cold,
         }
     }

@@ -1,7 +1,5 @@
 //! Sides and worst cases of controllers that step in time, against their ticks.
 
-use std::path::Path;
-
 use super::own::{ROUNDINGS, narrowed};
 use super::section;
 use crate::Bakes;
@@ -9,17 +7,16 @@ use crate::choice::{Choice, Wanted};
 use crate::condensed::Controller;
 use crate::emit::emit;
 use crate::state;
+use crate::tests::of_file;
 use signorini_condense::SteppedModel;
 use signorini_condense::ranges::lasting::lasting;
 use signorini_condense::ranges::sides::EdgeSide;
 use signorini_kernel::report::Ended;
 use signorini_problem::Problem;
-use signorini_problem::fixtures::{changed, on_grid, scatter};
+use signorini_problem::fixtures::{on_grid, scatter};
 use signorini_problem::inputs::{InputSpace, drawn};
 use signorini_problem::scalar::Scalar;
-use signorini_scene::mesh::adapted;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_scene::scene::Scene;
 use signorini_scene::setting::ModelKind;
 
 const AIR: &str = "
@@ -32,22 +29,14 @@ range = [5.0, 80.0]
 unit = \"W/m2K\"
 ";
 
-/// The levee, and the slab in air that keeps its speed.
-fn scene(name: &str, changes: &[(&str, &str)]) -> Problem {
-    let path = format!("../../meshes/scenes/{name}.toml");
-    let text = std::fs::read_to_string(&path).expect("a standard scene");
-    let scene = Scene::parse(&changed(&text, changes), Path::new(&path)).expect("a sound scene");
-    let mesh = adapted::of_scene(&scene).expect("its mesh");
-    Problem::new(&scene, mesh).expect("a sound problem")
-}
-
 fn levee(step: &str) -> Problem {
-    scene("levee-warm", &[("step = 60", step)])
+    of_file("scenes/levee-warm", ("", &[("step = 60", step)]), |_| ())
 }
 
+/// A slab in air that keeps its speed.
 fn slab(more: &[(&str, &str)]) -> Problem {
     let still = [(AIR, ""), ("coefficient = \"0\"", "coefficient = \"60\"")];
-    scene("antiicing-warm", &[&still, more].concat())
+    of_file("scenes/antiicing-warm", ("", &[&still, more].concat()), |_| ())
 }
 
 /// A tensor that makes entries push on triangles, in a short step.

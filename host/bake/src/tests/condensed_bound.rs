@@ -6,8 +6,11 @@ use signorini_tolerances::bake::{
 use signorini_tolerances::{Tolerance, some};
 use std::path::Path;
 
+use super::direct::to_the_end;
+use super::exact;
 use crate::choice::{Choice, Wanted};
 use crate::condensed::{Baked, Controller, Work};
+use crate::full;
 use signorini_certify::admissible::Following;
 use signorini_certify::curved::followed;
 use signorini_certify::exact::{Distance, distance};
@@ -333,8 +336,7 @@ fn of_one_part_held_by_contact_alone_among_others() -> Result<()> {
         let mut above: Vec<f64> = vec![1.0; n];
         form.floating.iter().for_each(|&i| above[i] = 0.0);
         assert!(condensate.bound(p, &above).is_some(), "the other part has its sides");
-        let baked = Baked::<f64>::new(&condensate, Work { pivots: Some(100), sweeps: 0 }, true);
-        let baked = baked.expect("in range");
+        let baked = exact::<f64>(&problem)?;
         let (_, report) = Controller::new(&baked).tick(&[]).expect("a tick");
         let total = report.certificate().expect("a bound").total;
         SAME_BOUND.check_relative(format_args!("{cells:?}, baked"), total, bound);
@@ -342,19 +344,25 @@ fn of_one_part_held_by_contact_alone_among_others() -> Result<()> {
     Ok(())
 }
 
-/// Where the defaults make everything 0, the units are those of the inputs: what a large one makes stays in range.
+/// Where the defaults make everything 0, the units are those of the inputs: what a large one makes stays in range, in either model.
 #[test]
 fn of_a_large_input_after_defaults_of_zero() -> Result<()> {
     let text = "mesh = \"grid\"\n[material.default]\nconductivity = \"1e-9\"\n[boundary.dirichlet]\nkind = \"dirichlet\"\n\
                 value = \"0\"\n[boundary.contact]\nkind = \"contact\"\n[input.heat]\nof = \"source\"\nfield = \"f\"\n\
-                pattern = \"1e9*x\"\n";
-    let model = Model::new(text, grid(4, Cells::Triangles))?;
-    let baked = Baked::<f32>::new(&model.condensate, Work { pivots: Some(100), sweeps: 0 }, true);
-    let baked = baked.expect("in range");
-    for heat in [1.0_f32, 1e6, -1e6, 1e12] {
-        let (_, report) = Controller::new(&baked).tick(&[heat]).expect("a tick");
-        let bound = report.certificate().expect("a bound").total;
-        assert!(bound.is_finite() && bound > 0.0, "{heat}: {bound}");
+                pattern = \"1e9*x\"\n[output.bound]\nkind = \"bound\"\n";
+    let (_, problem) = on_grid(text, grid(4, Cells::Triangles))?;
+    let (small, large) = (exact::<f32>(&problem)?, full::Baked::<f32>::new(&problem)?);
+    for heat in [1.0_f32, 1e6, -1e6, 1e10, 1e12] {
+        let (_, report) = Controller::new(&small).tick(&[heat]).expect("a tick");
+        let mut bounds = vec![report.certificate().copied()];
+        if heat < 1e12 {
+            let mut controller = full::Controller::<f32>::new(&large);
+            let (_, report) = controller.tick_within(&[heat], to_the_end()).expect("a tick");
+            bounds.push(report.verdict.certificate().copied());
+        }
+        for bound in bounds.into_iter().map(|of| of.expect("a bound").total) {
+            assert!(bound.is_finite() && bound > 0.0, "{heat}: {bound}");
+        }
     }
     Ok(())
 }

@@ -2,9 +2,9 @@
 //! everybody refuses the input by its name.
 
 use super::direct::{directly, played, to_the_end};
+use super::exact;
 use crate::narrow::narrow;
 use crate::{Bakes, condensed, full};
-use signorini_condense::condense;
 use signorini_kernel::Error;
 use signorini_problem::Problem;
 use signorini_problem::fixtures::{on_grid, scene, wall};
@@ -37,9 +37,7 @@ fn of_controllers<R: Bakes>(
 ) -> Result<Vec<std::result::Result<f64, Error>>> {
     let baked = full::Baked::<R>::new(problem)?;
     let mut on_mesh = full::Controller::<R>::new(&baked);
-    let model = condense(problem)?;
-    let work = condensed::Work { pivots: Some(100), sweeps: 100 };
-    let small = condensed::Baked::<R>::new(&model, work, true).expect("in range");
+    let small = exact::<R>(problem)?;
     let mut condensed = condensed::Controller::new(&small);
     let inputs = |cap: f64| -> Vec<R> { narrow(&[0.25, cap]) };
     let first = on_mesh.tick_within(&inputs(0.0), to_the_end()).expect("a tick").0;
@@ -126,9 +124,7 @@ fn ends_that_cross_are_in_every_bound() -> Result<()> {
         let (_, problem) = on_grid(&text, grid(4, Cells::Triangles))?;
         let baked = full::Baked::<f64>::new(&problem)?;
         let mut on_mesh = full::Controller::<f64>::new(&baked);
-        let model = condense(&problem)?;
-        let work = condensed::Work { pivots: Some(100), sweeps: 100 };
-        let small = condensed::Baked::<f64>::new(&model, work, true).expect("in range");
+        let small = exact::<f64>(&problem)?;
         let of_controllers = [
             on_mesh.tick_within(&[0.0], to_the_end()).expect("a tick").1.verdict,
             condensed::Controller::new(&small).tick(&[0.0]).expect("a tick").1.verdict,

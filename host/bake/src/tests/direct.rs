@@ -5,19 +5,19 @@ use std::collections::BTreeMap;
 use crate::Bakes;
 use crate::full::{Baked, Controller};
 use crate::narrow::narrow;
-use signorini_certify::CertifiedFields;
-use signorini_certify::admissible::Following;
 use signorini_certify::exact::distance;
 use signorini_device::tick::{Limits, Report};
 use signorini_problem::Problem;
 use signorini_problem::fixtures::on_grid;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
+use signorini_scene::scene::units::Units;
+use signorini_session::on_mesh::answer;
 use signorini_session::tick::{Budget, ScheduledTick, TickRecord, play};
 use signorini_solve::outputs::outputs;
 use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
 use signorini_tolerances::Tolerance;
-use signorini_tolerances::bake::GUARANTEE;
+use signorini_tolerances::bake::{GUARANTEE, OSCILLATION};
 
 /// A heated face below keeps 2 with at most 6 per length, less towards its ends, and may cool by 1; u ≤ 3 on the right, air
 /// on the left.
@@ -40,7 +40,7 @@ output.skin = { kind = "mean", of = "contact" }
 
 /// Limits of a tick that goes on until sweeps change nothing that counts.
 pub fn to_the_end<R: Bakes>() -> Limits<R> {
-    Limits { share: R::narrow(1e-9), ..Limits::default() }
+    Limits { share: R::narrow(1e-9), sweeps: 200_000, ..Limits::default() }
 }
 
 /// Why there is no full model of a scene.
@@ -105,41 +105,36 @@ impl Beside<'_> {
     }
 }
 
-/// s and τ of the last tick.
-fn certified<R: Bakes>(controller: &Controller<R>) -> CertifiedFields {
-    let wide = |numbers: &[R]| -> Vec<f64> { numbers.iter().map(|x| x.wide()).collect() };
-    let tau = wide(controller.tau());
-    let bubbles = match controller.bubbles() {
-        [] => vec![0.0; tau.len()],
-        bubbles => wide(bubbles),
-    };
-    let (vertices, indicators) = (wide(controller.vertices()), Vec::new());
-    CertifiedFields {
-        vertices,
-        bubbles,
-        tau,
-        indicators,
-        following: Following::WhereNeeded,
-        ..CertifiedFields::default()
-    }
+/// A tick leaves out of its data at least what a solve does: the oscillation of a sum is at most the sum of oscillations.
+pub fn leaves_out_more<R: Bakes>(_: &[R], report: &Report<R>, solution: &Solution) {
+    let of_tick = report.verdict.certificate().expect("a bound").oscillation.wide();
+    let bound = solution.bound.as_ref().expect("a bound");
+    OSCILLATION.check_at_most("oscillation", bound.oscillation, of_tick);
 }
 
-/// Ticks that are cut off after so many sweeps: a bound holds of any iterate, and is at most so many times the error.
+/// Ticks of one controller on these problems, each cut off after so many sweeps: a bound holds of any iterate, and is at most so many
+/// times the error.
 pub fn bounded<R: Bakes>(
-    controller: &mut Controller<R>,
-    now: &Problem,
-    inputs: &[f64],
+    problem: &Problem,
+    at: impl IntoIterator<Item = Result<Problem>>,
     cut_offs: &[(u32, f64)],
 ) -> Result<()> {
-    let exact = now.scene.exact.as_ref().expect("an exact solution");
-    for &(sweeps, most) in cut_offs {
-        let limits = Limits { sweeps, ..to_the_end() };
-        let (_, report) = controller.tick_within(&narrow(inputs), limits).expect("a tick");
-        let bound = report.verdict.certificate().expect("a bound").total.wide();
-        let error = distance(exact, now, &certified(controller).admissible())?.combined;
-        let what = format!("{inputs:?}, {sweeps} sweeps");
-        GUARANTEE.check_at_most(&what, error, bound);
-        assert!(bound < most * error, "{what}: {bound} for {error}");
+    let baked = Baked::<R>::new(problem)?;
+    let mut controller = Controller::<R>::new(&baked);
+    for now in at {
+        let now = now?;
+        let inputs: Vec<f64> = now.scene.inputs.iter().map(|input| input.default).collect();
+        let exact = now.scene.exact.as_ref().expect("an exact solution");
+        for &(sweeps, most) in cut_offs {
+            let limits = Limits { sweeps, ..to_the_end() };
+            let (_, report) = controller.tick_within(&narrow(&inputs), limits).expect("a tick");
+            let bound = report.verdict.certificate().expect("a bound").total.wide();
+            let certified = answer(&report, &controller.numbers(), &Units::default()).certified;
+            let error = distance(exact, &now, &certified.admissible())?.combined;
+            let what = format!("{inputs:?}, {sweeps} sweeps");
+            GUARANTEE.check_at_most(&what, error, bound);
+            assert!(bound < most * error, "{what}: {bound} for {error}");
+        }
     }
     Ok(())
 }

@@ -171,14 +171,8 @@ fn cut_offs(most: f64) -> [(u32, f64); 4] {
 }
 
 fn bounds<R: Bakes>(cells: Cells) -> Result<()> {
-    let (_, problem) = on_grid(&transitions(1.0), grid(6, cells))?;
-    let baked = Baked::<R>::new(&problem)?;
-    let mut controller = Controller::<R>::new(&baked);
-    for p in [1.0, 0.02, 300.0, 0.7] {
-        let (_, now) = on_grid(&transitions(p), grid(6, cells))?;
-        bounded(&mut controller, &now, &[p, p], &cut_offs(1.05))?;
-    }
-    Ok(())
+    let at = |p: f64| on_grid(&transitions(p), grid(6, cells)).map(|(_, problem)| problem);
+    bounded::<R>(&at(1.0)?, [1.0, 0.02, 300.0, 0.7].map(at), &cut_offs(1.05))
 }
 
 #[test]
@@ -244,13 +238,8 @@ fn ranges_that_leave_no_flux_are_refused_with_the_corner() -> Result<()> {
 
 fn fades<R: Bakes>(cells: Cells) -> Result<()> {
     let (_, problem) = on_grid(&fading(), grid(8, cells))?;
-    let baked = Baked::<R>::new(&problem)?;
-    let mut controller = Controller::<R>::new(&baked);
-    for supply in [1.0, 0.05, 3.0] {
-        let now = problem.with_inputs(&[supply])?;
-        bounded(&mut controller, &now, &[supply], &cut_offs(3.0))?;
-    }
-    Ok(())
+    let at = |supply: f64| problem.with_inputs(&[supply]);
+    bounded::<R>(&problem, [1.0, 0.05, 3.0].map(at), &cut_offs(3.0))
 }
 
 /// Ends that meet at both corners for every supply within its range.

@@ -1,7 +1,7 @@
 //! Means of u over boundaries: of an affine u they are known, in every model and scalar.
 
+use super::exact;
 use crate::{Bakes, condensed, full};
-use signorini_condense::condense;
 use signorini_device::tick::Limits;
 use signorini_problem::Problem;
 use signorini_problem::fixtures::{distorted, on_grid};
@@ -59,18 +59,16 @@ fn solved(what: &str, problem: &Problem, level: f64) {
 }
 
 fn baked<R: Bakes>(what: &str, problem: &Problem, level: f64, allowed: Tolerance) {
-    let model = condense(problem).expect("a condensed model");
-    let work = condensed::Work { pivots: Some(1000), sweeps: 10_000 };
-    let small = condensed::Baked::<R>::new(&model, work, true).expect("in range");
+    let small = exact::<R>(problem).expect("a condensed model");
     let inputs = [R::narrow(level); 2];
-    let (values, _) = condensed::Controller::new(&small).tick(&inputs).expect("a tick");
-    let values: Vec<_> = values.iter().map(|value| value.wide()).collect();
-    check(&format!("{what}, condensed, {}", R::NAME), &values, level, allowed);
+    let (of_small, _) = condensed::Controller::new(&small).tick(&inputs).expect("a tick");
     let large = full::Baked::<R>::new(problem).expect("a full model");
     let limits = Limits { sweeps: 20_000, share: R::ZERO, error: R::ZERO };
-    let (values, _) = full::Controller::new(&large).tick_within(&inputs, limits).expect("a tick");
-    let values: Vec<_> = values.iter().map(|value| value.wide()).collect();
-    check(&format!("{what}, full, {}", R::NAME), &values, level, allowed);
+    let (of_large, _) = full::Controller::new(&large).tick_within(&inputs, limits).expect("a tick");
+    for (model, values) in [("condensed", of_small), ("full", of_large)] {
+        let values: Vec<_> = values.iter().map(|value| value.wide()).collect();
+        check(&format!("{what}, {model}, {}", R::NAME), &values, level, allowed);
+    }
 }
 
 #[test]

@@ -2,10 +2,9 @@
 
 use crate::choice::{Choice, Wanted};
 use crate::promise::check;
+use crate::tests::standard;
 use signorini_problem::Problem;
 use signorini_scene::goal::Goal;
-use signorini_scene::mesh::adapted;
-use signorini_scene::scene::Scene;
 use signorini_scene::setting::ModelKind;
 use signorini_solve::adaptive::{Allowed, Promise};
 use signorini_solve::{Options, solve};
@@ -24,18 +23,14 @@ fn promise(problem: &Problem, times: f64) -> Promise {
 
 #[test]
 fn every_model_keeps_it_or_is_refused() {
-    let path =
-        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/scenes/levee.toml");
-    let mut scene = Scene::read(&path).expect("the levee");
-    scene.target = None;
-    let mesh = adapted::of_scene(&scene).expect("a mesh");
-    let problem = Problem::new(&scene, mesh).expect("a problem");
+    let problem = standard("levee", |scene| scene.target = None);
     for model in [ModelKind::Condensed, ModelKind::Full] {
         let choice = Choice::<f32>::new(&problem, Wanted::model(model)).expect("a model");
         // The bound in f32 is a little above that in f64; a share of sweeps is not cut off here. That of a condensed model is below
         // the mesh's, since its s is the best there is.
-        check(&scene, &choice, &promise(&problem, 1.05)).expect("kept");
-        let refused = check(&scene, &choice, &promise(&problem, 0.5)).expect_err("not kept");
+        check(&problem.scene, &choice, &promise(&problem, 1.05)).expect("kept");
+        let refused =
+            check(&problem.scene, &choice, &promise(&problem, 0.5)).expect_err("not kept");
         let text = refused.to_string();
         assert!(text.contains("setting.error = \"30%\", rain = "), "{text}");
         assert!(text.contains("a tick in f32"), "{text}");

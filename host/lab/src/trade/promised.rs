@@ -11,7 +11,6 @@ use std::fmt::Write;
 use super::digits::{grouped, or_dash};
 use signorini_bake::Bakes;
 use signorini_bake::choice::{Candidate, Wanted};
-use signorini_bake::promise;
 use signorini_draw::{Column, Table};
 use signorini_problem::Problem;
 use signorini_scene::mesh::adapted;
@@ -94,7 +93,7 @@ fn firmware(scene: &Scene, goal: Goal, refining: Refining) -> Result<Firmware> {
 }
 
 fn baked<R: Bakes>(problem: &Problem, promise: &Promise) -> Result<Firmware> {
-    let (choice, _) = promise::kept::<R>(problem, Wanted::default(), promise)?;
+    let (choice, _) = R::keep(problem, Wanted::default(), promise)?;
     let Candidate { name, needs, .. } = &choice.candidates[choice.chosen];
     Ok(Firmware {
         promise: promise.clone(),

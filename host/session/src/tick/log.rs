@@ -18,15 +18,7 @@ use signorini_scene::scene::Scene;
 
 const SHAPE: &str = "a log is a CSV file: a line t,NAME,… with inputs of the scene, then numbers";
 
-/// Reads the log at `path`, whose first tick is any.
-///
-/// # Errors
-/// As for [`read_after`].
-pub fn read(path: &Path, scene: &Scene) -> Result<Vec<ScheduledTick>> {
-    read_after(path, scene, None)
-}
-
-/// Reads the log at `path`, of ticks that go on after the one at the time `last`.
+/// Reads the log at `path`, of ticks that go on after the one at the time `last`, where there is one.
 ///
 /// # Errors
 /// A file that cannot be read or holds no tick, a column that is no input or comes twice, a value

@@ -10,6 +10,7 @@
 //! solver, scalar, setting, first state and what stays from tick to tick are the module's, and a tick that it refuses leaves
 //! its state and the answer before, as on a device.
 
+mod begun;
 pub mod columns;
 #[cfg(test)]
 mod falling;
@@ -32,7 +33,7 @@ mod tests;
 pub mod window_error;
 
 pub use record::{TickInterval, TickRecord};
-pub use replay::{replay, replay_on, scalar_of_controller};
+pub use replay::{replay, replay_on};
 pub use saved::{Moment, Saved};
 
 use signorini_device::tick::Limits;

@@ -7,25 +7,17 @@ use signorini_problem::scalar::Scalar;
 use signorini_problem::{Approach, Loads, Parts, Problem};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::scene::units::Units;
-use signorini_solve::{ScalarKind, Start, choose_units, step_of};
+use signorini_solve::{ScalarKind, choose_units};
 
+use super::begun::Begun;
 use super::intervals::Intervals;
 use super::moments::{Done, Play, each, is_unsolvable};
 use super::saved::{Moment, Saved};
-use super::window_error::WindowError;
 use super::{Begin, Budget, Played, ScheduledTick, TickRecord};
 use crate::{Session, coarse, kernel_tick, solves};
 
-/// A problem at the moment that its session is made for, in the scene's units, and what comes before its first tick.
-struct Begun {
-    problem: Problem,
-    /// The kinds of its parts; `None` where no moment has a solution.
-    parts: Option<PartCounts>,
-    evolution: Option<Evolution>,
-    /// Its error, where that is known.
-    error: Option<WindowError>,
-    ticks: Vec<TickRecord>,
-}
+/// A play at the moment that its session is made for, and the kinds of its problem's parts; `None` where no moment has a solution.
+type Posed = (Begun, Option<PartCounts>);
 
 /// How a problem is played.
 type Playing = fn(&Problem, Begin, &[ScheduledTick], &Budget, Done) -> Result<Played>;
@@ -46,11 +38,11 @@ fn play<R: Scalar>(
     budget: &Budget,
     done: Done,
 ) -> Result<Played> {
-    let begun = match begin {
+    let (begun, parts) = match begin {
         Begin::Anew(_) => anew(given, moments, budget, done)?,
         Begin::From(saved) => again(given, saved).map_err(|error| saved.blamed(error))?,
     };
-    let Begun { problem, parts, mut evolution, error, mut ticks } = begun;
+    let Begun { problem, mut evolution, error, mut ticks } = begun;
     let Some(parts) = parts else {
         return Ok(Played { ticks: unsolvable(given, moments, done)?, saved: None });
     };
@@ -97,61 +89,25 @@ fn play<R: Scalar>(
     };
     let mut play = Play { units, evolution, error, ..Play::new(&mut *session, intervals) };
     ticks.extend(play.through(&mut problem, &moments, done)?);
-    let mut saved = Saved::new(given, budget.scalar, [moment, Moment::of(&problem)]);
-    saved.units = units;
-    saved.state = problem.loads.step.take().map(|step| step.begin);
-    saved.evolution = play.evolution.filter(Evolution::is_finite);
-    saved.error = WindowError::finite_sums(play.error.as_ref());
-    saved.session = session.saved();
+    let saved = Saved::after(play, (given, budget.scalar), moment, &mut problem);
     Ok(Played { ticks, saved: Some(saved).filter(Saved::is_finite) })
 }
 
 /// A play from the start.
-fn anew(given: &Problem, moments: &[ScheduledTick], budget: &Budget, done: Done) -> Result<Begun> {
-    let (mut problem, mut evolution, mut error, mut ticks) =
-        (given.clone(), None, None, Vec::new());
-    let first = moments.first().map_or(0.0, |moment| moment.time);
-    if let Some(start) = Start::of(given, first)? {
-        problem = start.stepping(given)?;
-        evolution = start.evolution;
-        if let Some(of) = &evolution {
-            error = WindowError::begin(&start, of.seconds())?;
-        }
-        if budget.shows_start {
-            ticks.push(TickRecord::of_start(&start)?);
-            done(&ticks[0], Some(&start.solution))?;
-        }
-    }
-    let parts = begun(&mut problem, moments)?;
-    Ok(Begun { problem, parts, evolution, error, ticks })
+fn anew(given: &Problem, moments: &[ScheduledTick], budget: &Budget, done: Done) -> Result<Posed> {
+    let mut begun = Begun::anew(given, moments, (budget.shows_start, done), |_| None)?;
+    let parts = at_first(&mut begun.problem, moments)?;
+    Ok((begun, parts))
 }
 
 /// A play whose session was made before, for the same moment; its state in time is in the session's units for now.
-fn again(given: &Problem, saved: &Saved) -> Result<Begun> {
-    saved.check_mesh(given)?;
-    let mut problem = match &saved.state {
-        Some(state) => given.stepping(step_of(&given.scene)?, state.clone())?,
-        None => given.clone(),
-    };
+fn again(given: &Problem, saved: &Saved) -> Result<Posed> {
+    let mut begun = Begun::again(given, saved)?;
     let Moment { time, .. } = saved.begun;
-    problem.set(&saved.begun.values().collect::<Vec<_>>(), time)?;
-    let parts = Some(Parts::whatever_inputs(&problem)?.counts);
+    begun.problem.set(&saved.begun.values().collect::<Vec<_>>(), time)?;
+    let parts = Some(Parts::whatever_inputs(&begun.problem)?.counts);
     let seconds = saved.evolution.as_ref().map(Evolution::seconds);
-    let error = error_until(given, saved, seconds);
-    Ok(Begun { problem, parts, evolution: None, error, ticks: Vec::new() })
-}
-
-/// The error of the evolution until a state, where that is known; its weights fade within so many seconds.
-pub(super) fn error_until(
-    given: &Problem,
-    saved: &Saved,
-    seconds: Option<f64>,
-) -> Option<WindowError> {
-    let (state, units) = (saved.state.as_ref()?, &saved.units);
-    let vertices = state.vertices.iter().map(|&u| units.value(u)).collect();
-    let bubbles = state.bubbles.iter().map(|&bubble| bubble * units.u).collect();
-    let at_last = Problem { time: saved.last.time, ..given.clone() };
-    WindowError::resume(&at_last, seconds?, saved.error?, [vertices, bubbles])
+    Ok((begun.with_error(given, saved, seconds), parts))
 }
 
 /// Lays the numbers of a state into `problem` and its session, both in `units`.
@@ -183,7 +139,7 @@ fn in_other(problem: Problem, units: &Units) -> Result<Problem> {
 
 /// Brings `problem` to the first moment at which it has a solution, where its session begins; the kinds of its parts. `None` where
 /// there is no such moment.
-fn begun(problem: &mut Problem, moments: &[ScheduledTick]) -> Result<Option<PartCounts>> {
+fn at_first(problem: &mut Problem, moments: &[ScheduledTick]) -> Result<Option<PartCounts>> {
     if moments.is_empty() {
         return Ok(Some(Parts::whatever_inputs(problem)?.counts));
     }

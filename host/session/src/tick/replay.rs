@@ -5,14 +5,12 @@ use std::borrow::Cow;
 use signorini_bake::setting;
 use signorini_problem::Problem;
 use signorini_scene::error::{InputError, Result};
-use signorini_scene::scene::Scene;
-use signorini_solve::{ScalarKind, Solution, Start, at_start, step_of};
+use signorini_solve::{ScalarKind, Solution, at_start};
 
+use super::begun::Begun;
 use super::intervals::Intervals;
 use super::moments::{Done, Play, is_unsolvable};
-use super::play::error_until;
 use super::saved::{Moment, Saved};
-use super::window_error::WindowError;
 use super::{Onward, Played, ScheduledTick, TickRecord};
 use crate::{Session, with_module};
 
@@ -47,50 +45,27 @@ pub fn replay_on<D: Into<Onward>>(
     replay_to((problem, from), moments, asked, done)
 }
 
-/// The scalar of the controller of `scene`: the one that is asked for, else that of the setting, else f32.
-///
-/// # Errors
-/// A setting that no controller can have.
-pub fn scalar_of_controller(scene: &Scene, asked: Option<ScalarKind>) -> Result<ScalarKind> {
-    setting::scalar(scene, asked)
-}
-
-/// A replay before its first tick.
-struct Begun {
-    problem: Problem,
-    error: Option<WindowError>,
-    stated: Option<[f64; 2]>,
-    ticks: Vec<TickRecord>,
-}
-
 fn replay_to(
     (given, from): (&Problem, Option<&Saved>),
     moments: &[ScheduledTick],
     (asked, shows_start): (Option<ScalarKind>, bool),
     done: Done,
 ) -> Result<(String, Played)> {
-    let scalar = scalar_of_controller(&given.scene, asked)?;
-    let first = moments.first().map_or(0.0, |moment| moment.time);
+    let scalar = setting::scalar(&given.scene, asked)?;
     let baked = as_baked(given)?;
     with_module(&baked, asked, |session, module| {
-        let begun = match from {
-            None => anew(given, (&*session, first), shows_start, done)?,
+        let (begun, stated) = match from {
+            None => anew(given, moments, &*session, (shows_start, done))?,
             Some(saved) => again(given, saved, session).map_err(|error| saved.blamed(error))?,
         };
-        let Begun { mut problem, error, stated, mut ticks } = begun;
+        let Begun { mut problem, error, mut ticks, .. } = begun;
         let mut play =
             Play { error, stated, ..Play::new(&mut *session, Intervals::Weighed(module)) };
         ticks.extend(play.through(&mut problem, moments, done)?);
-        let Play { error, stated, .. } = play;
-        let saved = session.saved().map(|session| {
-            let last = Moment::of(&problem);
-            let mut saved = Saved::new(given, scalar, [last.clone(), last]);
-            saved.state = problem.loads.step.take().map(|step| step.begin);
-            saved.error = WindowError::finite_sums(error.as_ref());
-            (saved.stated, saved.session) = (stated, Some(session));
-            saved
-        });
-        Ok((module.name.clone(), Played { ticks, saved: saved.filter(Saved::is_finite) }))
+        let last = Moment::of(&problem);
+        let saved = Saved::after(play, (given, scalar), last, &mut problem);
+        let is_one = |saved: &Saved| saved.session.is_some() && saved.is_finite();
+        Ok((module.name.clone(), Played { ticks, saved: Some(saved).filter(is_one) }))
     })
 }
 
@@ -102,44 +77,32 @@ fn as_baked(given: &Problem) -> Result<Cow<'_, Problem>> {
     Ok(Cow::Owned(at_start(given, given.time)?))
 }
 
+/// A replay before its first tick, and see [`Play::stated`].
+type Replaying = (Begun, Option<[f64; 2]>);
+
 fn anew(
     given: &Problem,
-    (session, first): (&dyn Session, f64),
-    shows_start: bool,
-    done: Done,
-) -> Result<Begun> {
-    let mut begun = Begun { problem: given.clone(), error: None, stated: None, ticks: Vec::new() };
-    let Some(mut start) = Start::of(given, first)? else { return Ok(begun) };
-    if let Some(s) = session.s_at_start(&start.problem) {
-        let certified = &mut start.solution.certified;
-        (certified.vertices, certified.bubbles) = (s.vertices, s.bubbles);
-    }
-    begun.problem = start.stepping(given)?;
-    let time = given.scene.time.as_ref();
-    begun.stated = time.filter(|of| of.initial.is_some()).map(|of| [0.0, of.step]);
-    if let Some(of) = &start.evolution {
-        begun.error = WindowError::begin(&start, of.seconds())?;
-    }
-    if shows_start {
-        begun.ticks.push(TickRecord::of_start(&start)?);
-        done(&begun.ticks[0], Some(&start.solution))?;
-    }
-    Ok(begun)
+    moments: &[ScheduledTick],
+    session: &dyn Session,
+    told: (bool, Done),
+) -> Result<Replaying> {
+    let begun = Begun::anew(given, moments, told, |start| session.s_at_start(start))?;
+    let time = given.scene.time.as_ref().filter(|_| begun.problem.loads.step.is_some());
+    let stated = time.filter(|of| of.initial.is_some()).map(|of| [0.0, of.step]);
+    Ok((begun, stated))
 }
 
 /// Goes on from a state: what the command line says of inputs acts from here on.
-fn again(given: &Problem, saved: &Saved, session: &mut dyn Session) -> Result<Begun> {
-    saved.check_mesh(given)?;
+fn again(given: &Problem, saved: &Saved, session: &mut dyn Session) -> Result<Replaying> {
+    let mut begun = Begun::again(given, saved)?;
     let missing = |part: &str| InputError::new(format!("{part}: missing"));
-    let state = saved.state.clone().ok_or_else(|| missing("state"))?;
+    saved.state.as_ref().ok_or_else(|| missing("state"))?;
     session.restore(saved.session.as_ref().ok_or_else(|| missing("session"))?)?;
-    let mut problem = given.stepping(step_of(&given.scene)?, state)?;
-    match problem.set_time(saved.last.time) {
+    match begun.problem.set_time(saved.last.time) {
         // A tick that was refused has left no mark.
         Err(error) if !is_unsolvable(&error) => return Err(error),
         _ => {}
     }
     let seconds = session.window().map(|[_, seconds]| seconds);
-    let error = error_until(given, saved, seconds);
-    Ok(Begun { problem, error, stated: saved.stated, ticks: Vec::new() })
+    Ok((begun.with_error(given, saved, seconds), saved.stated))
 }

@@ -15,6 +15,8 @@ use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_solve::ScalarKind;
 
+use super::moments::Play;
+use super::window_error::WindowError;
 use crate::saved::{SavedSession, check_length};
 
 /// The version of the file.
@@ -81,7 +83,7 @@ pub struct Saved {
     /// The sums of `window_error`, where it is known.
     #[serde(default)]
     pub(super) error: Option<[f64; 2]>,
-    /// See [`Play::stated`](super::moments::Play::stated).
+    /// See [`Play::stated`].
     #[serde(default)]
     pub(super) stated: Option<[f64; 2]>,
     /// What the session carries; nothing before its first answer.
@@ -92,24 +94,25 @@ pub struct Saved {
 }
 
 impl Saved {
-    /// The state of a play of `problem`, begun and ended at these moments. The rest is filled in.
-    pub(super) fn new(problem: &Problem, scalar: ScalarKind, [begun, last]: [Moment; 2]) -> Self {
+    /// The state of a `play` of `given` in this scalar, whose session was made for the moment `begun`; `problem` stands at the last one.
+    pub(super) fn after(
+        play: Play,
+        (given, scalar): (&Problem, ScalarKind),
+        begun: Moment,
+        problem: &mut Problem,
+    ) -> Self {
+        let (scene, mesh) = (of_scene(&given.scene), of_mesh(given));
         Self {
             version: VERSION,
-            origin: Origin {
-                scene: of_scene(&problem.scene),
-                mesh: of_mesh(problem),
-                step: step(&problem.scene),
-                scalar,
-            },
-            last,
+            origin: Origin { scene, mesh, step: step(&given.scene), scalar },
+            last: Moment::of(problem),
             begun,
-            units: Units::default(),
-            state: None,
-            evolution: None,
-            error: None,
-            stated: None,
-            session: None,
+            units: play.units,
+            state: problem.loads.step.take().map(|step| step.begin),
+            evolution: play.evolution.filter(Evolution::is_finite),
+            error: WindowError::finite_sums(play.error.as_ref()),
+            stated: play.stated,
+            session: play.session.saved(),
             path: PathBuf::new(),
         }
     }

@@ -11,18 +11,10 @@ pub const MOST: u32 = 1_000_000;
 /// How far `end` may lie below the last tick, in steps: what rounding leaves of end/step.
 const ROUNDING: f64 = 1e-9;
 
-/// The moments of the scene, or `count` of them; without `[time]` the step is 1.
+/// The moments of the scene, or `count` of them, after the one at the time `last` where there is one; without `[time]` the step is 1.
 ///
 /// # Errors
-/// Neither `[time]` nor a count; more than [`MOST`] ticks.
-pub fn moments(scene: &Scene, count: Option<u32>) -> Result<Vec<ScheduledTick>> {
-    moments_after(scene, count, None)
-}
-
-/// The moments after the one at the time `last`, to the end of the scene or `count` of them.
-///
-/// # Errors
-/// As for [`moments`]; an end that `last` has reached.
+/// Neither `[time]` nor a count; more than [`MOST`] ticks; an end that `last` has reached.
 pub fn moments_after(
     scene: &Scene,
     count: Option<u32>,
@@ -141,7 +133,8 @@ mod tests {
             );
             let mut scene = Scene::parse(&text, std::path::Path::new("s.toml")).unwrap();
             scene.time.as_mut().unwrap().step = step;
-            moments(&scene, None).map(|all| all.iter().map(|of| of.time).collect::<Vec<_>>())
+            moments_after(&scene, None, None)
+                .map(|all| all.iter().map(|of| of.time).collect::<Vec<_>>())
         };
         assert_eq!(of(0.0, 0.5).unwrap(), [0.0, 0.5, 1.0]);
         assert_eq!(of(2.0, 0.5).unwrap(), [0.5, 1.0]);

@@ -1,140 +1,42 @@
-//! Condensed controllers that step in time: beside this machine's own steps, and bit for bit with the module.
+//! States of controllers that step in time: bit for bit with the module, and as many as a condensed model needs.
 
-use super::steps::{HEATED, near};
-use super::{Budget, ScheduledTick, play, replay};
+use super::steps::{CONDENSED, SHARE, STILL, SWEPT, both, changed_heater, inputs, still, told};
+use crate::with_module;
 use signorini_bake::Bakes;
 use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::compiled::printed;
 use signorini_bake::condensed::Controller;
 use signorini_bake::emit::emit;
-use signorini_bake::module_api::hash;
+use signorini_bake::narrow::narrow;
 use signorini_problem::Problem;
-use signorini_problem::fixtures::{changed, on_grid};
-use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
-use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_scene::mesh::structured::Cells;
 use signorini_solve::ScalarKind;
-
-const WIND: &str = "input.wind = { of = \"dirichlet\", field = \"coefficient\", pattern = \"1\", default = 1.0, range = [0.1, 2.0] }\n";
-
-const BOUND: &str = "output.bound = { kind = \"bound\" }\n";
-
-/// The heated scene in a wind that stays, by this setting.
-fn heated(cells: Cells, setting: &str) -> Result<Problem> {
-    let stays = [
-        (WIND, ""),
-        (BOUND, ""),
-        ("coefficient = \"0\"", "coefficient = \"1\""),
-        ("setting.share = 1e-9", setting),
-    ];
-    Ok(on_grid(&changed(HEATED, &stays), grid(4, cells))?.1)
-}
-
-const CONDENSED: &str = "setting.certificate = false\nsetting.memory = ";
-
-/// The values of the inputs in a step.
-fn inputs(at: u32) -> [f64; 4] {
-    let (t, jump) = (f64::from(at), f64::from(at / 7 % 2));
-    [3.0 * (0.4 * t).sin(), 0.5 * jump + 0.2, 0.1 * (0.2 * t).sin(), 0.4 - 0.9 * jump]
-}
-
-fn moments(count: u32) -> Vec<ScheduledTick> {
-    let of = |at: u32| ScheduledTick {
-        time: 0.05 * f64::from(at),
-        inputs: inputs(at).into_iter().enumerate().collect(),
-    };
-    (1..=count).map(of).collect()
-}
-
-/// By how much outputs of the condensed controller are off those of this machine's own steps, at most.
-fn off(cells: Cells, memory: &str) -> Result<f64> {
-    let moments = moments(30);
-    let full = heated(cells, "setting.share = 1e-9")?;
-    let budget = Budget { intervals: false, ..Budget::of(&full.scene) };
-    let own = play(&full, None, &moments, &budget, |_, _| Ok(()))?;
-    let problem = heated(cells, &format!("{CONDENSED}{memory}"))?;
-    let (model, baked) = replay(&problem, &moments, (Some(ScalarKind::F64), true), |_, _| Ok(()))?;
-    assert!(model.starts_with("condensed with"), "{model}");
-    assert_eq!((own.len(), baked.len()), (31, 31));
-    let mut most = 0.0_f64;
-    for (own, baked) in own.iter().zip(&baked).skip(1) {
-        assert!(baked.bound.is_none() && baked.window.is_none());
-        let [own, baked] = [own, baked].map(|of| &of.outputs[..4]);
-        for (own, baked) in own.iter().zip(baked) {
-            most = most.max((own.expect("a number") - baked.expect("a number")).abs());
-        }
-    }
-    Ok(most)
-}
-
-/// 30 steps with all inputs moving: with all states the numbers of this machine's own play but for what that leaves to its sweeps.
-#[test]
-fn a_condensed_controller_steps_as_this_machine_does() -> Result<()> {
-    for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
-        near(&format!("{cells:?}"), off(cells, "1000")?, 0.0, 1e-8);
-    }
-    let [few, more] = [off(Cells::Mixed, "2")?, off(Cells::Mixed, "24")?];
-    assert!(more < 0.02 * few && few < 0.5, "{few} {more}");
-    Ok(())
-}
 
 fn chosen<R: Bakes>(problem: &Problem) -> Result<Choice<R>> {
     Choice::new(problem, Wanted::default())
 }
 
-/// Outputs of ticks, and what they leave.
-fn played<R: Bakes>(controller: &mut Controller<R>, ticks: std::ops::Range<u32>) -> Vec<Vec<R>> {
-    let tick = |at| {
-        let (mut outputs, _) = controller.tick(&inputs(at).map(R::narrow)).expect("a tick");
-        outputs.truncate(4);
-        outputs.extend(controller.past());
-        outputs
-    };
-    ticks.map(tick).collect()
-}
-
-/// A tick that is refused leaves everything, bit for bit, and a reset goes back to the start.
-#[test]
-fn a_refused_tick_advances_nothing_and_a_reset_all() -> Result<()> {
-    let swept = "\nsetting.model = \"condensed\"\nsetting.solver = \"sweeps\"";
-    for setting in [format!("{CONDENSED}6{swept}"), "setting.memory = 6".to_owned()] {
-        let choice = chosen::<f32>(&heated(Cells::Mixed, &setting)?)?;
-        let (baked, _) = choice.condensed().expect("a condensed model");
-        let mut controller = Controller::<f32>::new(baked);
-        let start = controller.past().to_vec();
-        let whole = played(&mut controller, 1..9);
-        controller.reset();
-        assert_eq!(controller.past(), start);
-        let first = played(&mut controller, 1..5);
-        for refused in [[9.0, 0.2, 0.0, 0.0], [f32::NAN, 0.2, 0.0, 0.0], [0.0, 0.2, 0.0, -0.6]] {
-            let before = controller.past().to_vec();
-            assert!(controller.tick(&refused).is_err());
-            assert_eq!(controller.past(), before);
-        }
-        assert_eq!([first, played(&mut controller, 5..9)].concat(), whole);
-    }
-    Ok(())
-}
-
-/// The bits of a module, and of its state, are those of this machine's controller; a state that is restored goes on with them, and a foreign or a damaged
-/// one changes nothing.
-#[test]
-fn a_module_steps_and_goes_on_with_the_same_bits() -> Result<()> {
-    let log: Vec<_> = (1..9).map(|at| format!("{:?}", inputs(at))).collect();
-    let main = format!(
+/// A program that prints four ticks, the bytes of the state then, and four ticks more; it checks that a state that is restored goes on
+/// with the same bits, before the first tick too, and that a foreign or a damaged one changes nothing.
+fn program(problem: &Problem) -> String {
+    let log: Vec<_> = (1..9).map(|at| format!("{:?}", inputs(problem, at))).collect();
+    format!(
         "
 const LOG: [[f64; INPUTS]; 8] = [{}];
 
 fn play(controller: &mut Controller, ticks: core::ops::Range<usize>) -> String {{
     LOG[ticks].iter().map(|inputs| {{
         let answer = controller.tick(Inputs::from_array(inputs.map(|x| x as Scalar))).unwrap();
+        let total = answer.report.certificate().map(|of| of.total);
         let window = controller.window().map(|window| window.energy);
-        format!(\"{{:?}} {{window:?}}\\n\", answer.outputs.to_array())
+        let sweeps = answer.report.sweeps;
+        format!(\"{{:?}} {{total:?}} {{window:?}} {{sweeps}}\\n\", answer.outputs.to_array())
     }}).collect()
 }}
 
 fn main() {{
-    let (mut first, mut second) = (Box::new(Controller::new()), Box::new(Controller::new()));
+    let [mut first, mut second, mut fresh] = [(); 3].map(|()| Box::new(Controller::new()));
     let start = first.state();
     print!(\"{{}}\", play(&mut first, 0..4));
     let state = first.state();
@@ -146,63 +48,80 @@ fn main() {{
     play(&mut second, 2..7);
     second.restore(&state).unwrap();
     assert_eq!(play(&mut second, 4..8), expected);
+    assert!(first.state() == second.state());
+    let words = size_of::<State>() / 4;
+    for at in [0, 2, 4, 9, 40, words - 2] {{
+        let mut damaged = state;
+        let bits = &raw mut damaged as *mut u32;
+        unsafe {{ *bits.add(at.min(words - 2)) ^= 1 << 22 }};
+        let before = second.state();
+        let expected = if at == 0 {{ Error::ForeignState }} else {{ Error::DamagedState }};
+        assert_eq!(second.restore(&damaged), Err(expected), \"{{at}}\");
+        assert!(second.state() == before);
+    }}
     second.restore(&start).unwrap();
-    let whole = play(&mut second, 0..8);
+    let whole = play(&mut fresh, 0..8);
+    assert_eq!(play(&mut second, 0..8), whole);
     first.reset();
     assert_eq!(play(&mut first, 0..8), whole);
-    let mut damaged = first.state();
-    let bits = &raw mut damaged as *mut u32;
-    unsafe {{ *bits.add(9) ^= 1 << 22 }};
-    let before = first.state();
-    assert_eq!(first.restore(&damaged), Err(Error::DamagedState));
-    unsafe {{ *bits ^= 1 }};
-    assert_eq!(first.restore(&damaged), Err(Error::ForeignState));
-    assert!(first.state() == before);
 }}
 ",
         log.join(", ")
-    );
-    let swept = "\nsetting.model = \"condensed\"\nsetting.solver = \"sweeps\"";
-    for setting in
-        [format!("{CONDENSED}6"), format!("{CONDENSED}6{swept}"), "setting.memory = 6".to_owned()]
-    {
-        let problem = heated(Cells::Triangles, &setting)?;
-        let choice = chosen::<f32>(&problem)?;
-        let (baked, _) = choice.condensed().expect("a condensed model");
-        let [mut one, mut other] = [(); 2].map(|()| Controller::new(baked));
-        let first = told(&mut one, 1..5);
-        let state = one.state(hash(&problem)).expect("a state");
-        let then = told(&mut one, 5..9);
-        let expected = format!("{first}{:?}\n{then}", &state[..state.len() - 4]);
-        assert_eq!(printed(&(emit(&problem, &choice).source + &main)), expected);
-        played(&mut other, 3..8);
-        assert!(other.restore(hash(&problem), &state[..state.len() - 8]).is_err());
-        other.restore(hash(&problem), &state).expect("its own state");
-        assert_eq!(told(&mut other, 5..9), then);
-    }
-    Ok(())
+    )
 }
 
-/// Outputs and the bound of the evolution, as the program prints them.
-fn told(controller: &mut Controller<f32>, ticks: std::ops::Range<u32>) -> String {
-    let tick = |at| {
-        let (outputs, _) = controller.tick(&inputs(at).map(f32::narrow)).expect("a tick");
-        let window = controller.window().map(|window| window.energy);
-        format!("{outputs:?} {window:?}\n")
-    };
-    ticks.map(tick).collect()
+/// The bits of a module, and of its state, are those of this machine's controller, which goes on from that state, and refuses others.
+fn same_bits<R: Bakes>(scalar: ScalarKind, problem: &Problem) -> Result<()> {
+    let module = emit(problem, &chosen::<R>(problem)?).source;
+    let printed = printed(&(module + &program(problem)));
+    with_module(problem, Some(scalar), |session, _| {
+        let first = told::<R>(problem, session, 1..5)?;
+        let state = session.state().expect("a state");
+        let then = told::<R>(problem, session, 5..9)?;
+        assert_eq!(printed, format!("{first}{:?}\n{then}", &state[..state.len() - 4]));
+        session.restart();
+        told::<R>(problem, session, 3..8)?;
+        let before = session.state();
+        for at in [0, 9, 16, state.len() - 5] {
+            let mut damaged = state.clone();
+            damaged[at] ^= 1;
+            assert!(session.set_state(&damaged).is_err(), "{at}");
+        }
+        for foreign in [&state[..8], &state[..state.len() - 8], &vec![0; state.len()], &[]] {
+            assert!(session.set_state(foreign).is_err());
+        }
+        assert_eq!(session.state(), before);
+        session.set_state(&state)?;
+        assert_eq!(told::<R>(problem, session, 5..9)?, then);
+        Ok(())
+    })
+}
+
+#[test]
+fn a_module_steps_and_goes_on_with_the_same_bits() -> Result<()> {
+    let (f32, f64) = (ScalarKind::F32, ScalarKind::F64);
+    same_bits::<f64>(f64, &changed_heater(Cells::Triangles, &[])?)?;
+    for cells in [Cells::Triangles, Cells::Mixed] {
+        same_bits::<f32>(f32, &changed_heater(cells, &[])?)?;
+    }
+    for setting in
+        [format!("{CONDENSED}6"), format!("{CONDENSED}6{SWEPT}"), "setting.memory = 6".to_owned()]
+    {
+        same_bits::<f32>(f32, &still(Cells::Triangles, &setting)?)?;
+    }
+    Ok(())
 }
 
 /// With the states that it gets by itself the bound over time is at most a tenth above that with all of them.
 #[test]
 fn a_condensed_model_gets_the_states_that_its_bound_needs() -> Result<()> {
     let few = |setting: &str| -> Result<(usize, f64)> {
-        let problem = heated(Cells::Mixed, setting)?;
+        let problem = still(Cells::Mixed, setting)?;
         let choice = chosen::<f64>(&problem)?;
         let (baked, _) = choice.condensed().expect("a condensed model");
         let mut controller = Controller::new(baked);
         for at in 1..60 {
-            controller.tick(&inputs(at)).expect("a tick");
+            controller.tick(&inputs(&problem, at)).expect("a tick");
         }
         let states = baked.steps.as_ref().expect("steps").count();
         Ok((states, controller.window().expect("a bound over time").energy))
@@ -220,7 +139,7 @@ fn bounds<R: Bakes>(problem: &Problem) -> Result<Vec<[f64; 2]>> {
     let (baked, origin) = choice.condensed().expect("a condensed model");
     let mut controller = Controller::new(baked);
     let tick = |at| {
-        let inputs = inputs(at).map(R::narrow);
+        let inputs: Vec<R> = narrow(&inputs(problem, at));
         let past = controller.past().to_vec();
         let (_, report) = controller.tick(&inputs).expect("a tick");
         let wide = |all: &[R]| all.iter().map(|x| x.wide()).collect::<Vec<_>>();
@@ -236,22 +155,17 @@ fn bounds<R: Bakes>(problem: &Problem) -> Result<Vec<[f64; 2]>> {
 #[test]
 fn a_condensed_step_has_the_bound_of_its_form() -> Result<()> {
     for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
-        let problem = heated(cells, "setting.memory = 24")?;
+        let problem = still(cells, "setting.memory = 24")?;
         for [found, host] in bounds::<f64>(&problem)? {
             assert!(found >= host && found < host * (1.0 + 1e-6), "{found} {host}");
         }
         for [found, host] in bounds::<f32>(&problem)? {
             assert!(found >= host && found < 1.2 * host, "f32: {found} {host}");
         }
-        let moments = moments(30);
-        let full = heated(cells, "setting.share = 1e-9")?;
-        let budget = Budget { intervals: false, ..Budget::of(&full.scene) };
-        let own = play(&full, None, &moments, &budget, |_, _| Ok(()))?;
-        let (_, baked) = replay(&problem, &moments, (Some(ScalarKind::F64), true), |_, _| Ok(()))?;
-        for (own, baked) in own.iter().zip(&baked).skip(1) {
+        for both in &both(&still(cells, SHARE)?, &problem, "condensed")?[1..] {
             let pairs = [
-                [own, baked].map(|of| of.bound.expect("a bound").total),
-                [own, baked].map(|of| of.window.expect("a bound over time")[0]),
+                both.each_ref().map(|of| of.bound.expect("a bound").total),
+                both.each_ref().map(|of| of.window.expect("a bound over time")[0]),
             ];
             for [own, found] in pairs {
                 assert!(found > 0.7 * own && found < 1.6 * own, "{cells:?}: {found} {own}");
@@ -261,40 +175,30 @@ fn a_condensed_step_has_the_bound_of_its_form() -> Result<()> {
     Ok(())
 }
 
-/// Data whose steps have no bound are refused where one is asked for, and states where nothing stores.
+/// A coefficient that moves has no condensed steps; data whose steps have no bound are refused where one is asked for, and states where
+/// nothing stores.
 #[test]
-fn what_has_no_condensed_steps_is_refused() -> Result<()> {
-    let why = |problem: &Problem| {
-        chosen::<f64>(problem).err().map_or_else(String::new, |error| error.to_string())
-    };
-    let bent = changed(
-        HEATED,
-        &[
-            (WIND, ""),
-            (BOUND, ""),
-            ("coefficient = \"0\"", "coefficient = \"1\""),
-            ("gap = \"0.35\"", "gap = \"0.35*x^2\""),
-            ("setting.share = 1e-9", "setting.memory = 6"),
-        ],
-    );
-    let (_, problem) = on_grid(&bent, grid(4, Cells::Triangles))?;
-    assert!(why(&problem).contains("not linear along an edge"), "{}", why(&problem));
-    let without = changed(
-        &bent,
-        &[("setting.memory = 6", "setting.memory = 6\nsetting.certificate = false")],
-    );
-    let (_, problem) = on_grid(&without, grid(4, Cells::Triangles))?;
-    assert_eq!(why(&problem), "");
-    let steady = changed(
-        HEATED,
-        &[
-            (", capacity = \"2\"", ""),
-            ("output.sure = { kind = \"window\" }\n", ""),
-            ("time.step = 0.05\n", ""),
-            ("setting.share = 1e-9", "setting.memory = 6"),
-        ],
-    );
-    let (_, problem) = on_grid(&steady, grid(4, Cells::Triangles))?;
-    assert!(why(&problem).contains("no material has a capacity"), "{}", why(&problem));
+fn what_no_controller_steps_is_refused() -> Result<()> {
+    let bent = ("gap = \"0.35\"", "gap = \"0.35*x^2\"");
+    let steady = [
+        (", capacity = \"2\"", ""),
+        ("output.sure = { kind = \"window\" }\n", ""),
+        ("time.step = 0.05\n", ""),
+        (SHARE, "setting.memory = 6"),
+    ];
+    let still = |setting| [&STILL[..], &[bent, (SHARE, setting)]].concat();
+    let cases: [(&[(&str, &str)], &str); 6] = [
+        (&[(SHARE, "setting.model = \"condensed\"")], "it changes the matrix"),
+        (&[bent], "not linear along an edge"),
+        (&[("time.step = 0.05", "")], "time.step: missing"),
+        (&still("setting.memory = 6"), "not linear along an edge"),
+        (&still("setting.memory = 6\nsetting.certificate = false"), ""),
+        (&steady, "no material has a capacity"),
+    ];
+    for (changes, expected) in cases {
+        let refused = chosen::<f64>(&changed_heater(Cells::Triangles, changes)?).err();
+        let why = refused.map_or_else(String::new, |error| error.to_string());
+        assert!(why.contains(expected) && why.is_empty() == expected.is_empty(), "{why}");
+    }
     Ok(())
 }

@@ -119,7 +119,7 @@ time = { step = 0.02, end = 0.5 }
     let problem = on_grid(text, grid(10, cells))?.1;
     let own = Budget { scalar, tolerance: Some(tolerance), ..Budget::of(&problem.scene) };
     let budget = Budget { intervals: false, ..own };
-    let moments = schedule::moments(&problem.scene, None)?;
+    let moments = schedule::moments_after(&problem.scene, None, None)?;
     let (mut reference, mut found) = (problem.clone(), (0.0_f64, 0));
     let mut before = 0;
     play(&problem, None, &moments, &budget, |tick, solution| {
@@ -518,7 +518,6 @@ setting = {{ model = "{model}" }}
     Ok(())
 }
 
-/// u = x² stands still: beside a large transfer coefficient s of a condensed start is another one than that of a solve, and its error too.
 /// u ≤ ψ: what is stated below the gap stays there.
 #[test]
 fn a_stated_start_below_an_upper_gap_is_not_moved() -> Result<()> {
@@ -538,6 +537,7 @@ time = { step = 0.1, initial = "0" }
     Ok(())
 }
 
+/// u = x² stands still: beside a large transfer coefficient s of a condensed start is another one than that of a solve, and its error too.
 #[test]
 fn the_error_of_a_condensed_controller_begins_at_its_own_start() -> Result<()> {
     let text = r#"

@@ -6,7 +6,7 @@ use signorini_certify::exact::distance;
 use signorini_condense::{condense, modal};
 use signorini_kernel::Error;
 use signorini_problem::Problem;
-use signorini_problem::fixtures::{SMOOTH, distorted, on_grid, scatter, scene};
+use signorini_problem::fixtures::{distorted, on_grid, scatter, scene};
 use signorini_scene::error::Result;
 use signorini_scene::mesh;
 use signorini_scene::mesh::structured::{Cells, grid};
@@ -20,9 +20,8 @@ use signorini_tolerances::some;
 use super::super::{Baked, Controller, Work, source};
 use crate::Bakes;
 use crate::choice::{Choice, Model, Wanted};
-use crate::explain::explanation;
 use crate::module_api::ModuleApi;
-use crate::tests;
+use crate::tests::{self, transfer::smooth};
 use signorini_session::with_module;
 
 /// Contact below, air on the right with a coefficient from 1 to 60.
@@ -146,16 +145,6 @@ fn ticks_follow_the_coefficient() -> Result<()> {
     Ok(())
 }
 
-/// u = SMOOTH's for every h: u_ext = u + σ·n/h, and σ·n is an input that is set to 1/h.
-fn smooth() -> String {
-    let text = SMOOTH.replace("coefficient = \"2+y\"", "coefficient = \"0\"");
-    text.replace(" + (3*y - 6.5)/(2+y)\"", "\"")
-        + "
-input.h = { of = \"left\", field = \"coefficient\", pattern = \"1\", default = 1.0, range = [0.01, 100.0] }
-input.push = { of = \"left\", field = \"ambient\", pattern = \"3*y - 6.5\", default = 1.0 }
-"
-}
-
 #[test]
 fn bounds_are_above_the_error_for_every_coefficient() -> Result<()> {
     for (cells, scalar) in [
@@ -163,7 +152,7 @@ fn bounds_are_above_the_error_for_every_coefficient() -> Result<()> {
         (Cells::Quads, ScalarKind::F64),
         (Cells::Mixed, ScalarKind::F32),
     ] {
-        let problem = with(&smooth(), cells, Setting::default())?;
+        let problem = with(&smooth("1"), cells, Setting::default())?;
         with_module(&problem, Some(scalar), |session, _| {
             for h in [0.0625_f64, 0.5, 1.0, 16.0, 64.0] {
                 let values = [h, 1.0 / h];
@@ -186,7 +175,7 @@ fn bounds_are_above_the_error_for_every_coefficient() -> Result<()> {
 fn modes_that_are_left_out_are_paid_for() -> Result<()> {
     let work = Work { pivots: Some(40), sweeps: 4 };
     for cells in [Cells::Triangles, Cells::Quads] {
-        let problem = with(&smooth(), cells, Setting::default())?;
+        let problem = with(&smooth("1"), cells, Setting::default())?;
         let (all, _) = modal(&problem, 0.0)?;
         let (some, recovery) = modal(&problem, 0.1)?;
         let kept = some.compliance.len();
@@ -286,7 +275,7 @@ fn a_slab_in_moving_air() -> Result<()> {
     let scene = Scene::read(&scenes.join("slab-air.toml"))?;
     let problem = Problem::new(&scene, mesh::read(&scene.mesh.value)?)?;
     let choice = Choice::<f32>::new(&problem, Wanted { is_compared: true, ..Wanted::default() })?;
-    let said = explanation(&problem, &choice);
+    let said = f32::explain(&problem, &choice);
     assert!(said.contains("86 of 86 modes of the coefficient's boundary kept"), "{said}");
     assert!(said.contains("Worst case, proved for all inputs"), "{said}");
     assert_eq!(choice.candidate().name, "condensed by modes, exact method");

@@ -1,7 +1,7 @@
 //! The text as the compiler sees it: no warnings, and the bits of the same arrays on the host.
 
 use super::setting::{scene, unbounded};
-use super::{BENT, Baked, Controller, fixtures, source};
+use super::{BENT, Baked, Controller, NONPARAMETRIC, fixtures, source};
 use crate::Bakes;
 use crate::compiled::{printed, ran};
 use crate::tests::{self, FIRMWARE};
@@ -9,11 +9,6 @@ use signorini_problem::Problem;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::setting::{MathKind, Method, Omega, Setting, Start};
-
-fn same_bits<R: Bakes>(cells: Cells) -> Result<()> {
-    let (_, problem) = fixtures::on_grid(BENT, grid(3, cells))?;
-    same_bits_of::<R>(&problem)
-}
 
 /// Of the module and of the host's controller, in a cold and a warm tick.
 pub(super) fn same_bits_of<R: Bakes>(problem: &Problem) -> Result<()> {
@@ -41,40 +36,23 @@ fn a_kernel_of_another_version_is_refused() -> Result<()> {
 }
 
 #[test]
-fn triangles_in_f32() -> Result<()> {
-    same_bits::<f32>(Cells::Triangles)
-}
-
-#[test]
-fn both_kinds_of_cells_in_f64() -> Result<()> {
-    same_bits::<f64>(Cells::Mixed)
-}
-
-#[test]
-fn nonparametric_quads_in_f32() -> Result<()> {
-    let text = format!("{BENT}[setting]\nelement = \"nonparametric\"\n");
-    let mesh = fixtures::distorted(grid(3, Cells::Quads));
-    let (_, problem) = fixtures::on_grid(&text, mesh)?;
-    same_bits_of::<f32>(&problem)
-}
-
-#[test]
-fn a_coefficient_that_an_input_changes() -> Result<()> {
+fn modules_have_the_same_bits() -> Result<()> {
     let wind = "[input.wind]\nof = \"left\"\nfield = \"coefficient\"\npattern = \"1 - y/3\"\n";
-    let text = format!("{BENT}{wind}default = 0.5\nrange = [0, 3]\n");
-    let (_, problem) = fixtures::on_grid(&text, grid(3, Cells::Triangles))?;
-    same_bits_of::<f32>(&problem)
-}
-
-#[test]
-fn a_limit_that_an_input_changes() -> Result<()> {
+    let supply = "[input.supply]\nof = \"contact\"\nfield = \"limit\"\npattern = \"3\"\n";
     let limited =
         BENT.replace("flux = \"-0.5*x^2\"", "flux = \"-0.5*x^2\", limit = \"1 - 0.5*x^2\"");
-    let supply = "[input.supply]\nof = \"contact\"\nfield = \"limit\"\npattern = \"3\"\n";
-    let text = format!("{limited}{supply}default = 0.5\nrange = [0, 2]\n")
+    let limited = format!("{limited}{supply}default = 0.5\nrange = [0, 2]\n")
         .replace("pattern = \"-1 - x\"", "pattern = \"-1\"");
-    let (_, problem) = fixtures::on_grid(&text, grid(3, Cells::Triangles))?;
-    same_bits_of::<f32>(&problem)
+    let triangles = || grid(3, Cells::Triangles);
+    for (text, mesh) in [
+        (BENT, triangles()),
+        (&format!("{BENT}{NONPARAMETRIC}"), fixtures::distorted(grid(3, Cells::Quads))),
+        (&format!("{BENT}{wind}default = 0.5\nrange = [0, 3]\n"), triangles()),
+        (&limited, triangles()),
+    ] {
+        same_bits_of::<f32>(&fixtures::on_grid(text, mesh)?.1)?;
+    }
+    same_bits_of::<f64>(&fixtures::on_grid(BENT, grid(3, Cells::Mixed))?.1)
 }
 
 #[test]

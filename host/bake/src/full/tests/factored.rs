@@ -4,7 +4,6 @@ use signorini_tolerances::Tolerance;
 use signorini_tolerances::bake::{
     FACTORED, FACTORED_GAP, FACTORED_NARROW, FACTORED_OBLIQUE, TICK, TICK_NARROW,
 };
-use std::path::Path;
 
 use signorini_device::tick::{Ended, Report};
 
@@ -14,9 +13,9 @@ use super::{BENT, Baked, Controller, STEPS, fixtures, source, ticks};
 use crate::Bakes;
 use crate::choice::{Candidate, Choice, Model, Wanted};
 use crate::full::sizes;
+use crate::tests::of_file;
 use signorini_problem::Problem;
 use signorini_scene::error::Result;
-use signorini_scene::mesh;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::{Scene, Target};
 use signorini_scene::setting::{Method, ModelKind, Setting, Start};
@@ -36,23 +35,19 @@ bound = { kind = "bound" }
 "#;
 
 /// A scene of the catalogue with other text here and there, and with [`LIFT`].
-fn catalogue(name: &str, changes: &[(&str, &str)]) -> Result<(Scene, Problem)> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/catalogue").join(name);
-    let text = std::fs::read_to_string(&path).expect("a scene") + LIFT;
-    let mut scene = Scene::parse(&fixtures::changed(&text, changes), &path)?;
-    scene.setting = Some(factor());
-    let problem = Problem::new(&scene, mesh::read(&scene.mesh.value)?)?;
-    Ok((scene, problem))
+fn catalogue(name: &str, changes: &[(&str, &str)]) -> Problem {
+    let name = format!("catalogue/{name}");
+    of_file(&name, (LIFT, changes), |scene| scene.setting = Some(factor()))
 }
 
 /// Conductivity 10⁶ beside 1, exact.
-fn contrast() -> Result<(Scene, Problem)> {
-    catalogue("j100-tri.toml", &[("\"100\"", "\"1e6\""), ("(100)", "(1e6)")])
+fn contrast() -> Problem {
+    catalogue("j100-tri", &[("\"100\"", "\"1e6\""), ("(100)", "(1e6)")])
 }
 
 /// T(3, 10⁻³): condition 10⁸. The boundary data are those of another tensor.
-fn anisotropy() -> Result<(Scene, Problem)> {
-    catalogue("t-h-tri.toml", &[("\"10.0\", \"3.0\", \"1.0\"", "\"9000.001\", \"3000\", \"1000\"")])
+fn anisotropy() -> Problem {
+    catalogue("t-h-tri", &[("\"10.0\", \"3.0\", \"1.0\"", "\"9000.001\", \"3000\", \"1000\"")])
 }
 
 /// The answer of the host's own direct solver for this lift.
@@ -98,14 +93,14 @@ fn as_directly_solved<R: Bakes>(problem: &Problem, allowed: Tolerance) -> Result
 
 #[test]
 fn a_contrast_of_a_million() -> Result<()> {
-    let (_, problem) = contrast()?;
+    let problem = contrast();
     as_directly_solved::<f64>(&problem, FACTORED)?;
     as_directly_solved::<f32>(&problem, FACTORED_NARROW)
 }
 
 #[test]
 fn an_anisotropy_of_a_hundred_million() -> Result<()> {
-    let (_, problem) = anisotropy()?;
+    let problem = anisotropy();
     assert_eq!(swept(&problem)?.ended, Ended::OutOfSweeps);
     as_directly_solved::<f64>(&problem, FACTORED_OBLIQUE)?;
     // In f32 the element matrices are those of another problem.
@@ -175,7 +170,7 @@ fn entries<R: Bakes>(candidate: &Candidate<R>) -> Option<usize> {
 
 #[test]
 fn bake_takes_the_factor_where_sweeps_do_not_end() -> Result<()> {
-    let (_, asked) = anisotropy()?;
+    let asked = anisotropy();
     let with = |solver| asked.with_setting(Some(Setting { solver, ..Setting::default() }));
     let choose = |problem: &Problem| Choice::<f64>::new(problem, Wanted::model(ModelKind::Full));
     let choice = choose(&with(None))?;

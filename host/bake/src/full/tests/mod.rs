@@ -7,22 +7,20 @@ mod forms;
 mod scale;
 mod setting;
 
-use signorini_device::tick::Limits;
 use signorini_kernel::Error;
 use signorini_kernel::error::Array;
 use signorini_tolerances::Tolerance;
-use signorini_tolerances::bake::{OSCILLATION, TICK, TICK_NARROW};
+use signorini_tolerances::bake::{TICK, TICK_NARROW};
 
 use super::{Baked, Controller, source};
 use crate::Bakes;
+use crate::tests::direct::{Beside, leaves_out_more, to_the_end};
 use crate::tests::standard;
 use signorini_problem::Problem;
 use signorini_problem::fixtures;
-use signorini_problem::functional::wanted;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_solve::outputs::outputs;
-use signorini_solve::{Options, solve};
+use signorini_solve::Solution;
 
 /// A gap and a Dirichlet value that inputs bend, a source, given fluxes, varying A and a varying law.
 const BENT: &str = r#"
@@ -53,39 +51,18 @@ const STEPS: [&[f64]; 3] = [
     &[0.1, 0.9, -0.3, 0.5, -0.7, -0.5],
 ];
 
-/// Limits as far down as rounding lets the algebraic part go.
-fn to_the_end<R: Bakes>() -> Limits<R> {
-    Limits { error: R::ZERO, share: R::narrow(1e-9), sweeps: 200_000 }
-}
+/// The setting of quads whose basis is that of their own coordinates.
+const NONPARAMETRIC: &str = "[setting]\nelement = \"nonparametric\"\n";
 
+/// Ticks as solves, one after the other and each from a cold start.
 fn ticks<R: Bakes>(problem: &Problem, steps: &[&[f64]], allowed: Tolerance) -> Result<()> {
-    let baked = Baked::<R>::new(problem)?;
-    let mut warm = Controller::<R>::new(&baked);
-    for values in steps {
-        let inputs: Vec<R> = values.iter().map(|&value| R::narrow(value)).collect();
-        let (found, report) = warm.tick_within(&inputs, to_the_end()).expect("a tick");
-        let cold = Controller::<R>::new(&baked).tick_within(&inputs, to_the_end());
-        let (cold, _) = cold.expect("a cold tick");
-        let problem = problem.with_inputs(values)?;
-        let solution = solve(&problem, &Options { averages: true, ..Options::default() })?;
-        let expected = outputs(&problem, &solution)?;
-        let fluxes = solution.flux.iter().fold(0.0, |most: f64, flux| most.max(flux.abs()));
-        let wanted = wanted(&problem.scene);
-        let names = wanted.iter().map(|output| &output.name.value);
-        let all = names.zip(&found).zip(&cold);
-        for ((name, found), cold) in all.filter(|((name, _), _)| *name != "bound") {
-            let expected = expected[name].expect("a value");
-            let size = expected.abs().max(1e-3 * fluxes);
-            for value in [found.wide(), cold.wide()] {
-                allowed.check_over(format_args!("{name} {values:?}"), value - expected, size);
-            }
-        }
-        // The gap is that of the solver; the oscillation of a sum is at most the sum of oscillations.
-        let (of_tick, bound) = (report.verdict.certificate().expect("a bound"), solution.bound);
-        let bound = bound.expect("a bound");
-        let gap = of_tick.duality_gap.wide();
-        allowed.check_relative(format_args!("gap {values:?}"), gap, bound.duality_gap);
-        OSCILLATION.check_at_most("oscillation", bound.oscillation, of_tick.oscillation.wide());
+    let cold = steps.iter().map(|step| vec![step.to_vec()]);
+    let warm = steps.iter().map(|step| step.to_vec()).collect();
+    for steps in cold.chain([warm]) {
+        let least = |of: &Solution| 1e-3 * of.largest_flux();
+        let is_undefined = |_: &[f64], name: &str| name == "bound";
+        let beside = Beside { problem, feature: "contact", steps, least, is_undefined };
+        beside.ticks::<R>(allowed, leaves_out_more)?;
     }
     Ok(())
 }
@@ -104,7 +81,7 @@ fn every_kind_of_input_gives_what_the_solver_gives() -> Result<()> {
 /// K and the values at vertices are the element's: both come from the host's arrays.
 #[test]
 fn nonparametric_quads() -> Result<()> {
-    let text = format!("{BENT}[setting]\nelement = \"nonparametric\"\n");
+    let text = format!("{BENT}{NONPARAMETRIC}");
     let mesh = fixtures::distorted(grid(5, Cells::Quads));
     let (_, problem) = fixtures::on_grid(&text, mesh)?;
     ticks::<f64>(&problem, &STEPS[..2], TICK)?;

@@ -8,6 +8,7 @@ use super::{BENT, Baked, Controller, fixtures, source, to_the_end};
 use crate::Bakes;
 use crate::compiled::printed;
 use crate::module_api::ModuleApi;
+use crate::tests::powers;
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
@@ -20,10 +21,6 @@ use signorini_solve::{Scaled, choose_for_inputs};
 const INPUTS: [f64; 6] = [0.6, 0.2, 0.1, -0.2, 0.3, 0.4];
 /// The inputs of BENT.
 const NEAR: Units = Units { u: 1.0, conductivity: 1.0, zero: 0.0 };
-
-fn powers(u: i32, conductivity: i32) -> Units {
-    Units { u: 2f64.powi(u), conductivity: 2f64.powi(conductivity), zero: 0.0 }
-}
 
 /// BENT with data that many times as large. The inputs are as they were: their patterns take it.
 fn bent(units: Units) -> Result<Problem> {
@@ -99,9 +96,10 @@ fn without_units_f32_is_lost() -> Result<()> {
     Ok(())
 }
 
-/// The text and this machine agree on outputs and report.
+/// The text and this machine agree on outputs and report; a scene near 1 has no units.
 #[test]
 fn the_text_has_the_same_units() -> Result<()> {
+    assert!(source(&baked::<f32>(NEAR)?).contains("units: None"));
     let baked = baked::<f32>(powers(-60, -41))?;
     let limits = Limits { error: 1e-20, ..baked.how.limits };
     let mut controller = Controller::<f32>::new(&baked);
@@ -120,13 +118,6 @@ fn main() {{
 "
     );
     assert_eq!(printed(&(source(&baked) + &main)), format!("{expected:?}\n"));
-    Ok(())
-}
-
-#[test]
-fn a_scene_near_1_has_no_units() -> Result<()> {
-    let text = source(&baked::<f32>(NEAR)?);
-    assert!(!text.contains("_UNIT") && !text.contains("Report<Scalar>) ->"));
     Ok(())
 }
 
@@ -195,24 +186,6 @@ fn inputs_that_the_scalar_loses_are_refused() -> Result<()> {
     refused(&huge, "input.level: f32 cannot hold")?;
     refused(&BENT.replace("\"y^2\"", "\"1e-41*y^2\""), "input.inflow.pattern: beside the other")?;
     refused(&BENT.replace("\"y^2\"", "\"1e-60*y^2\""), "input.inflow.pattern: beside the other")
-}
-
-/// Defaults that make nothing tell no units: those of the inputs keep a large one in range.
-#[test]
-fn a_large_input_after_defaults_of_zero_has_a_bound() -> Result<()> {
-    let text = "mesh = \"grid\"\n[material.default]\nconductivity = \"1e-9\"\n[boundary.dirichlet]\nkind = \"dirichlet\"\n\
-                value = \"0\"\n[boundary.contact]\nkind = \"contact\"\n[input.heat]\nof = \"source\"\nfield = \"f\"\n\
-                pattern = \"1e9*x\"\n[output.bound]\nkind = \"bound\"\n";
-    let (_, problem) = fixtures::on_grid(text, grid(4, Cells::Triangles))?;
-    let baked = Baked::<f32>::new(&problem)?;
-    for heat in [1.0_f32, 1e6, -1e6, 1e10] {
-        let mut controller = Controller::<f32>::new(&baked);
-        let (_, report) = controller.tick_within(&[heat], to_the_end()).expect("a tick");
-        let certificate = report.verdict.certificate();
-        let total = certificate.unwrap_or_else(|| panic!("no bound of {heat}: {report:?}")).total;
-        assert!(total.is_finite() && total > 0.0, "{heat}: {total}");
-    }
-    Ok(())
 }
 
 /// Fluxes are near 2⁸⁴, and inputs many times as large make them as many times larger: f32 ends at 2¹²⁸.

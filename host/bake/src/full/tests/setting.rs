@@ -33,7 +33,7 @@ fn ticks<R: Bakes>(setting: Setting, lifts: &[f64]) -> Result<Vec<Told<R>>> {
     let tick = |&lift: &f64| {
         let inputs = [lift, 0.7, 0.0, 0.0, 0.0, 0.0].map(R::narrow);
         let (_, report) = controller.tick(&inputs).expect("a tick");
-        (controller.u().to_vec(), controller.tau().to_vec(), report)
+        (controller.u().to_vec(), controller.numbers().tau.to_vec(), report)
     };
     Ok(lifts.iter().map(tick).collect())
 }
