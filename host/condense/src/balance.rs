@@ -8,6 +8,7 @@
 use signorini_kernel::assembly;
 use signorini_kernel::mesh::components::Support;
 
+use super::ends::{is_from_above, is_varying};
 use super::model::Balance;
 use signorini_certify::TermData;
 use signorini_problem::{Parts, Problem};
@@ -63,12 +64,11 @@ fn of_part(
     };
     let (least, mut size) = (sum(&|load| load), sum(&f64::abs));
     let mut ends = [least.clone(), least];
-    let is_varying = spans.iter().skip(1).flatten().any(|&span| span != 0.0);
+    let is_varying = is_varying(spans);
     for edge in contact {
         let constant = spans.first().map_or(f64::INFINITY, |spans| spans[edge]);
-        let is_from_above = constant == f64::NEG_INFINITY || constant < 0.0 && !is_varying;
         let [least, greatest] = &mut ends;
-        let end = if is_from_above { least } else { greatest };
+        let end = if is_from_above(constant, is_varying) { least } else { greatest };
         end[0] += constant;
         size[0] += if constant.is_finite() { constant.abs() } else { 0.0 };
         for (j, spans) in spans.iter().enumerate().skip(1) {

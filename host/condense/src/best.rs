@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use super::block::Block;
-use signorini_reference::{Linear, ReferenceError};
+use signorini_reference::{LinearFactor, ReferenceError};
 
 /// Numbers for each column, those of one place together.
 #[derive(Debug, Clone)]
@@ -18,6 +18,18 @@ pub(super) struct Table {
 impl Table {
     pub fn new(places: usize, columns: usize) -> Self {
         Self { columns, values: vec![0.0; places * columns] }
+    }
+
+    /// Of columns with a number for each place.
+    pub fn of_columns<'c>(places: usize, columns: impl IntoIterator<Item = &'c Vec<f64>>) -> Self {
+        let columns: Vec<_> = columns.into_iter().collect();
+        let mut table = Self::new(places, columns.len());
+        for (column, numbers) in columns.into_iter().enumerate() {
+            for (place, number) in numbers.iter().enumerate() {
+                table.row_mut(place)[column] = *number;
+            }
+        }
+        table
     }
 
     /// The numbers of each column together.
@@ -140,11 +152,5 @@ fn solve(
             }
         }
     }
-    let (mut row_ptr, mut col_idx, mut values) = (vec![0], Vec::new(), Vec::new());
-    for row in rows {
-        col_idx.extend(row.keys());
-        values.extend(row.values());
-        row_ptr.push(values.len() as u32);
-    }
-    Linear { row_ptr: &row_ptr, col_idx: &col_idx, values: &values }.solve(right)
+    LinearFactor::new(rows)?.solve(right)
 }

@@ -1,5 +1,6 @@
 //! The functions that s is a sum of, and rows of a residual over these and fluxes, as few as there can be.
 
+use signorini_certify::CertifiedFields;
 use signorini_kernel::mesh::edges::Block as Kind;
 use signorini_problem::Problem;
 
@@ -46,5 +47,27 @@ impl Functions {
     /// The number of the bubble on an edge.
     pub fn bubble(&self, edge: usize) -> Option<u32> {
         self.bubbles[edge]
+    }
+
+    /// The bubbles of a cell with these edges, each with its side: on a triangle there are none.
+    pub fn bubbles_of(&self, edges: &[u32]) -> Vec<(usize, u32)> {
+        let sides = edges.iter().enumerate();
+        sides.filter_map(|(side, &edge)| Some((side, self.bubble(edge as usize)?))).collect()
+    }
+
+    /// s by its number at each function, beside a τ of these fluxes.
+    pub fn fields(
+        &self,
+        problem: &Problem,
+        of_s: impl Fn(usize) -> f64,
+        tau: Vec<f64>,
+    ) -> CertifiedFields {
+        let bubble = |number: &Option<u32>| number.map_or(0.0, |place| of_s(place as usize));
+        CertifiedFields {
+            vertices: (0..problem.mesh.vertices.len()).map(&of_s).collect(),
+            bubbles: self.bubbles.iter().map(bubble).collect(),
+            tau,
+            ..CertifiedFields::default()
+        }
     }
 }

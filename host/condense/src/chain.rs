@@ -13,6 +13,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::block::{Block, Functions};
 use super::levels::{level, ranges};
 use super::{Corner, Form, Pieces, Vertex};
 use signorini_certify::TermData;
@@ -20,6 +21,7 @@ use signorini_certify::ends::of_moved;
 use signorini_problem::Problem;
 
 /// The boundary values of s.
+#[derive(Default)]
 pub(super) struct Chain {
     /// Contact vertices with their places in e.
     pub contact: Vec<(u32, Vertex)>,
@@ -39,8 +41,13 @@ pub(super) struct Chain {
     pub ends: Vec<[usize; 2]>,
 }
 
-/// The unknowns of the contact edges at a vertex, with ψ of every pattern there.
-type Meeting = BTreeMap<u32, Vec<(usize, Vec<f64>)>>;
+/// The contact edges, in the order of their unknowns.
+struct Edges<'e> {
+    pieces: &'e Pieces<'e>,
+    openings: &'e [f64],
+    /// The unknowns at each vertex, with ψ of every pattern there.
+    meetings: BTreeMap<u32, Vec<(usize, Vec<f64>)>>,
+}
 
 /// Whether s follows no curve on an edge with these ends: it is free at both.
 pub(super) fn is_left_out(ends: [u32; 2], released: &BTreeSet<u32>) -> bool {
@@ -58,7 +65,7 @@ impl Chain {
         openings: &[f64],
         released: &BTreeSet<u32>,
     ) -> Result<Self, String> {
-        let Pieces { problem, patterns, edges, settled, .. } = pieces;
+        let Pieces { problem, patterns, settled, .. } = pieces;
         let mut given = given(problem, patterns);
         for &edge in &settled.touching {
             let vertices = problem.ends[problem.topology.counts.free + edge].into_iter();
@@ -67,23 +74,15 @@ impl Chain {
                 given.entry(vertex).or_insert_with(psi);
             }
         }
-        let meetings = meetings(problem, patterns, edges);
+        let all = Edges::new(pieces, openings);
         let (ranges, is_limited) =
             (ranges(problem, patterns.len()), !problem.loads.spans.is_empty());
-        let mut chain = Self {
-            contact: Vec::new(),
-            gap: Vec::new(),
-            released: Vec::new(),
-            given,
-            corners: Vec::new(),
-            met: Vec::new(),
-            moved: vec![BTreeMap::new(); patterns.len()],
-            ends: Vec::new(),
-        };
-        for (&vertex, meeting) in &meetings {
+        let moved = vec![BTreeMap::new(); patterns.len()];
+        let mut chain = Self { given, moved, ..Self::default() };
+        for (&vertex, meeting) in &all.meetings {
             let start = match chain.given.get(&vertex) {
                 Some(given) => given.clone(),
-                None => common_gap(problem, patterns, vertex, (meeting, edges), &ranges)?,
+                None => all.common_gap(vertex, &ranges)?,
             };
             let is_free = !chain.given.contains_key(&vertex) && released.contains(&vertex);
             let corners = chain.corners.len();
@@ -112,33 +111,34 @@ impl Chain {
             } else if !chain.given.contains_key(&vertex) {
                 let own = meeting.iter().position(|(_, psi)| differ && *psi == start);
                 let own = own.or(differ.then_some(0));
-                let place = place(problem, &meetings, vertex, (edges, openings), own)?;
-                chain.contact.push((vertex, place));
+                chain.contact.push((vertex, all.place(vertex, own)?));
                 chain.gap.push(start);
             }
         }
-        chain.ends = chain.places(problem, edges);
+        chain.ends = chain.places(&all);
         Ok(chain)
     }
 
     /// Where s − ψ comes from at the ends of each edge.
-    fn places(&self, problem: &Problem, edges: &[usize]) -> Vec<[usize; 2]> {
-        let free = problem.topology.counts.free;
+    fn places(&self, edges: &Edges) -> Vec<[usize; 2]> {
         let place = |unknown: usize, vertex: u32| {
             let contact = self.contact.iter().position(|&(of, _)| of == vertex);
             let here = |(of, corner): (&u32, &Corner)| *of == vertex && corner.edge == unknown;
             let corner = self.met.iter().zip(&self.corners).position(here);
             contact.or_else(|| Some(self.contact.len() + corner?)).unwrap_or(Form::NOTHING)
         };
-        let of_edge = |(unknown, &edge): (usize, &usize)| {
-            problem.ends[free + edge].map(|vertex| place(unknown, vertex))
-        };
-        edges.iter().enumerate().map(of_edge).collect()
+        let of_edge = |unknown| edges.ends(unknown).map(|vertex| place(unknown, vertex));
+        (0..edges.openings.len()).map(of_edge).collect()
     }
 
-    /// The vertices where s is not free.
-    pub fn fixed(&self) -> BTreeSet<u32> {
-        self.contact.iter().map(|(vertex, _)| *vertex).chain(self.given.keys().copied()).collect()
+    /// Which functions of s are not free, of those that these rows are over; a vertex of no cell has no value.
+    pub fn fixed(&self, functions: &Functions, blocks: &[Block]) -> Vec<bool> {
+        let mut fixed = vec![true; functions.count()];
+        let used = blocks.iter().flat_map(|block| &block.functions);
+        used.for_each(|&function| fixed[function as usize] = false);
+        let known = self.contact.iter().map(|(vertex, _)| vertex).chain(self.given.keys());
+        known.for_each(|&vertex| fixed[vertex as usize] = true);
+        fixed
     }
 }
 
@@ -153,40 +153,79 @@ fn given(problem: &Problem, patterns: &[TermData]) -> BTreeMap<u32, Vec<f64>> {
     given
 }
 
-fn meetings(problem: &Problem, patterns: &[TermData], edges: &[usize]) -> Meeting {
-    let free = problem.topology.counts.free;
-    let mut meetings = Meeting::new();
-    for (at, &edge) in edges.iter().enumerate() {
-        for (end, vertex) in problem.ends[free + edge].into_iter().enumerate() {
-            let psi = patterns.iter().map(|pattern| pattern.ends.gap[edge][end]).collect();
-            meetings.entry(vertex).or_default().push((at, psi));
+impl<'e> Edges<'e> {
+    fn new(pieces: &'e Pieces<'e>, openings: &'e [f64]) -> Self {
+        let mut all = Self { pieces, openings, meetings: BTreeMap::new() };
+        for (at, &edge) in pieces.edges.iter().enumerate() {
+            for (end, vertex) in all.ends(at).into_iter().enumerate() {
+                let psi = pieces.patterns.iter().map(|pattern| pattern.ends.gap[edge][end]);
+                all.meetings.entry(vertex).or_default().push((at, psi.collect()));
+            }
         }
+        all
     }
-    meetings
-}
 
-/// ψ at a vertex, the same from all its contact edges but for rounding; else the value that meets all of them.
-fn common_gap(
-    problem: &Problem,
-    patterns: &[TermData],
-    vertex: u32,
-    (meeting, edges): (&[(usize, Vec<f64>)], &[usize]),
-    ranges: &[[f64; 2]],
-) -> Result<Vec<f64>, String> {
-    let Some((_, first)) = meeting.first() else { return Ok(Vec::new()) };
-    let is_same = |psi: &[f64]| excess(patterns, psi, first).iter().all(|&part| part == 0.0);
-    if meeting.iter().all(|(_, psi)| is_same(psi)) {
-        return Ok(first.clone());
+    /// The number of an edge of the mesh.
+    fn edge(&self, unknown: usize) -> usize {
+        self.pieces.problem.topology.counts.free + self.pieces.edges[unknown]
     }
-    let free = problem.topology.counts.free;
-    let gaps = meeting.iter().map(|(at, psi)| (problem.asks(free + edges[*at]), &psi[..]));
-    level(gaps, ranges).map_err(|_| {
-        let [x, y] = problem.mesh.vertices[vertex as usize];
-        format!(
-            "the gaps of the contact boundaries that meet at ({x}, {y}) differ by what an input without a range changes: \
-             which is the larger one is not known beforehand"
-        )
-    })
+
+    fn ends(&self, unknown: usize) -> [u32; 2] {
+        self.pieces.problem.ends[self.edge(unknown)]
+    }
+
+    /// ψ at a vertex, the same from all its contact edges but for rounding; else the value that meets all of them.
+    fn common_gap(&self, vertex: u32, ranges: &[[f64; 2]]) -> Result<Vec<f64>, String> {
+        let (Pieces { problem, patterns, .. }, meeting) = (self.pieces, &self.meetings[&vertex]);
+        let Some((_, first)) = meeting.first() else { return Ok(Vec::new()) };
+        let is_same = |psi: &[f64]| excess(patterns, psi, first).iter().all(|&part| part == 0.0);
+        if meeting.iter().all(|(_, psi)| is_same(psi)) {
+            return Ok(first.clone());
+        }
+        let gaps = meeting.iter().map(|(at, psi)| (problem.asks(self.edge(*at)), &psi[..]));
+        level(gaps, ranges).map_err(|_| {
+            let [x, y] = problem.mesh.vertices[vertex as usize];
+            format!(
+                "the gaps of the contact boundaries that meet at ({x}, {y}) differ by what an input without a range changes: \
+                 which is the larger one is not known beforehand"
+            )
+        })
+    }
+
+    /// Where e comes from at a vertex: of two edges with one ψ from both, else from the side of the one of number `own`.
+    fn place(&self, vertex: u32, own: Option<usize>) -> Result<Vertex, String> {
+        let problem = self.pieces.problem;
+        let length = |at: usize| problem.lengths[self.edge(at)];
+        let here: Vec<usize> = self.meetings[&vertex].iter().map(|&(at, _)| at).collect();
+        let from = |end: usize, beside: [usize; 2]| {
+            let next = self.next_along(vertex, end);
+            let slope = next.map_or(0.0, |next| length(end) / (length(end) + length(next)));
+            ([end, next.unwrap_or(end)], [1.0 + slope, -slope], beside)
+        };
+        let (edges, weights, beside) = match (&here[..], own) {
+            (&[left, right], None) => {
+                let whole = length(left) + length(right);
+                ([left, right], [length(right) / whole, length(left) / whole], [left, right])
+            }
+            (&[left, right], Some(own)) => from(here[own], [left, right]),
+            (&[end], _) => from(end, [end; 2]),
+            _ => {
+                let [x, y] = problem.mesh.vertices[vertex as usize];
+                return Err(format!("more than two contact edges meet at ({x}, {y})"));
+            }
+        };
+        let weights = [0, 1].map(|k| weights[k] * self.openings[edges[k]]);
+        Ok(Vertex { edges, weights, beside })
+    }
+
+    /// The unknown of the contact edge behind that of `end`, seen from `vertex`.
+    fn next_along(&self, vertex: u32, end: usize) -> Option<usize> {
+        let far = self.ends(end).into_iter().find(|&other| other != vertex)?;
+        // Beyond a vertex where gaps differ s − ψ is another function.
+        let there = self.meetings.get(&far)?;
+        let (_, psi) = there.iter().find(|(at, _)| *at == end)?;
+        there.iter().find(|(at, other)| *at != end && other == psi).map(|&(at, _)| at)
+    }
 }
 
 /// s − ψ for each pattern; rounding is 0.
@@ -196,52 +235,4 @@ fn excess(patterns: &[TermData], given: &[f64], psi: &[f64]) -> Vec<f64> {
         if excess.abs() > pattern.ends.slack(&pattern.problem) { excess } else { 0.0 }
     };
     patterns.iter().zip(given.iter().zip(psi)).map(difference).collect()
-}
-
-/// Where e comes from at a vertex: of two edges with one ψ from both, else from the side of the one of number `own`.
-fn place(
-    problem: &Problem,
-    meetings: &Meeting,
-    vertex: u32,
-    (edges, openings): (&[usize], &[f64]),
-    own: Option<usize>,
-) -> Result<Vertex, String> {
-    let free = problem.topology.counts.free;
-    let length = |at: usize| problem.lengths[free + edges[at]];
-    let here: Vec<usize> = meetings[&vertex].iter().map(|&(at, _)| at).collect();
-    let from = |end: usize, beside: [usize; 2]| {
-        let next = next_along(problem, meetings, vertex, edges, end);
-        let slope = next.map_or(0.0, |next| length(end) / (length(end) + length(next)));
-        ([end, next.unwrap_or(end)], [1.0 + slope, -slope], beside)
-    };
-    let (edges, weights, beside) = match (&here[..], own) {
-        (&[left, right], None) => {
-            let whole = length(left) + length(right);
-            ([left, right], [length(right) / whole, length(left) / whole], [left, right])
-        }
-        (&[left, right], Some(own)) => from(here[own], [left, right]),
-        (&[end], _) => from(end, [end; 2]),
-        _ => {
-            let [x, y] = problem.mesh.vertices[vertex as usize];
-            return Err(format!("more than two contact edges meet at ({x}, {y})"));
-        }
-    };
-    let weights = [0, 1].map(|k| weights[k] * openings[edges[k]]);
-    Ok(Vertex { edges, weights, beside })
-}
-
-/// The unknown of the contact edge behind that of `end`, seen from `vertex`.
-fn next_along(
-    problem: &Problem,
-    meetings: &Meeting,
-    vertex: u32,
-    edges: &[usize],
-    end: usize,
-) -> Option<usize> {
-    let ends = problem.ends[problem.topology.counts.free + edges[end]];
-    let far = ends.into_iter().find(|&other| other != vertex)?;
-    // Beyond a vertex where gaps differ s − ψ is another function.
-    let there = meetings.get(&far)?;
-    let (_, psi) = there.iter().find(|(at, _)| *at == end)?;
-    there.iter().find(|(at, other)| *at != end && other == psi).map(|&(at, _)| at)
 }

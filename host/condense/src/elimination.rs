@@ -12,7 +12,7 @@ use std::iter::repeat;
 use signorini_certify::TermData;
 use signorini_kernel::mesh::geometry::{quad_area, triangle_area};
 use signorini_problem::{Assembled, Loads, Problem};
-use signorini_reference::ReferenceError;
+use signorini_reference::{LinearFactor, ReferenceError};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::scene::Scene;
 use signorini_solve::unfit;
@@ -93,32 +93,14 @@ fn uniform_source(problem: &Problem, cells: &[bool], silent: Loads) -> Loads {
     Loads { triangles: share(triangles), quads: share(quads), ..silent }
 }
 
-/// The rows that are eliminated: those of the free edges, then of the contact edges that are open whatever happens.
-pub(super) struct FreeRows {
-    /// The edge of each.
-    pub edges: Vec<usize>,
-}
-
-impl FreeRows {
-    /// With these contact edges, counted from the first one.
-    pub fn new(problem: &Problem, open: &[usize]) -> Self {
-        let free = problem.topology.counts.free;
-        // Rows of the matrix have their columns in order.
-        let mut edges: Vec<usize> = (0..free).chain(open.iter().map(|edge| free + edge)).collect();
-        edges.sort_unstable();
-        Self { edges }
-    }
-
-    pub fn count(&self) -> usize {
-        self.edges.len()
-    }
-
-    /// The number of each of so many rows among them.
-    fn numbers(&self, rows: usize) -> Vec<Option<u32>> {
-        let mut numbers = vec![None; rows];
-        self.edges.iter().zip(0..).for_each(|(&edge, number)| numbers[edge] = Some(number));
-        numbers
-    }
+/// The edges of the rows that are eliminated: the free edges, then the contact edges that are `open` whatever happens, counted from the
+/// first one.
+pub(super) fn free_rows(problem: &Problem, open: &[usize]) -> Vec<usize> {
+    let free = problem.topology.counts.free;
+    // Rows of the matrix have their columns in order.
+    let mut edges: Vec<usize> = (0..free).chain(open.iter().map(|edge| free + edge)).collect();
+    edges.sort_unstable();
+    edges
 }
 
 /// The fields of all `given`, in their order, with the contact edges `open` as free as those inside.
@@ -132,30 +114,30 @@ pub(super) fn fields(
 ) -> Result<Vec<Field>> {
     let unfit = unfit::<f64>(&problem.scene);
     let mut assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
-    let (counts, rows) = (problem.topology.counts, FreeRows::new(problem, open));
-    let mut right = Vec::with_capacity(rows.count() * given.len());
+    let (counts, rows) = (problem.topology.counts, free_rows(problem, open));
+    let mut right = Vec::with_capacity(rows.len() * given.len());
     let mut fields = Vec::with_capacity(given.len());
     for FieldLoads { loads, contact } in given {
         assembled.set_loads(loads).map_err(&unfit)?;
         let system = assembled.system().map_err(&unfit)?;
         let mut u = vec![0.0; counts.free];
         u.extend(contact.iter().chain(&loads.dirichlet));
-        rows.edges.iter().for_each(|&edge| u[edge] = 0.0);
+        rows.iter().for_each(|&edge| u[edge] = 0.0);
         let lacking: Vec<f64> = system
             .matrix()
             .iter()
             .zip(system.load())
             .map(|(row, load)| load - row.dot(&u))
             .collect();
-        right.extend(rows.edges.iter().map(|&edge| lacking[edge]));
+        right.extend(rows.iter().map(|&edge| lacking[edge]));
         fields.push(Field { flux: vec![0.0; u.len()], u });
     }
     // Of a column alone there may be no transfer laws, which the matrix has.
     assembled.set_loads(&problem.loads).map_err(&unfit)?;
     let solved = free_block(&assembled, &rows, &right).map_err(failed(&problem.scene))?;
-    let solved = solved.chunks(rows.count().max(1)).map(Some).chain(repeat(None));
+    let solved = solved.chunks(rows.len().max(1)).map(Some).chain(repeat(None));
     for ((field, FieldLoads { loads, .. }), solved) in fields.iter_mut().zip(given).zip(solved) {
-        let solved = rows.edges.iter().zip(solved.unwrap_or_default());
+        let solved = rows.iter().zip(solved.unwrap_or_default());
         solved.for_each(|(&edge, &u)| field.u[edge] = u);
         assembled.set_loads(loads).map_err(&unfit)?;
         assembled.recover(&field.u, &[], &mut field.flux).map_err(&unfit)?;
@@ -163,27 +145,21 @@ pub(super) fn fields(
     Ok(fields)
 }
 
-/// K_FF⁻¹ applied to the columns of `right`.
+/// K_FF⁻¹ of these rows, applied to the columns of `right`.
 pub(super) fn free_block(
     assembled: &Assembled<f64>,
-    rows: &FreeRows,
+    rows: &[usize],
     right: &[f64],
 ) -> std::result::Result<Vec<f64>, ReferenceError> {
     let malformed = |_| ReferenceError::Malformed("the assembled matrix is not one");
     let system = assembled.system().map_err(malformed)?;
-    let (mut row_ptr, mut col_idx, mut values) = (vec![0], Vec::new(), Vec::new());
-    let numbers = rows.numbers(assembled.edges().counts().edges());
+    let mut numbers = vec![None; assembled.edges().counts().edges()];
+    rows.iter().zip(0..).for_each(|(&edge, number)| numbers[edge] = Some(number));
     let matrix: Vec<_> = system.matrix().iter().collect();
-    for row in rows.edges.iter().map(|&edge| &matrix[edge]) {
-        for (column, value) in row.entries() {
-            let Some(number) = numbers[column] else { continue };
-            col_idx.push(number);
-            values.push(value);
-        }
-        row_ptr.push(values.len() as u32);
-    }
-    signorini_reference::Linear { row_ptr: &row_ptr, col_idx: &col_idx, values: &values }
-        .solve(right)
+    let of_edge = |&edge: &usize| {
+        matrix[edge].entries().filter_map(|(column, value)| Some((numbers[column]?, value)))
+    };
+    LinearFactor::new(rows.iter().map(of_edge))?.solve(right)
 }
 
 /// A failed factorisation in the words of the scene.

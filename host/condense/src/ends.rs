@@ -19,7 +19,7 @@ impl CondensedModel {
 
     /// Whether an input changes an end of a flux that has a limit.
     pub fn is_varying(&self) -> bool {
-        self.spans.iter().skip(1).flatten().any(|&span| span != 0.0)
+        is_varying(&self.spans)
     }
 
     /// From the base of each edge to the other end of its flux; nothing where all are ∞. In a varying model a finite one is 0
@@ -38,8 +38,7 @@ impl CondensedModel {
     /// Whether the load of an edge contains the upper end of its flux.
     fn is_from_above(&self, at: usize) -> bool {
         let constant = self.spans.first().and_then(|spans| spans.get(at)).copied();
-        let constant = constant.unwrap_or(f64::INFINITY);
-        constant == f64::NEG_INFINITY || constant < 0.0 && !self.is_varying()
+        is_from_above(constant.unwrap_or(f64::INFINITY), self.is_varying())
     }
 
     /// The least and the greatest r̂ of an edge as m factors of p; an infinite one stands in the first, with 0 in the others.
@@ -82,6 +81,16 @@ impl CondensedModel {
         }
         Ok(())
     }
+}
+
+/// Whether an input changes one of these spans.
+pub(super) fn is_varying(spans: &[Vec<f64>]) -> bool {
+    spans.iter().skip(1).flatten().any(|&span| span != 0.0)
+}
+
+/// Whether the base of an edge with this constant of its span is the upper end of its flux.
+pub(super) fn is_from_above(constant: f64, is_varying: bool) -> bool {
+    constant == f64::NEG_INFINITY || constant < 0.0 && !is_varying
 }
 
 /// The admissible r̂ of an edge that is nearest. An x on a side that there is not counts as on the other.

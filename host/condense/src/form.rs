@@ -11,7 +11,7 @@ use super::elimination::{Field, failed};
 use super::ends::excess;
 use super::factor::{Source, energies, packed, stability, triangular};
 use super::laws::Laws;
-use super::residual::{blocks, jumps};
+use super::residual::Residual;
 use super::{Columns, Form, Pieces};
 use signorini_certify::ends::of_moved;
 use signorini_problem::Assembled;
@@ -45,9 +45,6 @@ pub(super) struct Admissibles {
     pub mending: Option<Table>,
 }
 
-/// A form, and the contact vertices of its corrections.
-pub(super) type Assembly = (Form, Vec<u32>);
-
 /// Either the form with the functions behind it, or a sentence why there is none.
 pub(super) type Found = std::result::Result<(Form, Admissibles), String>;
 
@@ -57,56 +54,51 @@ impl FormData<'_> {
     /// # Errors
     /// Data that are not finite, a normal matrix that is singular to working precision.
     pub fn form(&self) -> Result<Found> {
-        let Columns { pieces, fields, openings } = self.columns;
-        let Pieces { problem, patterns, laws, .. } = pieces;
-        let (laws, released) = (laws.as_ref(), self.released);
-        if let Some(reason) = self.obstacle()? {
+        let Columns { pieces, openings, .. } = self.columns;
+        if let Some(reason) = self.obstacle() {
             return Ok(Err(reason));
         }
-        if let Some(step) = &pieces.step {
-            return self.of_step(step);
-        }
-        let chain = match Chain::new(pieces, openings, released) {
+        let chain = match Chain::new(pieces, openings, self.released) {
             Ok(chain) => chain,
             Err(reason) => return Ok(Err(reason)),
         };
+        match &pieces.step {
+            Some(step) => self.of_step(step, chain),
+            None => self.of_solution(chain),
+        }
+    }
+
+    /// The form of a steady problem with U = 1.
+    fn of_solution(&self, chain: Chain) -> Result<Found> {
+        let Columns { pieces, fields, .. } = self.columns;
+        let Pieces { problem, patterns, laws, .. } = pieces;
         let functions = Functions::of(problem);
-        let blocks = blocks(problem, patterns, &functions, laws, released)?;
+        let residual = Residual::new(pieces, &functions, self.released)?;
+        let blocks = residual.blocks()?;
         let fluxes = self.fluxes(fields);
         let mut s = self.boundary_values(&chain, &functions, [patterns.len(), 0]);
-        let at_boundary = chain.fixed();
-        let mut fixed = vec![false; functions.count()];
-        at_boundary.iter().for_each(|&vertex| fixed[vertex as usize] = true);
-        fix_unused(&blocks, &mut fixed);
+        let fixed = chain.fixed(&functions, &blocks);
         let judged = match laws {
             Some(laws) => [&blocks[..], &self.weighed(laws, &functions)?].concat(),
             None => Vec::new(),
         };
         let judged = if judged.is_empty() { &blocks } else { &judged };
         complete(judged, &fixed, &fluxes, &mut s).map_err(failed(&problem.scene))?;
-        let jump = jumps(problem, patterns, &functions, released)?.map(|blocks| {
-            let means: Vec<&[f64]> = fields.iter().map(|field| &field.u[..]).collect();
-            (blocks, table(problem.ends.len(), &means))
-        });
-        let released = chain.released.clone();
-        let found = self.assembled(chain, &blocks, &s, jump)?;
-        Ok(found.map(|(form, contact)| {
-            let mending = None;
-            (form, Admissibles { s, fluxes, functions, contact, released, mending })
-        }))
+        let jump = residual.jumps()?;
+        self.assembled(chain, &blocks, (s, functions), jump)
     }
 
-    /// The form of these rows and columns of s, and the vertices of its corrections.
+    /// The form of these rows and columns of s, and of those of a `jump` to the means of u.
     pub(super) fn assembled(
         &self,
         chain: Chain,
         blocks: &[Block],
-        s: &Table,
-        jump: Option<(Vec<Block>, Table)>,
-    ) -> Result<std::result::Result<Assembly, String>> {
+        (s, functions): (Table, Functions),
+        jump: Option<Vec<Block>>,
+    ) -> Result<Found> {
         let Columns { pieces, fields, openings } = self.columns;
         let Pieces { problem, patterns, edges, .. } = pieces;
-        let Some(stability) = self.stability(blocks) else {
+        let Some((stability, mending)) = self.stability(blocks) else {
             return Ok(Err("the condensed matrix is singular to working precision".to_owned()));
         };
         let fluxes = self.fluxes(fields);
@@ -115,15 +107,19 @@ impl FormData<'_> {
             let share = 1.0 + assembled.hidden();
             factor.into_iter().map(|entry| share * entry).collect::<Vec<_>>()
         };
+        let of_jump = |blocks: Vec<Block>| {
+            let means = Table::of_columns(problem.ends.len(), fields.iter().map(|field| &field.u));
+            widened(packed(&triangular(&blocks, &s, &means)))
+        };
         // As in `certify::Data`: for s, and for u_h beside it.
         let moved = chain.moved.iter().map(|moved| 2.0 * of_moved(problem, moved));
         let oscillation =
             patterns.iter().zip(moved).map(|(p, moved)| p.oscillation + moved).collect();
         let is_limited = !problem.loads.spans.is_empty();
         let form = Form {
-            factor: widened(packed(&triangular(blocks, s, &fluxes))),
-            lost: self.lost(blocks, s, &fluxes, &assembled, stability)?,
-            jump: jump.map(|(blocks, means)| widened(packed(&triangular(&blocks, s, &means)))),
+            factor: widened(packed(&triangular(blocks, &s, &fluxes))),
+            lost: self.lost(blocks, &s, &fluxes, &assembled, stability)?,
+            jump: jump.map(of_jump),
             vertices: chain.contact.iter().map(|(_, vertex)| *vertex).collect(),
             stability,
             corners: chain.corners,
@@ -132,39 +128,41 @@ impl FormData<'_> {
             ends: if is_limited { chain.ends } else { Vec::new() },
             span_excess: excess(problem, edges, openings),
         };
-        Ok(Ok((form, chain.contact.iter().map(|of| of.0).collect())))
+        let (contact, released) =
+            (chain.contact.into_iter().map(|of| of.0).collect(), chain.released);
+        Ok(Ok((form, Admissibles { s, fluxes, functions, contact, released, mending })))
     }
 
     /// Fluxes of columns; and means of u behind them, where laws are read off these.
     pub(super) fn fluxes(&self, fields: &[Field]) -> Table {
         let Pieces { problem, laws, .. } = self.columns.pieces;
         let edges = problem.ends.len();
-        let all = |of: fn(&Field) -> &[f64]| fields.iter().map(of).collect::<Vec<_>>();
-        let mut fluxes = table(edges, &all(|field| &field.flux));
+        let mut fluxes = Table::of_columns(edges, fields.iter().map(|field| &field.flux));
         if laws.is_some() {
-            fluxes.values.extend(table(edges, &all(|field| &field.u)).values);
+            let means = Table::of_columns(edges, fields.iter().map(|field| &field.u));
+            fluxes.values.extend(means.values);
         }
         fluxes
     }
 
     /// The rows of changing laws, for the change that s is made for.
     fn weighed(&self, laws: &Laws, functions: &Functions) -> Result<Vec<Block>> {
-        let Pieces { problem, patterns, .. } = self.columns.pieces;
-        let mut blocks = laws.blocks(problem, patterns, functions)?;
+        let mut blocks = laws.blocks(self.columns.pieces, functions)?;
         let rows = blocks.iter_mut().flat_map(|block| &mut block.rows);
         rows.flatten().for_each(|entry| *entry *= laws.change.sqrt());
         Ok(blocks)
     }
 
     /// Why these data allow for no bound.
-    fn obstacle(&self) -> Result<Option<String>> {
-        let Pieces { parts, patterns, .. } = self.columns.pieces;
+    fn obstacle(&self) -> Option<String> {
+        let pieces @ Pieces { parts, patterns, step, .. } = self.columns.pieces;
         if parts.counts.contact > 1 {
             let reason = "contact alone holds more than one part of the mesh: what is mended in each would have to leave through an edge of its own";
-            return Ok(Some(reason.to_owned()));
+            return Some(reason.to_owned());
         }
         let reason = patterns.iter().find_map(|pattern| pattern.no_bound.as_ref());
-        Ok(reason.map(ToString::to_string))
+        let of_step = || step.as_ref().and_then(|_| pieces.obstacle_of_steps());
+        reason.map(ToString::to_string).or_else(|| of_step().map(str::to_owned))
     }
 
     /// s where it is fixed, in all columns: so many first patterns, x and d, and `more` in which it is 0 there.
@@ -197,11 +195,13 @@ impl FormData<'_> {
         held.map_or(&[], Vec::as_slice)
     }
 
-    fn stability(&self, blocks: &[Block]) -> Option<f64> {
+    /// The cost of mending; where edges are settled with the fluxes that do it.
+    fn stability(&self, blocks: &[Block]) -> Option<(f64, Option<Table>)> {
         if self.columns.pieces.settled.count() > 0 {
             let fluxes = self.mending()?;
             let identity = Mat::identity(fluxes.columns, fluxes.columns);
-            return stability(&identity, &energies(blocks, &fluxes), None);
+            let found = stability(&identity, &energies(blocks, &fluxes), None)?;
+            return Some((found, Some(fluxes)));
         }
         let Columns { pieces, fields, openings } = self.columns;
         let mut columns = fields[pieces.patterns.len()..].to_vec();
@@ -212,25 +212,6 @@ impl FormData<'_> {
             Source { inverse, load: pieces.load(field, &vec![0.0; openings.len()], openings) }
         });
         let fluxes = self.fluxes(&columns);
-        stability(self.matrix, &energies(blocks, &fluxes), source.as_ref())
-    }
-}
-
-/// Table of these columns, which have a number for each edge.
-pub(super) fn table(edges: usize, columns: &[&[f64]]) -> Table {
-    let mut table = Table::new(edges, columns.len());
-    for (column, numbers) in columns.iter().enumerate() {
-        for (edge, number) in numbers.iter().enumerate() {
-            table.row_mut(edge)[column] = *number;
-        }
-    }
-    table
-}
-
-/// A vertex of no cell has no value.
-pub(super) fn fix_unused(blocks: &[Block], fixed: &mut [bool]) {
-    let used: BTreeSet<u32> = blocks.iter().flat_map(|block| block.functions.clone()).collect();
-    for (function, fixed) in fixed.iter_mut().enumerate() {
-        *fixed |= !used.contains(&(function as u32));
+        Some((stability(self.matrix, &energies(blocks, &fluxes), source.as_ref())?, None))
     }
 }

@@ -8,25 +8,13 @@ use signorini_problem::{Parts, Problem};
 use signorini_scene::error::{Error, InputError};
 use signorini_scene::scene::Scene;
 
-/// The cells of the one part that contact alone holds, where there is exactly one.
-pub(super) fn held_alone(problem: &Problem, parts: &Parts, edges: &[usize]) -> Option<Vec<bool>> {
-    if parts.counts.contact != 1 {
-        return None;
-    }
-    let topology = problem.topology.edges().ok()?;
-    let free = problem.topology.counts.free;
-    let of_edge = edges.iter().map(|edge| parts.of_edge(&topology, free + edge));
-    let part = of_edge.into_iter().find(|&part| parts.support(part) == Support::Contact)?;
-    Some((0..problem.cells()).map(|cell| parts.of_cell(cell) == part).collect())
-}
-
-/// Unknowns by the parts that they alone hold.
-pub(super) fn held_by_contact(
+/// Unknowns by the parts that they alone hold; and where there is exactly one such part, its cells.
+pub(super) fn held(
     problem: &Problem,
     parts: &Parts,
     edges: &[usize],
-) -> Vec<Vec<usize>> {
-    let Ok(topology) = problem.topology.edges() else { return Vec::new() };
+) -> (Vec<Vec<usize>>, Option<Vec<bool>>) {
+    let Ok(topology) = problem.topology.edges() else { return (Vec::new(), None) };
     let mut held = BTreeMap::<usize, Vec<usize>>::new();
     for (at, edge) in edges.iter().enumerate() {
         let part = parts.of_edge(&topology, problem.topology.counts.free + edge);
@@ -34,7 +22,10 @@ pub(super) fn held_by_contact(
             held.entry(part).or_default().push(at);
         }
     }
-    held.into_values().collect()
+    let alone = held.keys().next().filter(|_| parts.counts.contact == 1);
+    let cells = |part| (0..problem.cells()).map(|cell| parts.of_cell(cell) == part).collect();
+    let alone = alone.map(|&part| cells(part));
+    (held.into_values().collect(), alone)
 }
 
 /// Constants cost no energy there: its diagonal entry is 0.

@@ -9,6 +9,7 @@
 use signorini_kernel::Real;
 use signorini_kernel::mesh::boundary::Robin;
 
+use super::Pieces;
 use super::block::{Block, Functions};
 use signorini_certify::TermData;
 use signorini_certify::robin::{RobinPoints, robin};
@@ -37,12 +38,8 @@ impl Laws {
     ///
     /// # Errors
     /// Data that are not finite.
-    pub fn blocks(
-        &self,
-        problem: &Problem,
-        patterns: &[TermData],
-        functions: &Functions,
-    ) -> Result<Vec<Block>> {
+    pub fn blocks(&self, pieces: &Pieces, functions: &Functions) -> Result<Vec<Block>> {
+        let Pieces { problem, patterns, .. } = pieces;
         let transfer = transfer(patterns)?;
         let laws = problem.loads.robin.iter().zip(&self.shares).enumerate();
         let changing = laws.filter(|(_, (_, share))| **share > 0.0);

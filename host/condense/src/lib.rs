@@ -60,18 +60,18 @@ use balance::balances;
 use elimination::{Field, FieldLoads, columns, fields};
 use ends::{in_unknowns, spans};
 use form::FormData;
-use held::{held_alone, held_by_contact, held_by_one};
+use held::{held, held_by_one};
 use laws::Laws;
+use levels::ranges;
 pub use model::{Balance, CondensedModel, Corner, Form, Measure, Vertex};
 pub use modes::{LawsForm, LeftOut, ModalModel, modal};
 pub use order::along_boundary;
-pub use recovery::{Recovery, recoverable};
+pub use recovery::Recovery;
 pub use settled::Settled;
 use signorini_certify::TermData;
 use signorini_certify::term::{condensed_terms, rooms_of};
 use signorini_problem::{Approach, Parts, Problem};
 use signorini_scene::error::Result;
-use signorini_scene::scene::Input;
 pub use steps::{EvolutionForms, Memory, SteppedModel, settled, stepped};
 
 /// Condenses `problem` for all values of its inputs; its own loads only decide whether there is a solution.
@@ -80,11 +80,14 @@ pub use steps::{EvolutionForms, Memory, SteppedModel, settled, stepped};
 /// What [`Approach::Condensation`] cannot treat; data that are not finite, a part that a single contact edge holds,
 /// a probe outside the mesh.
 pub fn condense(problem: &Problem) -> Result<CondensedModel> {
-    Ok(build(problem)?.0)
+    Ok(recoverable(problem)?.0)
 }
 
-/// The model, and the fields behind it with s and τ of its certificate, in the columns of U = 1.
-fn build(problem: &Problem) -> Result<(CondensedModel, Recovery)> {
+/// A condensate with the way back: the fields behind it, with s and τ of its certificate, in the columns of U = 1.
+///
+/// # Errors
+/// As for [`condense`].
+pub fn recoverable(problem: &Problem) -> Result<(CondensedModel, Recovery)> {
     Approach::Condensation.check(problem)?;
     let pieces = Pieces::new(problem)?;
     let fields = pieces.fields(Vec::new())?;
@@ -92,6 +95,7 @@ fn build(problem: &Problem) -> Result<(CondensedModel, Recovery)> {
 }
 
 /// Data of a condensed model before anything is eliminated.
+#[derive(Clone)]
 struct Pieces<'p> {
     problem: &'p Problem,
     parts: Parts,
@@ -126,11 +130,10 @@ impl<'p> Pieces<'p> {
         let spans = spans(&patterns);
         let mut edges = along_boundary(problem);
         edges.retain(|&edge| settled.keeps(edge));
-        let held_by_contact = held_by_contact(problem, &parts, &edges);
+        let (held_by_contact, alone) = held(problem, &parts, &edges);
         if held_by_contact.iter().any(|part| part.len() == 1) {
             return Err(held_by_one(&problem.scene));
         }
-        let alone = held_alone(problem, &parts, &edges);
         let (laws, beyond) = (None, Vec::new());
         Ok(Self {
             problem,
@@ -189,7 +192,7 @@ impl<'p> Pieces<'p> {
         let matrix = self.matrix(&fields.openings, &opening);
         let load =
             |(field, p): (&Field, &TermData)| self.load(field, &p.loads().contact_flux, &opening);
-        let inputs = || problem.scene.inputs.iter();
+        let defaults = problem.scene.inputs.iter().map(|input| input.default);
         let mut model = CondensedModel {
             contact: n,
             edges: edges.clone(),
@@ -199,8 +202,9 @@ impl<'p> Pieces<'p> {
             load: fields.inputs.iter().zip(patterns).map(load).collect(),
             spans: in_unknowns(&self.spans, edges, &opening, m),
             limits: Vec::new(),
-            defaults: std::iter::once(1.0).chain(inputs().map(|i| i.default)).collect(),
-            ranges: std::iter::once([1.0, 1.0]).chain(inputs().map(Input::interval)).collect(),
+            defaults: std::iter::once(1.0).chain(defaults).collect(),
+            // Amplitudes of modes are no inputs of the scene, nor is what a step begins from.
+            ranges: ranges(problem, m),
             outputs: Vec::new(),
             certificate: Err(String::new()),
             energy_unit: 1.0,
@@ -209,10 +213,8 @@ impl<'p> Pieces<'p> {
             balances: balances(problem, &self.parts, patterns, &self.spans)?,
             opening,
         };
-        // Amplitudes of modes are no inputs of the scene, nor is what a step begins from.
         model.defaults.extend(&self.beyond);
         model.defaults.resize(m, 0.0);
-        model.ranges.resize(m, [f64::NEG_INFINITY, f64::INFINITY]);
         Ok((model, matrix))
     }
 

@@ -47,16 +47,11 @@ impl Columns<'_> {
             |edge: &usize| problem.kinds[*edge] == EdgeKind::Contact && !self.is_touching(*edge);
         let (contact, rest): (Vec<usize>, Vec<usize>) = edges.iter().partition(|e| is_contact(e));
         let recovered = |field: &Field| rest.iter().fold(0.0, |sum, &edge| sum + field.flux[edge]);
-        let elsewhere = self.linear(recovered);
+        let (mut of_inputs, of_contact) = self.factors(recovered);
         if contact.is_empty() {
-            return elsewhere;
+            return Measure::Linear { of_inputs, of_contact };
         }
-        let (mut of_inputs, of_contact) = match elsewhere {
-            Measure::Linear { of_inputs, of_contact } if !rest.is_empty() => {
-                (of_inputs, of_contact)
-            }
-            _ => (vec![0.0; patterns.len()], Vec::new()),
-        };
+        let of_contact = if rest.is_empty() { Vec::new() } else { of_contact };
         let free = problem.topology.counts.free;
         for (sum, pattern) in of_inputs.iter_mut().zip(patterns) {
             *sum +=

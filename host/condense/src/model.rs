@@ -61,6 +61,32 @@ pub struct Balance {
 /// How an output follows from p, x and r̂, in the columns of the model.
 pub type Measure = signorini_contact::outputs::Output<Vec<f64>, f64>;
 
+/// The factors of p, x and r̂ in an output that is a sum.
+pub(super) fn sum(measure: &mut Measure) -> Option<(&mut Vec<f64>, &mut Vec<f64>, &mut [f64])> {
+    match measure {
+        Measure::Linear { of_inputs, of_contact } => Some((of_inputs, of_contact, &mut [])),
+        Measure::Flux { of_inputs, of_contact, of_reaction } => {
+            Some((of_inputs, of_contact, of_reaction))
+        }
+        Measure::Length { .. } | Measure::Saturated { .. } | Measure::Bound => None,
+    }
+}
+
+impl CondensedModel {
+    /// Leaves so many inputs, and no bound, for this reason.
+    pub(super) fn keep_inputs(&mut self, inputs: usize, no_bound: &str) {
+        self.load.truncate(inputs);
+        self.spans.truncate(inputs);
+        self.defaults.truncate(inputs);
+        self.ranges.truncate(inputs);
+        for (of_inputs, ..) in self.outputs.iter_mut().filter_map(sum) {
+            of_inputs.truncate(inputs);
+        }
+        self.inputs = inputs;
+        self.certificate = Err(no_bound.to_owned());
+    }
+}
+
 /// The certificate: all but `vertices` and `corners` in the unit U.
 #[derive(Debug, Clone)]
 pub struct Form {

@@ -9,7 +9,7 @@ use faer::{Mat, Side};
 use super::chain::is_left_out;
 use super::elimination::Field;
 use super::form::Admissibles;
-use super::{CondensedModel, Form, build};
+use super::{CondensedModel, Form};
 use signorini_certify::admissible::Following;
 use signorini_certify::{CertifiedFields, Column};
 use signorini_kernel::mesh::boundary::Robin;
@@ -21,14 +21,6 @@ use signorini_scene::error::Result;
 pub struct Recovery {
     pub(super) fields: Vec<Field>,
     pub(super) admissibles: Option<Admissibles>,
-}
-
-/// A condensate with the way back.
-///
-/// # Errors
-/// As for [`super::condense`].
-pub fn recoverable(problem: &Problem) -> Result<(CondensedModel, Recovery)> {
-    build(problem)
 }
 
 impl Recovery {
@@ -74,19 +66,10 @@ impl Recovery {
         let z: Vec<f64> = columns(of, p, x).into_iter().chain(corrections).collect();
         let (mended, by) = self.mended(of, form, p, x)?;
         let at = |row: &[f64], z: &[f64]| row.iter().zip(z).map(|(a, b)| a * b).sum::<f64>();
-        let bubble =
-            |edge| functions.bubble(edge).map_or(0.0, |place| at(s.row(place as usize), &z));
-        let edges = 0..problem.ends.len();
-        Some(CertifiedFields {
-            vertices: (0..problem.mesh.vertices.len())
-                .map(|vertex| at(s.row(vertex), &z))
-                .collect(),
-            bubbles: edges.clone().map(bubble).collect(),
-            tau: edges.map(|edge| at(fluxes.row(edge), &mended) + by(edge)).collect(),
-            indicators: Vec::new(),
-            following: Following::Except(self.left_out(problem)),
-            ..CertifiedFields::default()
-        })
+        let tau = (0..problem.ends.len()).map(|edge| at(fluxes.row(edge), &mended) + by(edge));
+        let fields = functions.fields(problem, |place| at(s.row(place), &z), tau.collect());
+        let following = Following::Except(self.left_out(problem));
+        Some(CertifiedFields { following, ..fields })
     }
 
     /// Factors of columns, and fluxes beside them, whose sum is the mended τ.
@@ -121,27 +104,20 @@ impl Recovery {
         };
         let inputs = problem.scene.inputs.len();
         let silent = problem.left_with(&[])?;
-        let edges = 0..problem.ends.len();
+        let edges = problem.ends.len();
         let following = Following::Except(self.left_out(problem));
         let column = |j: usize| {
             let of = if j <= inputs { problem.left_with(&[j])? } else { silent.clone() };
-            let of_s = |place: usize| s.row(place)[j];
-            let bubble = |edge| functions.bubble(edge).map_or(0.0, |place| of_s(place as usize));
             // A correction has no flux and no means.
             let of_fluxes = |place: usize| fluxes.row(place).get(j).copied().unwrap_or(0.0);
-            let certified = CertifiedFields {
-                vertices: (0..problem.mesh.vertices.len()).map(of_s).collect(),
-                bubbles: edges.clone().map(bubble).collect(),
-                tau: edges.clone().map(of_fluxes).collect(),
-                indicators: Vec::new(),
-                following: following.clone(),
-                ..CertifiedFields::default()
-            };
+            let tau = (0..edges).map(of_fluxes).collect();
+            let fields = functions.fields(problem, |place| s.row(place)[j], tau);
+            let certified = CertifiedFields { following: following.clone(), ..fields };
             let by_law = |law: &Robin<f64, u32>| {
-                let mean = of_fluxes(edges.end + law.edge as usize);
+                let mean = of_fluxes(edges + law.edge as usize);
                 law.ambient - law.coefficient * mean
             };
-            let has_means = fluxes.values.len() > edges.end * fluxes.columns;
+            let has_means = fluxes.values.len() > edges * fluxes.columns;
             let laws = of.loads.robin.iter().filter(|_| has_means).map(by_law).collect();
             Ok(Column { problem: of, certified, laws })
         };

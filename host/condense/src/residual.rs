@@ -8,9 +8,10 @@
 
 use std::collections::BTreeSet;
 
+use super::Pieces;
 use super::block::{Block, Functions};
 use super::chain::is_left_out;
-use super::laws::{Laws, of_law, of_robin, points_of, transfer};
+use super::laws::{of_law, of_robin, points_of, transfer};
 use signorini_certify::TermData;
 use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::Conductivity;
@@ -25,88 +26,142 @@ use signorini_problem::quadrature::{Point, gauss, on_panels};
 use signorini_problem::triangular::triangular;
 use signorini_scene::error::Result;
 
-/// The rows of all cells and Robin edges.
-///
-/// # Errors
-/// Data that are not finite.
-pub(super) fn blocks(
-    problem: &Problem,
-    patterns: &[TermData],
-    functions: &Functions,
-    laws: Option<&Laws>,
-    released: &BTreeSet<u32>,
-) -> Result<Vec<Block>> {
-    let deviations = deviations(problem, patterns, released)?;
-    let of_fluxes = |at| of_cell(problem, at, functions, &deviations, Of::Fluxes);
-    let cells = (0..problem.cells()).map(of_fluxes);
-    let mut blocks = cells.collect::<Result<Vec<_>>>()?;
-    let transfer = transfer(patterns)?;
-    for (at, record) in problem.loads.robin.iter().enumerate() {
-        let ambient: Vec<_> = transfer.iter().map(|edges| edges[at]).collect();
-        let edge = record.edge as usize;
-        blocks.push(match laws.is_some_and(|laws| laws.shares[at] > 0.0) {
-            true => of_law(problem, edge, functions, &ambient, record.coefficient),
-            false => of_robin(problem, edge, functions, &points_of(patterns, edge, &ambient)?),
-        });
+/// Rows over these functions of s, which follows what data of patterns deviate from their chords by.
+pub(super) struct Residual<'r> {
+    pieces: &'r Pieces<'r>,
+    functions: &'r Functions,
+    deviations: Vec<Deviations<'r>>,
+}
+
+impl<'r> Residual<'r> {
+    /// Between vertices that are `released` s follows nothing.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn new(
+        pieces: &'r Pieces<'r>,
+        functions: &'r Functions,
+        released: &BTreeSet<u32>,
+    ) -> Result<Self> {
+        let followed = |pattern: &'r TermData| {
+            let mut deviations = Deviations::of(&pattern.problem)?;
+            deviations.found.retain(|of| !is_left_out(pieces.problem.ends[of.edge], released));
+            Ok(deviations)
+        };
+        let deviations = pieces.patterns.iter().map(followed).collect::<Result<_>>()?;
+        Ok(Self { pieces, functions, deviations })
     }
-    Ok(blocks)
-}
 
-/// The rows of A^½∇_h(s − u_h), with the means of u_h over the edges in the place of fluxes. Nothing on triangles with
-/// constant A: σ_h = A∇u_h − f̄(x − x_T)/2 there, and the two parts are orthogonal to each other in every cell, so that
-/// A^½∇s − A^{−½}σ_h is never less. A lift of s in cells where f is not 0 may not be orthogonal to the second.
-///
-/// # Errors
-/// Data that are not finite.
-pub(super) fn jumps(
-    problem: &Problem,
-    patterns: &[TermData],
-    functions: &Functions,
-    released: &BTreeSet<u32>,
-) -> Result<Option<Vec<Block>>> {
-    let is_lifted = deviations(problem, patterns, released)?.iter().any(|of| !of.found.is_empty());
-    let has_source = patterns.iter().any(|p| p.loads().triangles.iter().any(|&load| load != 0.0));
-    let is_constant = |at| Conductivity::of(problem, at).is_constant();
-    let is_plain = problem.mesh.quads.is_empty() && (0..problem.cells()).all(is_constant);
-    if is_plain && !(is_lifted && has_source) {
-        return Ok(None);
+    /// The rows of all cells and Robin edges.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn blocks(&self) -> Result<Vec<Block>> {
+        let (functions, Pieces { problem, patterns, laws, .. }) = (self.functions, self.pieces);
+        let mut blocks = self.of_cells(Of::Fluxes)?;
+        let transfer = transfer(patterns)?;
+        for (at, record) in problem.loads.robin.iter().enumerate() {
+            let ambient: Vec<_> = transfer.iter().map(|edges| edges[at]).collect();
+            let edge = record.edge as usize;
+            blocks.push(match laws.as_ref().is_some_and(|laws| laws.shares[at] > 0.0) {
+                true => of_law(problem, edge, functions, &ambient, record.coefficient),
+                false => of_robin(problem, edge, functions, &points_of(patterns, edge, &ambient)?),
+            });
+        }
+        Ok(blocks)
     }
-    of_means(problem, patterns, functions, released).map(Some)
+
+    /// The rows of A^½∇_h(s − u_h), with the means of u_h over the edges in the place of fluxes. Nothing on triangles with
+    /// constant A: σ_h = A∇u_h − f̄(x − x_T)/2 there, and the two parts are orthogonal to each other in every cell, so that
+    /// A^½∇s − A^{−½}σ_h is never less. A lift of s in cells where f is not 0 may not be orthogonal to the second.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn jumps(&self) -> Result<Option<Vec<Block>>> {
+        let Pieces { problem, patterns, .. } = self.pieces;
+        let is_lifted = self.deviations.iter().any(|of| !of.found.is_empty());
+        let has_source =
+            patterns.iter().any(|p| p.loads().triangles.iter().any(|&load| load != 0.0));
+        let is_constant = |at| Conductivity::of(problem, at).is_constant();
+        let is_plain = problem.mesh.quads.is_empty() && (0..problem.cells()).all(is_constant);
+        if is_plain && !(is_lifted && has_source) {
+            return Ok(None);
+        }
+        self.of_cells(Of::Means).map(Some)
+    }
+
+    /// The rows of all cells.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn of_cells(&self, of: Of) -> Result<Vec<Block>> {
+        (0..self.pieces.problem.cells()).map(|at| self.of_cell(at, of)).collect()
+    }
+
+    fn of_cell(&self, at: usize, of: Of) -> Result<Block> {
+        let (problem, deviations) = (self.pieces.problem, &self.deviations);
+        let (vertices, edges) = (problem.vertices_of(at), problem.topology.edges_of(at));
+        let bubbles = self.functions.bubbles_of(edges);
+        let on_side = |side: usize| deviations.iter().map(move |all| all.on(edges[side] as usize));
+        let curved: Vec<usize> =
+            (0..edges.len()).filter(|&side| on_side(side).any(|of| of.is_some())).collect();
+        let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
+        let fields = unit_fields(problem, at, edges);
+        let lifts: Vec<_> = deviations.iter().map(|of| Lift::on_cell(problem, at, of)).collect();
+        let width = vertices.len() + bubbles.len() + fields.len() + deviations.len();
+        let mut columns = vec![Vec::new(); width];
+        let rough = of_rough_sides(problem, at, deviations, &gauss(POINTS))?;
+        let smooth = || points(&cell, conductivity.points_for(&cell, 2), &curved);
+        let seen = |(reference, weight): ([f64; 3], f64)| {
+            let local = cell.local(reference);
+            conductivity.resolved(Point {
+                x: local.x,
+                reference,
+                weight: weight * local.determinant,
+            })
+        };
+        let points: Vec<_> = match (conductivity.cut(), conductivity.cut_for_curves()) {
+            (Some(pieces), _) if curved.is_empty() => pieces.points(cell).collect(),
+            (_, Some(pieces)) => pieces.many_points(cell).collect(),
+            _ => rough.unwrap_or_else(smooth).into_iter().map(seen).collect(),
+        };
+        let missed = conductivity.missed(cell);
+        for at in points {
+            let (point, local) = (at.point, cell.local(at.point.reference));
+            let vertices =
+                local.vertices[..vertices.len()].iter().map(|of| Entry::Gradient(of.gradient));
+            let bubbles = bubbles.iter().map(|&(side, _)| local.sides[side].bubble().gradient);
+            let fields = fields.iter().map(|field| {
+                let sample = field.sample(&point);
+                match of {
+                    Of::Fluxes => Entry::Flux(sample.flux.map(|x| -x)),
+                    Of::Means => Entry::Gradient(sample.gradient.map(|x| -x)),
+                }
+            });
+            let mut entries: Vec<_> =
+                vertices.chain(bubbles.map(Entry::Gradient)).chain(fields).collect();
+            for lift in &lifts {
+                entries.push(Entry::Gradient(lift.at(&local)?.gradient));
+            }
+            for (column, entry) in columns.iter_mut().zip(entries) {
+                column.extend(entry.rows(&at, of, missed));
+            }
+        }
+        let bubbles = bubbles.iter().map(|&(_, function)| function);
+        Ok(Block {
+            functions: vertices.iter().copied().chain(bubbles).collect(),
+            edges: edges.to_vec(),
+            rows: triangular(columns),
+        })
+    }
 }
 
-/// Those rows of all cells.
-///
-/// # Errors
-/// Data that are not finite.
-pub(super) fn of_means(
-    problem: &Problem,
-    patterns: &[TermData],
-    functions: &Functions,
-    released: &BTreeSet<u32>,
-) -> Result<Vec<Block>> {
-    let deviations = deviations(problem, patterns, released)?;
-    let of_cell = |at| of_cell(problem, at, functions, &deviations, Of::Means);
-    (0..problem.cells()).map(of_cell).collect()
-}
-
-/// Deviations of each pattern's data from their chords that s follows: none between vertices that are released.
-fn deviations<'p>(
-    problem: &Problem,
-    patterns: &'p [TermData],
-    released: &BTreeSet<u32>,
-) -> Result<Vec<Deviations<'p>>> {
-    let followed = |pattern: &'p TermData| {
-        let mut deviations = Deviations::of(&pattern.problem)?;
-        deviations.found.retain(|of| !is_left_out(problem.ends[of.edge], released));
-        Ok(deviations)
-    };
-    patterns.iter().map(followed).collect()
-}
-
-/// Field subtracted from A^½∇s: A^{−½}τ of fluxes, or A^½∇u_h of means.
+/// Field subtracted from A^½∇s.
 #[derive(Debug, Clone, Copy)]
-enum Of {
+pub(super) enum Of {
+    /// A^{−½}τ
     Fluxes,
+    /// A^½∇u_h
     Means,
 }
 
@@ -138,69 +193,6 @@ impl Entry {
         let beyond = Root::of(&at.above, open).gradient(v);
         if left == 0.0 { known.to_vec() } else { [known, beyond].concat() }
     }
-}
-
-fn of_cell(
-    problem: &Problem,
-    at: usize,
-    functions: &Functions,
-    deviations: &[Deviations],
-    of: Of,
-) -> Result<Block> {
-    let (vertices, edges) = (problem.vertices_of(at), problem.topology.edges_of(at));
-    let bubbles: Vec<(usize, u32)> = edges
-        .iter()
-        .enumerate()
-        .filter(|_| edges.len() == 4)
-        .filter_map(|(side, &edge)| Some((side, functions.bubble(edge as usize)?)))
-        .collect();
-    let on_side = |side: usize| deviations.iter().map(move |all| all.on(edges[side] as usize));
-    let curved: Vec<usize> =
-        (0..edges.len()).filter(|&side| on_side(side).any(|of| of.is_some())).collect();
-    let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
-    let fields = unit_fields(problem, at, edges);
-    let lifts: Vec<_> = deviations.iter().map(|of| Lift::on_cell(problem, at, of)).collect();
-    let width = vertices.len() + bubbles.len() + fields.len() + deviations.len();
-    let mut columns = vec![Vec::new(); width];
-    let rough = of_rough_sides(problem, at, deviations, &gauss(POINTS))?;
-    let smooth = || points(&cell, conductivity.points_for(&cell, 2), &curved);
-    let seen = |(reference, weight): ([f64; 3], f64)| {
-        let local = cell.local(reference);
-        conductivity.resolved(Point { x: local.x, reference, weight: weight * local.determinant })
-    };
-    let points: Vec<_> = match (conductivity.cut(), conductivity.cut_for_curves()) {
-        (Some(pieces), _) if curved.is_empty() => pieces.points(cell).collect(),
-        (_, Some(pieces)) => pieces.many_points(cell).collect(),
-        _ => rough.unwrap_or_else(smooth).into_iter().map(seen).collect(),
-    };
-    let missed = conductivity.missed(cell);
-    for at in points {
-        let (point, local) = (at.point, cell.local(at.point.reference));
-        let vertices =
-            local.vertices[..vertices.len()].iter().map(|of| Entry::Gradient(of.gradient));
-        let bubbles = bubbles.iter().map(|&(side, _)| local.sides[side].bubble().gradient);
-        let fields = fields.iter().map(|field| {
-            let sample = field.sample(&point);
-            match of {
-                Of::Fluxes => Entry::Flux(sample.flux.map(|x| -x)),
-                Of::Means => Entry::Gradient(sample.gradient.map(|x| -x)),
-            }
-        });
-        let mut entries: Vec<_> =
-            vertices.chain(bubbles.map(Entry::Gradient)).chain(fields).collect();
-        for lift in &lifts {
-            entries.push(Entry::Gradient(lift.at(&local)?.gradient));
-        }
-        for (column, entry) in columns.iter_mut().zip(entries) {
-            column.extend(entry.rows(&at, of, missed));
-        }
-    }
-    let bubbles = bubbles.iter().map(|&(_, function)| function);
-    Ok(Block {
-        functions: vertices.iter().copied().chain(bubbles).collect(),
-        edges: edges.to_vec(),
-        rows: triangular(columns),
-    })
 }
 
 /// For each edge the field of a unit flux along its direction and a unit mean over it.

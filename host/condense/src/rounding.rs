@@ -73,17 +73,15 @@ impl FormData<'_> {
     /// Σ over the cells and Neumann edges of what `field` is out of balance, and may be by rounding.
     fn unbalanced(&self, field: &Field, loads: Option<&Loads>) -> f64 {
         let Pieces { problem, settled, .. } = self.columns.pieces;
-        let Problem { topology, kinds, .. } = *problem;
-        let (triangles, quads) = (&topology.of_triangles, &topology.of_quads);
-        let sides = triangles.iter().map(|of| &of[..]).chain(quads.iter().map(|of| &of[..]));
-        let of_cells: f64 = sides
-            .enumerate()
-            // A cell that stores something keeps what it lacks: that stands in its rows.
-            .filter(|(at, _)| self.columns.pieces.problem.loads.content(*at) == 0.0)
-            .map(|(at, sides)| {
+        let Problem { topology, kinds, .. } = problem;
+        // A cell that stores something keeps what it lacks: that stands in its rows.
+        let is_balanced = |at: &usize| problem.loads.content(*at) == 0.0;
+        let of_cells: f64 = (0..problem.cells())
+            .filter(is_balanced)
+            .map(|at| {
                 let load = loads.map_or(0.0, |loads| loads.of_cell(at));
                 let (mut sum, mut size) = (load, load.abs());
-                for (side, &edge) in sides.iter().enumerate() {
+                for (side, &edge) in topology.edges_of(at).iter().enumerate() {
                     let flux = field.flux[edge as usize];
                     let first = topology.first_side(edge as usize) == (at, side);
                     sum += if first { flux } else { -flux };

@@ -4,7 +4,8 @@
 use std::ops::Range;
 
 use super::factor::column;
-use super::{CondensedModel, Form, Measure};
+use super::model::sum;
+use super::{CondensedModel, Form};
 
 /// Answers at the defaults that are smaller than this part of what one input does are cancellation or 0.
 const NEAR: f64 = 1e-6;
@@ -44,11 +45,9 @@ impl CondensedModel {
     /// Multiplies columns that are no inputs of the scene by `unit`: what was one of them stands for that.
     pub fn scale_inputs(&mut self, columns: Range<usize>, unit: f64) {
         self.load[columns.clone()].iter_mut().flatten().for_each(|entry| *entry *= unit);
-        for measure in &mut self.outputs {
-            if let Measure::Linear { of_inputs, .. } | Measure::Flux { of_inputs, .. } = measure {
-                let own = of_inputs.iter_mut().skip(columns.start).take(columns.len());
-                own.for_each(|factor| *factor *= unit);
-            }
+        for (of_inputs, ..) in self.outputs.iter_mut().filter_map(sum) {
+            let own = of_inputs.iter_mut().skip(columns.start).take(columns.len());
+            own.for_each(|factor| *factor *= unit);
         }
         let Ok(form) = &mut self.certificate else { return };
         let entries = columns.start * (columns.start + 1) / 2..columns.end * (columns.end + 1) / 2;
@@ -64,13 +63,7 @@ impl CondensedModel {
         self.opening.iter_mut().chain(&mut self.multiplier).for_each(|number| *number *= unit);
         let loads = self.load.iter_mut().chain(&mut self.spans).flatten();
         loads.for_each(|number| *number /= unit);
-        for measure in &mut self.outputs {
-            let none = &mut Vec::new();
-            let (of_contact, of_reaction) = match measure {
-                Measure::Linear { of_contact, .. } => (of_contact, none),
-                Measure::Flux { of_contact, of_reaction, .. } => (of_contact, of_reaction),
-                Measure::Length { .. } | Measure::Saturated { .. } | Measure::Bound => continue,
-            };
+        for (_, of_contact, of_reaction) in self.outputs.iter_mut().filter_map(sum) {
             of_contact.iter_mut().chain(of_reaction).for_each(|factor| *factor *= unit);
         }
         if let Ok(form) = &mut self.certificate {

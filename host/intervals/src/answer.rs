@@ -1,7 +1,9 @@
 //! Answers that intervals are worked out from, and the interval of an output.
 
 use serde::Serialize;
+use signorini_certify::deviation::Deviations;
 use signorini_certify::{CertifiedFields, ErrorBound};
+use signorini_problem::Problem;
 use signorini_scene::scene::Quantity;
 use signorini_scene::scene::units::Units;
 use signorini_solve::{ScalarKind, Solution};
@@ -21,6 +23,14 @@ impl<'a> From<&'a Solution> for Answered<'a> {
     fn from(Solution { certified, bound, scalar, .. }: &'a Solution) -> Self {
         Self { certified, bound: *bound, scalar: *scalar }
     }
+}
+
+/// An answer of a problem, and the data that its s follows.
+#[derive(Clone, Copy)]
+pub(super) struct OnMesh<'a> {
+    pub problem: &'a Problem,
+    pub answer: Answered<'a>,
+    pub deviations: &'a Deviations<'a>,
 }
 
 /// Where the value of an output lies for the exact solution.
@@ -51,22 +61,28 @@ impl OutputBound {
     /// From `units` to those of the scene.
     /// The output is `of_one` for u = 1.
     pub(super) fn in_scene(self, units: &Units, of: Quantity, of_one: f64) -> Self {
-        let Self { center, plus_minus, estimate, exact, doubt, .. } = self;
-        let [plus_minus, doubt] = [plus_minus, doubt].map(|x| x * units.of_output(of));
-        let output = |x: f64| units.output(of, [x, of_one]);
-        let (center, exact) = (output(center), exact.map(output));
-        let estimate = estimate.map(|x| x * units.of_output(of));
-        let rounding = zero_rounding(units, of) * center.abs();
-        Self { center, plus_minus: plus_minus + rounding, estimate, exact, doubt, ..self }
+        let value = |x: f64| units.output(of, [x, of_one]);
+        self.mapped(value, units.of_output(of), zero_rounding(units, of))
     }
 
     /// So many times the output.
     pub(super) fn times(self, by: f64) -> Self {
+        self.mapped(|x| by * x, by, SUMMED)
+    }
+
+    /// With other values, differences so many times these, and a part of the middle that is rounded.
+    fn mapped(self, value: impl Fn(f64) -> f64, by: f64, rounding: f64) -> Self {
         let Self { center, plus_minus, estimate, exact, doubt, of } = self;
-        let [center, doubt] = [center, doubt].map(|x| by * x);
-        let plus_minus = by * plus_minus + SUMMED * center.abs();
-        let [estimate, exact] = [estimate, exact].map(|x| x.map(|x| by * x));
-        Self { center, plus_minus, of, estimate, exact, doubt }
+        let (center, exact) = (value(center), exact.map(value));
+        let plus_minus = by * plus_minus + rounding * center.abs();
+        Self {
+            center,
+            plus_minus,
+            of,
+            estimate: estimate.map(|x| by * x),
+            exact,
+            doubt: by * doubt,
+        }
     }
 }
 

@@ -11,7 +11,7 @@
 //! ```
 //! make it at most c K/2. What keeps to neither is bounded by lo ≤ σ·n ≤ hi alone.
 
-use super::answer::Answered;
+use super::answer::OnMesh;
 use signorini_certify::curved::peak;
 use signorini_certify::deviation::Deviations;
 use signorini_certify::ends::Ends;
@@ -37,15 +37,12 @@ pub(super) struct ContactEdge {
     pub dropped: [f64; 2],
 }
 
-/// All contact edges in their order; s follows what is in `followed`.
+/// All contact edges in their order.
 ///
 /// # Errors
 /// Data that are not finite.
-pub(super) fn contact_edges(
-    problem: &Problem,
-    answer: &Answered,
-    followed: &Deviations,
-) -> Result<Vec<ContactEdge>> {
+pub(super) fn contact_edges(on: &OnMesh) -> Result<Vec<ContactEdge>> {
+    let OnMesh { problem, answer, deviations: followed } = on;
     let counts = problem.topology.counts;
     if counts.contact == 0 {
         return Ok(Vec::new());
@@ -118,14 +115,8 @@ impl ContactEdge {
     pub fn unknown(problem: &Problem, at: usize, open: Option<[f64; 2]>, pressed: f64) -> Self {
         let [least, most] = problem.loads.flux_range(at).ends();
         let edge = problem.topology.counts.free + at;
-        let none = Self {
-            edge,
-            room: pressed,
-            clear: [0.0; 2],
-            left: [f64::NEG_INFINITY, f64::INFINITY],
-            may: [true; 2],
-            dropped: [0.0; 2],
-        };
+        let left = [f64::NEG_INFINITY, f64::INFINITY];
+        let none = Self { room: pressed, ..Self::of(edge, left) };
         // Inputs may open a range that is a point now.
         let is_given = least == most && problem.scene.limit_input().is_none();
         match (is_given, open) {
@@ -135,6 +126,11 @@ impl ContactEdge {
             }
             _ => none,
         }
+    }
+
+    /// An edge with such ends of σ·n − τ·n, of which nothing more is known.
+    fn of(edge: usize, left: [f64; 2]) -> Self {
+        Self { edge, room: 0.0, clear: [0.0; 2], left, may: [true; 2], dropped: [0.0; 2] }
     }
 
     /// Whether z has its value here where it may be off by so much of `clear`: all of [0, 1] is not within that.
@@ -160,14 +156,7 @@ impl ContactEdge {
         let left = ends.map(|end| end - tau);
         let off = |end: f64| (tau - end).abs();
         let is_at = |end: f64| end.is_finite() && off(end) <= epsilon * (tau.abs() + end.abs());
-        let none = Self {
-            edge,
-            room: 0.0,
-            clear: [0.0; 2],
-            left,
-            may: [true; 2],
-            dropped: [dropped, 0.0],
-        };
+        let none = Self { dropped: [dropped, 0.0], ..Self::of(edge, left) };
         if least == most {
             // Of a condensed model τ has it but for rounding.
             let dropped = [dropped, off(least)];

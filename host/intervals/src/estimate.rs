@@ -35,6 +35,5 @@ pub fn estimate(
 fn on_finer_mesh(problem: &Problem) -> Result<BTreeMap<String, Option<f64>>> {
     let mut finer = Problem::new(&problem.scene, adapted(problem.mesh.as_ref().clone(), None, 1)?)?;
     finer.set_time(problem.time)?;
-    let options = Options { solver: SolverKind::Factor, ..Options::default() };
-    outputs(&finer, &solve(&finer, &options)?)
+    outputs(&finer, &solve(&finer, &Options::by(SolverKind::Factor))?)
 }

@@ -6,7 +6,7 @@
 //! of what materials store, j = c, and of a mean over one that stores everywhere, j = 1/|P|. s is that of the tick, and u has gone
 //! through all its steps.
 
-use super::answer::Answered;
+use super::answer::{Answered, OnMesh};
 use super::values::{self, INTEGRATED, Value};
 use signorini_certify::curved::followed;
 use signorini_problem::Problem;
@@ -32,6 +32,7 @@ pub fn over_time(
         return Ok(vec![None; outputs.len()]);
     }
     let deviations = followed(problem, &answer.certified.admissible())?;
+    let on = OnMesh { problem, answer: *answer, deviations: &deviations };
     let integrated = if deviations.found.is_empty() { 0.0 } else { INTEGRATED };
     let ends = |output: &Output| {
         let weights = of_cells(problem, output);
@@ -39,7 +40,7 @@ pub fn over_time(
         if weights.is_empty() || !off.is_finite() {
             return Ok(None);
         }
-        let Value { value, terms, .. } = values::inside(problem, answer, &deviations, &weights)?;
+        let Value { value, terms, .. } = values::inside(&on, &weights)?;
         let off = off + (ROUNDINGS + integrated) * terms;
         Ok(Some([value - off, value + off]))
     };

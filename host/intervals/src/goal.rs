@@ -10,14 +10,13 @@
 //!   flux    z = ±1 on P, 0 on the rest of D and C,  ζ·n = 0 on N,  ζ·n = h (1_P − z) on R
 //! ```
 
-use super::answer::Answered;
+use super::answer::OnMesh;
 use super::part::Part;
 use super::values::{self, Value};
 use std::f64::consts::PI;
 
 use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::Conductivity;
-use signorini_certify::deviation::Deviations;
 use signorini_problem::functional::{Functional, of_cells};
 use signorini_problem::{EdgeKind, Problem};
 use signorini_scene::error::Result;
@@ -111,12 +110,8 @@ impl Goal {
     ///
     /// # Errors
     /// Data that are not finite, a probe outside the mesh.
-    pub fn of(
-        problem: &Problem,
-        answer: &Answered,
-        deviations: &Deviations,
-        output: &Output,
-    ) -> Result<Posed> {
+    pub fn of(on: &OnMesh, output: &Output) -> Result<Posed> {
+        let problem = on.problem;
         let part = Part::new(problem, output);
         let none = |why: &str| Ok(Err(why.to_owned()));
         match output.quantity {
@@ -130,7 +125,7 @@ impl Goal {
                 sources[cell] = 1.0;
                 let [x, y] = Cell::of(problem, cell).middle();
                 let of = format!("the mean of u over the cell around ({x}, {y})");
-                Self::inside(problem, answer, deviations, (sources, of)).map(Ok)
+                Self::inside(on, (sources, of)).map(Ok)
             }
             Quantity::MeanInside | Quantity::Content => {
                 let weights = of_cells(problem, output);
@@ -139,23 +134,18 @@ impl Goal {
                     return none("its materials have no cell that counts");
                 }
                 let sources = weights.into_iter().map(|weight| weight / all).collect();
-                Self::inside(problem, answer, deviations, (sources, described(output))).map(Ok)
+                Self::inside(on, (sources, described(output))).map(Ok)
             }
             _ if part.edges().next().is_none() => none("its boundary has no edge"),
-            Quantity::Mean => Self::of_mean(problem, answer, deviations, output).map(Ok),
-            Quantity::Flux | Quantity::Force => Self::of_flux(problem, answer, output).map(Ok),
+            Quantity::Mean => Self::of_mean(on, output).map(Ok),
+            Quantity::Flux | Quantity::Force => Self::of_flux(on, output).map(Ok),
         }
     }
 
-    fn of_mean(
-        problem: &Problem,
-        answer: &Answered,
-        deviations: &Deviations,
-        output: &Output,
-    ) -> Result<Self> {
-        let part = &Part::new(problem, output);
+    fn of_mean(on: &OnMesh, output: &Output) -> Result<Self> {
+        let (problem, part) = (on.problem, &Part::new(on.problem, output));
         let density = 1.0 / part.length();
-        let start = values::mean(problem, answer, deviations, part)?;
+        let start = values::mean(on, part)?;
         let own = |at: usize| if part.has_table(at) { density } else { 0.0 };
         let densities = (0..problem.scene.boundaries.len()).map(own).collect();
         Ok(Self { densities, ..Self::without_data(problem, start, described(output)) })
@@ -169,21 +159,16 @@ impl Goal {
     }
 
     /// Σ_T w_T ū_T for weights with the sum 1, and words for it.
-    fn inside(
-        problem: &Problem,
-        answer: &Answered,
-        deviations: &Deviations,
-        (sources, of): (Vec<f64>, String),
-    ) -> Result<Self> {
-        let start = values::inside(problem, answer, deviations, &sources)?;
+    fn inside(on: &OnMesh, (sources, of): (Vec<f64>, String)) -> Result<Self> {
+        let (problem, start) = (on.problem, values::inside(on, &sources)?);
         let counted = sources.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
         let squares = counted.map(|(at, weight)| (weight * beside(problem, at)).powi(2));
         let beside = squares.sum::<f64>().sqrt();
         Ok(Self { sources, beside, ..Self::without_data(problem, start, of) })
     }
 
-    fn of_flux(problem: &Problem, answer: &Answered, output: &Output) -> Result<Self> {
-        let part = &Part::new(problem, output);
+    fn of_flux(on: &OnMesh, output: &Output) -> Result<Self> {
+        let (problem, part) = (on.problem, &Part::new(on.problem, output));
         let is_force = output.quantity == Quantity::Force;
         let weight = |at: usize| match part.has_table(at) {
             true if is_force => values::direction(problem, at),
@@ -191,8 +176,7 @@ impl Goal {
             false => 0.0,
         };
         let values = (0..problem.scene.boundaries.len()).map(weight).collect();
-        let (start, law) =
-            (values::flux(problem, answer, part, is_force)?, law(problem, part, is_force));
+        let (start, law) = (values::flux(on, part, is_force)?, law(problem, part, is_force));
         let plain = Self::without_data(problem, start, described(output));
         Ok(Self { sign: -1.0, values, law, ..plain })
     }

@@ -3,22 +3,22 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Mutex;
 
-use super::answer::{Answered, Found, OutputBound};
+use super::answer::{Found, OnMesh, OutputBound};
 use super::contact::ContactEdge;
 use super::coverage::Coverage;
 use super::dual::{Dual, Weights};
 use super::exact;
 use super::goal::Goal;
 use super::kept::{keep, left};
+use super::part::Part;
 use super::products::Residual;
 use super::squares::Products;
 use super::values::{INTEGRATED, Value};
 use signorini_certify::ErrorBound;
-use signorini_certify::deviation::Deviations;
 use signorini_problem::functional::of_one;
 use signorini_problem::{EdgeKind, Problem};
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Condition, Output, Quantity};
+use signorini_scene::scene::{Output, Quantity};
 use signorini_solve::SharedSolver;
 
 /// Parts c that are tried, and by how much each is larger than the last.
@@ -40,17 +40,15 @@ const ROUNDINGS: f64 = 512.0;
 pub(super) fn unbounded(problem: &Problem, output: &Output) -> String {
     let boundaries = &problem.scene.boundaries;
     let place = |edge: usize| problem.binding.boundary(problem.ends[edge]);
-    let is_own = |at: usize| match output.of.is_empty() {
-        true => matches!(boundaries[at].condition, Condition::Contact { .. }),
-        false => output.of.iter().any(|of| of.value == boundaries[at].name.value),
-    };
+    let part = Part::new(problem, output);
     let takes_flux =
         |edge: &usize| matches!(problem.kinds[*edge], EdgeKind::Dirichlet | EdgeKind::Contact);
     let edges: Vec<(usize, usize)> = (0..problem.kinds.len())
         .filter(takes_flux)
         .filter_map(|edge| Some((edge, place(edge)?)))
         .collect();
-    let (own, others): (Vec<_>, Vec<_>) = edges.into_iter().partition(|&(_, at)| is_own(at));
+    let (own, others): (Vec<_>, Vec<_>) =
+        edges.into_iter().partition(|&(_, at)| part.has_table(at));
     let vertices: BTreeSet<u32> = own.iter().flat_map(|&(edge, _)| problem.ends[edge]).collect();
     let meets = |edge: usize| problem.ends[edge].iter().any(|vertex| vertices.contains(vertex));
     let met: BTreeSet<usize> =
@@ -82,8 +80,7 @@ pub(super) struct Known<'p> {
     /// Weights without contact, by the names of their outputs.
     pub kept: &'p Mutex<BTreeMap<String, Weights>>,
     pub problem: &'p Problem,
-    pub answer: &'p Answered<'p>,
-    pub deviations: &'p Deviations<'p>,
+    pub on: OnMesh<'p>,
     pub contact: Vec<ContactEdge>,
     pub residual: Residual<'p>,
     pub bound: ErrorBound,
@@ -111,11 +108,11 @@ impl Known<'_> {
     }
 
     fn bounded(&self, output: &Output) -> Result<Found> {
-        if self.answer.certified.lifts.moved > 0.0 {
+        if self.on.answer.certified.lifts.moved > 0.0 {
             let why = "a gap or a value that is not linear along an edge moves in this step";
             return Ok(Err(why.to_owned()));
         }
-        let goal = match Goal::of(self.problem, self.answer, self.deviations, output)? {
+        let goal = match Goal::of(&self.on, output)? {
             Ok(goal) => goal,
             Err(why) => return Ok(Err(why)),
         };
@@ -230,7 +227,7 @@ impl Known<'_> {
 
     /// An interval's part from data alone: what s changes by inside cells in a step is known.
     fn oscillation(&self) -> f64 {
-        let ways = self.answer.certified.evolution.iter().map(|way| way.oscillation);
+        let ways = self.on.answer.certified.evolution.iter().map(|way| way.oscillation);
         match self.problem.loads.step {
             Some(_) => ways.fold(f64::NAN, f64::max).min(self.bound.oscillation),
             None => self.bound.oscillation,
@@ -239,7 +236,7 @@ impl Known<'_> {
 
     /// Rounding of sums, relative to their terms.
     fn rounding(&self) -> f64 {
-        ROUNDINGS * self.answer.scalar.epsilon()
+        ROUNDINGS * self.on.answer.scalar.epsilon()
     }
 }
 

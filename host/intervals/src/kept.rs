@@ -83,12 +83,8 @@ impl Left {
         if flux == 0.0 {
             return;
         }
-        let part = flux.abs() / of.room;
         // Where u is above ψ alone, a positive ζ′ makes it smaller.
-        let [below, above] = of.may;
-        let lowers = (flux > 0.0 && above) || (flux < 0.0 && below);
-        let raises = (flux < 0.0 && above) || (flux > 0.0 && below);
-        self.widen([lowers, raises], part);
+        self.widen(of.may, flux, flux.abs() / of.room);
         self.drop(flux.abs() * of.dropped[0]);
     }
 
@@ -99,16 +95,16 @@ impl Left {
     /// ∫(σ − τ)·n z′ within the part of s − ψ.
     fn add_values(&mut self, of: &ContactEdge, z: [f64; 2]) {
         for (z, clear) in z.into_iter().zip(of.clear).filter(|(z, _)| *z != 0.0) {
-            let [falls, rises] = of.may;
-            let lowers = (z < 0.0 && rises) || (z > 0.0 && falls);
-            let raises = (z > 0.0 && rises) || (z < 0.0 && falls);
-            self.widen([lowers, raises], z.abs() / clear);
+            self.widen(of.may, -z, z.abs() / clear);
         }
         self.drop(z.into_iter().fold(0.0, |most: f64, z| most.max(z.abs())) * of.dropped[1]);
     }
 
-    fn widen(&mut self, sides: [bool; 2], part: f64) {
-        for (most, is_widened) in self.part.iter_mut().zip(sides) {
+    /// By a weight that lowers what is above and raises what is below, as far as either may be; the other way round where it is negative.
+    fn widen(&mut self, [below, above]: [bool; 2], weight: f64, part: f64) {
+        let lowers = (weight > 0.0 && above) || (weight < 0.0 && below);
+        let raises = (weight < 0.0 && above) || (weight > 0.0 && below);
+        for (most, is_widened) in self.part.iter_mut().zip([lowers, raises]) {
             *most = if is_widened { most.max(part) } else { *most };
         }
     }

@@ -54,6 +54,7 @@ pub mod weights;
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 
+use answer::OnMesh;
 pub use answer::{Answered, Found, OutputBound, zero_rounding};
 use contact::contact_edges;
 pub use coverage::{Coverage, MOST_BY_DEFAULT};
@@ -161,16 +162,16 @@ fn intervals(
         return none(&coverage::reason(problem));
     };
     let deviations = followed(problem, &answer.certified.admissible())?;
+    let on = OnMesh { problem, answer: *answer, deviations: &deviations };
     let known = Known {
         solver,
         kept: &lasting.weights,
         problem,
-        answer,
-        contact: contact_edges(problem, answer, &deviations)?,
-        residual: Residual::new(problem, answer, &deviations)?,
-        deviations: &deviations,
+        on,
+        contact: contact_edges(&on)?,
+        residual: Residual::new(&on)?,
         bound,
-        doubt: values::doubt(problem) + values::imbalance(problem, answer),
+        doubt: values::doubt(problem) + values::imbalance(&on),
     };
     let found =
         |output: &Output| Ok(known.interval(output).unwrap_or_else(|error| Err(error.reason())));

@@ -7,7 +7,7 @@
 //! density on contact edges that may be on either side. Where an edge is open in all answers z may be off by a part of the least
 //! s − ψ, and where one always touches ζ·n may be off by a part of the least τ·n − lo.
 
-use super::answer::Answered;
+use super::answer::{Answered, OnMesh};
 use super::contact::ContactEdge;
 use super::dual::{self, Dual};
 use super::goal::Goal;
@@ -16,7 +16,7 @@ use super::kept::{keep, left};
 use super::known::Answers;
 use super::products::Residual;
 use super::values::{self, INTEGRATED};
-use super::weights::{NOTHING, Weighed, Weighing};
+use super::weights::{Weighed, Weighing};
 use signorini_certify::Column;
 use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::Conductivity;
@@ -93,9 +93,9 @@ impl Weighing<'_> {
     /// The midpoint of an output; nothing where there is none.
     fn midpoint(&self, output: &Output) -> Result<Option<Midpoint>> {
         let problem = self.problem;
-        let nothing = self.nothing();
-        let answer = Answered { certified: &nothing, bound: None, scalar: ScalarKind::F64 };
-        let Ok(goal) = Goal::of(problem, &answer, &NOTHING, output)? else { return Ok(None) };
+        let Ok(goal) = Goal::of(&self.on_mesh(), output)? else {
+            return Ok(None);
+        };
         let goal = &goal;
         let is_counted_up = goal.values.iter().all(|&value| value >= 0.0);
         if !is_counted_up {
@@ -166,21 +166,7 @@ impl Weighing<'_> {
     ) -> Result<(Option<Pair>, bool)> {
         let differ = keep(self.problem, goal, contact, part, takes_least, &mut weights);
         let rest = left(self.problem, goal, contact, &weights);
-        let nothing = self.nothing();
-        let answer = Answered { certified: &nothing, bound: None, scalar: ScalarKind::F64 };
-        // All three squares are convex in transfer coefficients. A NaN is no size.
-        let larger = |most: f64, size: f64| if size <= most { most } else { size };
-        let mut squares = [0.0_f64; 3];
-        for corner in &self.corners {
-            let dual = Dual::new(corner, goal)?;
-            let of_corner =
-                Residual::new(dual.problem(), &answer, &NOTHING)?.with(goal, &weights)?;
-            let [of_z, of_zeta] = of_corner.sizes;
-            for (most, square) in squares.iter_mut().zip([of_corner.weights, of_z, of_zeta]) {
-                *most = larger(*most, square);
-            }
-        }
-        let [apart, of_z, of_zeta] = squares.map(f64::sqrt);
+        let [apart, of_z, of_zeta] = self.sizes(goal, &weights)?;
         let sizes = of_z + of_zeta;
         let is_bounded = rest.loose == [0.0; 2]
             && rest.part.iter().chain([&apart, &sizes]).all(|number| number.is_finite());
@@ -198,14 +184,13 @@ fn column(
 ) -> Result<Option<[f64; 2]>> {
     let deviations = followed(problem, &certified.admissible())?;
     let answer = Answered { certified, bound: None, scalar: ScalarKind::F64 };
-    let Ok(Goal { start, .. }) = Goal::of(problem, &answer, &deviations, output)? else {
-        return Ok(None);
-    };
-    let residual = Residual::new(problem, &answer, &deviations)?;
+    let on = &OnMesh { problem, answer, deviations: &deviations };
+    let Ok(Goal { start, .. }) = Goal::of(on, output)? else { return Ok(None) };
+    let residual = Residual::new(on)?;
     let residual = if laws.is_empty() { residual } else { residual.with_laws(laws) };
     let products = residual.with(goal, weights)?;
     let most_z = weights.vertices.iter().fold(0.0_f64, |most, z| most.max(z.abs()));
-    let doubt = values::doubt(problem) + values::imbalance(problem, &answer);
+    let doubt = values::doubt(problem) + values::imbalance(on);
     let sizes: f64 = products.sizes.map(f64::sqrt).iter().sum();
     let rounding = ROUNDINGS * (start.terms + products.residual.max(0.0).sqrt() * sizes);
     // A mean of vertex values alone is exact.

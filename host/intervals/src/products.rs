@@ -5,11 +5,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::answer::Answered;
+use super::answer::OnMesh;
 use super::dual::Weights;
 use super::goal::Goal;
 use super::squares::Products;
 use super::stored::Stored;
+use super::values::largest;
 use signorini_certify::admissible::Admissible;
 use signorini_certify::cell::{Cell, Local};
 use signorini_certify::conductivity::{Conductivity, apply, dot, inverse};
@@ -68,10 +69,6 @@ struct Fluxes<T> {
 /// A flux below this part of the largest is what a solver rounds.
 const ROUNDING: f64 = 1e-12;
 
-fn largest(flux: &[f64]) -> f64 {
-    flux.iter().fold(0.0, |most, flux| most.max(flux.abs()))
-}
-
 impl Fluxes<f64> {
     /// Whether nothing passes but what is below these, of r and of ζ.
     fn is_rounding(&self, [of_residual, of_zeta]: [f64; 2]) -> bool {
@@ -100,11 +97,7 @@ impl<'p> Residual<'p> {
     ///
     /// # Errors
     /// Data that are not finite.
-    pub fn new(
-        problem: &'p Problem,
-        answer: &Answered<'p>,
-        deviations: &'p Deviations<'p>,
-    ) -> Result<Self> {
+    pub fn new(&OnMesh { problem, answer, deviations }: &OnMesh<'p>) -> Result<Self> {
         let s = answer.certified.admissible();
         let cell = |of: &Deviation| problem.topology.first_side(of.edge).0;
         let cells: BTreeSet<usize> = deviations.found.iter().map(cell).collect();

@@ -1,10 +1,9 @@
 //! Outputs of s and τ, the functions that the error bound is about, and such that the data give.
 
-use super::answer::Answered;
+use super::answer::OnMesh;
 use super::part::Part;
 use signorini_certify::cell::Cell;
 use signorini_certify::curved;
-use signorini_certify::deviation::Deviations;
 use signorini_problem::field::CellField;
 use signorini_problem::quadrature::enclosed::Integral;
 use signorini_problem::quadrature::{gauss, mean_on_edge};
@@ -64,7 +63,7 @@ pub(super) fn doubt(problem: &Problem) -> f64 {
 }
 
 /// Sum of the loads of cells and of the fluxes through N that τ leaves: rounding. A cell that stores u keeps what it lacks (`stored`).
-pub(super) fn imbalance(problem: &Problem, answer: &Answered) -> f64 {
+pub(super) fn imbalance(OnMesh { problem, answer, .. }: &OnMesh) -> f64 {
     let tau = &answer.certified.tau;
     let surplus =
         |at: usize| CellField::new(problem, at, tau, tau).surplus(problem.loads.of_cell(at), &[]);
@@ -81,12 +80,8 @@ pub(super) fn imbalance(problem: &Problem, answer: &Answered) -> f64 {
 }
 
 /// The mean of s over a part of the boundary. Where s follows data above their chord, theirs is integrated as the loads are.
-pub(super) fn mean(
-    problem: &Problem,
-    answer: &Answered,
-    deviations: &Deviations,
-    part: &Part,
-) -> Result<Value> {
+pub(super) fn mean(on: &OnMesh, part: &Part) -> Result<Value> {
+    let OnMesh { problem, answer, deviations } = on;
     let s = answer.certified.admissible();
     let [mut sum, mut terms] = [0.0; 2];
     for edge in part.edges() {
@@ -100,17 +95,13 @@ pub(super) fn mean(
     Ok(Value { value: sum / length, terms: terms / length, largest: largest(s.vertices) })
 }
 
-fn largest(numbers: &[f64]) -> f64 {
+pub(super) fn largest(numbers: &[f64]) -> f64 {
     numbers.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 
 /// Σ_T w_T s̄_T for weights of the cells, s̄_T the mean of s over one.
-pub(super) fn inside(
-    problem: &Problem,
-    answer: &Answered,
-    deviations: &Deviations,
-    weights: &[f64],
-) -> Result<Value> {
+pub(super) fn inside(on: &OnMesh, weights: &[f64]) -> Result<Value> {
+    let OnMesh { problem, answer, deviations } = on;
     let s = answer.certified.admissible();
     let lifted: BTreeSet<usize> =
         deviations.found.iter().map(|of| problem.topology.first_side(of.edge).0).collect();
@@ -134,12 +125,8 @@ pub(super) fn inside(
 }
 
 /// ∫τ·n over a part of the boundary; as a force, from the ends that it is measured from. Through N the data give it.
-pub(super) fn flux(
-    problem: &Problem,
-    answer: &Answered,
-    part: &Part,
-    is_force: bool,
-) -> Result<Value> {
+pub(super) fn flux(on: &OnMesh, part: &Part, is_force: bool) -> Result<Value> {
+    let OnMesh { problem, answer, .. } = on;
     let [mut value, mut terms] = [0.0; 2];
     for edge in part.edges() {
         if let (EdgeKind::Neumann, false) = (problem.kinds[edge], is_force) {

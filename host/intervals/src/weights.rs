@@ -19,7 +19,7 @@
 //! What of R counts as oscillation is the divergence of a flux that vanishes on all sides, and moves no J(τ). A full model's τ is that
 //! of the way in which cells keep what they lack, whichever way T is of. On C both are the same where D or R holds every part.
 
-use super::answer::Answered;
+use super::answer::{Answered, OnMesh};
 use super::contact::ContactEdge;
 use super::dual::{self, Dual};
 use super::goal::Goal;
@@ -28,6 +28,7 @@ use super::kept::{keep, left};
 use super::known::Answers;
 use super::part::Part;
 use super::products::Residual;
+use super::squares::Products;
 use super::unseen::unseen;
 use signorini_certify::CertifiedFields;
 use signorini_certify::conductivity::Conductivity;
@@ -48,7 +49,7 @@ const PARTS: i32 = 10;
 const STEP: f64 = 2.0;
 
 /// Deviations of zero data from their chords: none.
-pub(super) const NOTHING: Deviations<'static> = Deviations { found: Vec::new(), dropped: 0.0 };
+static NOTHING: Deviations<'static> = Deviations { found: Vec::new(), dropped: 0.0 };
 
 /// By how much the parts of a bound may move an output, in the unit of the output over that of the bound.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -69,29 +70,23 @@ pub type Weighed = std::result::Result<Weights, String>;
 /// Weights of every output, in their order. Where data have no value at a point that is looked at here alone, that is the reason.
 pub fn weights(problem: &Problem, answers: &Answers) -> Vec<Weighed> {
     let outputs = wanted(&problem.scene);
-    let found = weighed(problem, answers, &outputs);
-    found.unwrap_or_else(|error| vec![Err(error.reason()); outputs.len()])
-}
-
-fn weighed(problem: &Problem, answers: &Answers, outputs: &[Output]) -> Result<Vec<Weighed>> {
-    match Weighing::new(problem, answers)? {
+    let found = Weighing::new(problem, answers).and_then(|of| match of {
         Ok(of) => outputs.iter().map(|output| of.output(output)).collect(),
         Err(why) => Ok(vec![Err(why); outputs.len()]),
-    }
-}
-
-/// The problem at all corners of the ranges of its transfer coefficients: norms of weights are convex in them.
-fn corners(problem: &Problem) -> Result<Vec<Problem>> {
-    term::corners(&problem.scene).map(|scene| problem.with_loads_of(scene)).collect()
+    });
+    found.unwrap_or_else(|error| vec![Err(error.reason()); outputs.len()])
 }
 
 /// The ingredients of all weights of a problem.
 pub(super) struct Weighing<'p> {
     pub problem: &'p Problem,
     pub solver: SharedSolver,
-    pub corners: Vec<Problem>,
+    /// The problem at all corners of the ranges of its transfer coefficients: norms of weights are convex in them.
+    corners: Vec<Problem>,
     pub answers: &'p Answers<'p>,
     unseen: f64,
+    /// s and τ that are 0.
+    nothing: CertifiedFields,
 }
 
 impl<'p> Weighing<'p> {
@@ -113,8 +108,15 @@ impl<'p> Weighing<'p> {
             return none("its linear problem has no factor");
         };
         let unseen = unseen(problem)?;
-        let corners = corners(problem)?;
-        Ok(Ok(Self { problem, solver, corners, answers, unseen }))
+        let corners = term::corners(&problem.scene).map(|scene| problem.with_loads_of(scene));
+        let (corners, edges) = (corners.collect::<Result<_>>()?, problem.ends.len());
+        let nothing = CertifiedFields {
+            vertices: vec![0.0; problem.mesh.vertices.len()],
+            bubbles: vec![0.0; edges],
+            tau: vec![0.0; edges],
+            ..CertifiedFields::default()
+        };
+        Ok(Ok(Self { problem, solver, corners, answers, unseen, nothing }))
     }
 
     /// What is missed of loads in an output, over the total: as much of each as z is there, and of the end that a force is measured from.
@@ -125,15 +127,14 @@ impl<'p> Weighing<'p> {
 
     /// The weights of an output.
     pub fn output(&self, output: &Output) -> Result<Weighed> {
-        let (nothing, none) = (self.nothing(), |why: &str| Ok(Err(why.to_owned())));
-        let answer = Answered { certified: &nothing, bound: None, scalar: ScalarKind::F64 };
+        let none = |why: &str| Ok(Err(why.to_owned()));
         if let Quantity::Probe { .. } = output.quantity {
             return none("u at a point has none; a mean over a boundary has one");
         }
         if output.quantity.is_inside() {
             return none("an integral over cells has none; a mean over a boundary has one");
         }
-        let goal = match Goal::of(self.problem, &answer, &NOTHING, output)? {
+        let goal = match Goal::of(&self.on_mesh(), output)? {
             Ok(goal) => goal,
             Err(why) => return Ok(Err(why)),
         };
@@ -155,14 +156,10 @@ impl<'p> Weighing<'p> {
         }
     }
 
-    pub fn nothing(&self) -> CertifiedFields {
-        let edges = self.problem.ends.len();
-        CertifiedFields {
-            vertices: vec![0.0; self.problem.mesh.vertices.len()],
-            bubbles: vec![0.0; edges],
-            tau: vec![0.0; edges],
-            ..CertifiedFields::default()
-        }
+    /// The answer whose s and τ are 0.
+    pub fn on_mesh(&self) -> OnMesh<'_> {
+        let answer = Answered { certified: &self.nothing, bound: None, scalar: ScalarKind::F64 };
+        OnMesh { problem: self.problem, answer, deviations: &NOTHING }
     }
 
     pub fn contact(&self) -> Vec<ContactEdge> {
@@ -189,7 +186,8 @@ impl<'p> Weighing<'p> {
                 weights.tau.fill(0.0);
                 let differ = keep(problem, goal, &contact, part, takes_least, &mut weights);
                 let rest = left(problem, goal, &contact, &weights);
-                let total = self.sizes(goal, &weights)?[0] + self.of_loads(&weights);
+                let [_, of_z, _] = self.sizes(goal, &weights)?;
+                let total = of_z + self.of_loads(&weights);
                 for at in [0, 1] {
                     let found =
                         Weights { total, square: 0.5 * rest.part[at], ..Weights::default() };
@@ -238,7 +236,7 @@ impl<'p> Weighing<'p> {
         let Some(solved) = solved else {
             return Ok(Err(UNSOLVED.to_owned()));
         };
-        let ([_, size], loads) = (self.sizes(goal, &solved)?, self.of_loads(&solved));
+        let ([.., size], loads) = (self.sizes(goal, &solved)?, self.of_loads(&solved));
         let transfers = !problem.loads.robin.is_empty();
         let (total, of_u) = (Weights { total: size + loads, ..Weights::default() }, size);
         Ok(if !(size + loads).is_finite() {
@@ -264,15 +262,15 @@ impl<'p> Weighing<'p> {
             && problem.loads.robin.iter().all(|record| is_plain(record.edge as usize))
     }
 
-    /// The largest ‖A∇z‖ and ‖ζ‖ over the ranges of transfer coefficients.
-    fn sizes(&self, goal: &Goal, weights: &dual::Weights) -> Result<[f64; 2]> {
-        let (nothing, mut most) = (self.nothing(), [0.0_f64; 2]);
+    /// The largest ‖ζ − A∇z‖, ‖A∇z‖ and ‖ζ‖ over the ranges of transfer coefficients.
+    pub fn sizes(&self, goal: &Goal, weights: &dual::Weights) -> Result<[f64; 3]> {
+        let mut most = [0.0_f64; 3];
         for corner in &self.corners {
             let dual = Dual::new(corner, goal)?;
-            let answer = Answered { certified: &nothing, bound: None, scalar: ScalarKind::F64 };
-            let sizes =
-                Residual::new(dual.problem(), &answer, &NOTHING)?.with(goal, weights)?.sizes;
-            for (most, size) in most.iter_mut().zip(sizes) {
+            let residual = Residual::new(&OnMesh { problem: dual.problem(), ..self.on_mesh() })?;
+            let Products { weights: apart, sizes: [of_z, of_zeta], .. } =
+                residual.with(goal, weights)?;
+            for (most, size) in most.iter_mut().zip([apart, of_z, of_zeta]) {
                 // A NaN is no size.
                 *most = if size <= *most { *most } else { size };
             }
@@ -283,7 +281,7 @@ impl<'p> Weighing<'p> {
     /// max |Σ ∫(τ − σ_h)·n| over ‖A^−½(τ − σ_h)‖, cell by cell, summed over the edges of P beside contact: both have the same sources
     /// there, so that it is the energy of the nonconforming function which has the mean 1 on these and 0 on all other edges.
     fn of_edges(&self, goal: &Goal, part: &Part) -> Result<f64> {
-        let (nothing, dual) = (self.nothing(), Dual::new(self.problem, goal)?);
+        let dual = Dual::new(self.problem, goal)?;
         let problem = dual.problem();
         let mut means = vec![0.0; self.problem.ends.len()];
         let is_contact = |edge: &usize| self.problem.kinds[*edge] == EdgeKind::Contact;
@@ -293,7 +291,7 @@ impl<'p> Weighing<'p> {
             let sides = problem.topology.edges_of(cell).iter().zip(problem.stored(cell, &means));
             sides.map(|(&edge, stored)| 2.0 * means[edge as usize] * stored).collect::<Vec<_>>()
         });
-        let energy = nonconformity(problem, &nothing.admissible(), &means)?;
+        let energy = nonconformity(problem, &self.nothing.admissible(), &means)?;
         Ok((energy * energy + stored.sum::<f64>()).sqrt())
     }
 }

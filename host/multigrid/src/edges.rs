@@ -41,7 +41,7 @@ impl<const WIDTH: usize> Edges<WIDTH> {
         let unit = (0..n).map(|at| problem.diagonal(at)).fold(f64::MIN_POSITIVE, f64::max);
         let row = |at: usize| {
             let mut row = Row { columns: [at as u32; WIDTH], values: [0.0; WIDTH] };
-            let others = problem.row(at).filter(|&(column, _)| column != at);
+            let others = problem.contact.row(at).filter(|&(column, _)| column != at);
             for (place, (column, value)) in others.take(WIDTH).enumerate() {
                 (row.columns[place], row.values[place]) = (column as u32, (value / unit) as f32);
             }

@@ -48,8 +48,6 @@ pub struct Solution {
     pub u: Vec<f64>,
     /// The side of each contact edge.
     pub sides: Vec<Side>,
-    /// Scaled residual of u.
-    pub residual: f64,
     /// Iterations of conjugate gradients in all.
     pub iterations: usize,
     /// The most iterations for one active set.

@@ -43,14 +43,9 @@ impl Problem<'_> {
         self.contact.values[self.contact.row_ptr[row] as usize]
     }
 
-    /// The columns and values of a row.
-    pub(crate) fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
-        self.contact.row(row)
-    }
-
     /// (b − Ku) of one row.
     pub(crate) fn residual(&self, row: usize, u: &[f64]) -> f64 {
         let load = self.contact.load[row];
-        self.row(row).fold(load, |rest, (column, value)| rest - value * u[column])
+        self.contact.row(row).fold(load, |rest, (column, value)| rest - value * u[column])
     }
 }

@@ -85,7 +85,7 @@ impl<'a, const WIDTH: usize> Solver<'a, WIDTH> {
             (best, waited) = if scaled <= 0.5 * best { (scaled, 0) } else { (best, waited + 1) };
             let is_done = scaled <= settings.tolerance && error <= settings.accuracy * scale;
             if is_done || waited > PATIENCE {
-                return Ok(self.conclude(scaled));
+                return Ok(self.conclude());
             }
             let reduction = (0.1 * settings.tolerance / scaled).clamp(FINE, ROUGH);
             error = reduction * self.correct(settings, reduction)?;
@@ -130,7 +130,7 @@ impl<'a, const WIDTH: usize> Solver<'a, WIDTH> {
     /// Sets u of one edge.
     fn move_to(&mut self, row: usize, value: f64) {
         let change = value - std::mem::replace(&mut self.u[row], value);
-        for (column, entry) in self.problem.row(row) {
+        for (column, entry) in self.problem.contact.row(row) {
             self.residual[column] -= entry * change;
         }
     }
@@ -211,8 +211,8 @@ impl<'a, const WIDTH: usize> Solver<'a, WIDTH> {
         Ok(change)
     }
 
-    fn conclude(self, residual: f64) -> Solution {
+    fn conclude(self) -> Solution {
         let Counts { iterations, longest, sets, .. } = self.count;
-        Solution { u: self.u, sides: self.set.sides, residual, iterations, longest, sets }
+        Solution { u: self.u, sides: self.set.sides, iterations, longest, sets }
     }
 }

@@ -58,7 +58,7 @@ pub(crate) fn galerkin(problem: &Problem, numbering: &Numbering, scale: f64) -> 
             let [a, b] = ends[edge];
             let other = if a == vertex { b } else { a };
             let mut row_sum = 0.0;
-            for (column, value) in problem.row(edge) {
+            for (column, value) in problem.contact.row(edge) {
                 row_sum += value;
                 if column != edge {
                     row.couple([vertex, other], ends[column], 0.25 * scale * value);

@@ -32,9 +32,9 @@ const NEGATIVE_BY_ROUNDING: f64 = 1e-8;
 
 /// The factor of A, D, and S.
 pub(super) struct Condensation {
-    cholesky: SparseCholesky,
+    pub cholesky: SparseCholesky,
     springs: Vec<f64>,
-    schur: Mat<f64>,
+    pub schur: Mat<f64>,
 }
 
 /// A load r with its effect on C when the free unknowns have been eliminated.
@@ -69,14 +69,6 @@ impl Condensation {
         }
     }
 
-    pub fn entries(&self) -> usize {
-        self.cholesky.stored()
-    }
-
-    pub fn schur(&self) -> MatRef<'_, f64> {
-        self.schur.as_ref()
-    }
-
     /// Condenses the load r = (r_F, r_C).
     pub fn condense(&self, load: &[f64]) -> Result<CondensedLoad, ReferenceError> {
         let free = load.len() - self.springs.len();
@@ -105,7 +97,7 @@ impl Condensation {
     /// (S + D) v.
     fn sprung_schur_times(&self, v: &[f64]) -> Vec<f64> {
         let mut sum: Vec<f64> = self.springs.iter().zip(v).map(|(spring, v)| spring * v).collect();
-        multiply_add(self.schur(), v, &mut sum);
+        multiply_add(self.schur.as_ref(), v, &mut sum);
         sum
     }
 }

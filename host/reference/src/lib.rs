@@ -31,7 +31,7 @@ use faer::MatRef;
 use faer::sparse::FaerError;
 use thiserror::Error;
 
-pub use linear::{Linear, LinearFactor};
+pub use linear::LinearFactor;
 pub use problem::Problem;
 pub use refinement::Solution;
 pub use sparse_cholesky::minimum_degree;
@@ -60,12 +60,12 @@ impl Factor {
 
     /// Entries of its L, zeros within its dense blocks among them.
     pub fn entries(&self) -> usize {
-        self.condensation.entries()
+        self.condensation.cholesky.stored()
     }
 
     /// The Schur complement S = K_CC − K_CF K_FF⁻¹ K_FC, n_c × n_c, both triangles.
     pub fn schur(&self) -> MatRef<'_, f64> {
-        self.condensation.schur()
+        self.condensation.schur.as_ref()
     }
 }
 

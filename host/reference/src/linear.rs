@@ -5,50 +5,39 @@ use super::problem::{Matrix, check_finite};
 use super::sparse_cholesky::SparseCholesky;
 use super::{Problem, ReferenceError};
 
-/// A sparse, symmetric, positive definite matrix; see [`Problem`] for its rows.
-#[derive(Debug, Clone, Copy)]
-pub struct Linear<'a> {
-    /// Row starts, n + 1 of them.
-    pub row_ptr: &'a [u32],
-    /// Column of each entry.
-    pub col_idx: &'a [u32],
-    /// Value of each entry.
-    pub values: &'a [f64],
-}
-
-/// Its factor, for loads one after the other.
+/// The factor of a sparse, symmetric, positive definite matrix, for loads one after the other.
 pub struct LinearFactor {
     matrix: Matrix,
     cholesky: SparseCholesky,
 }
 
-impl Linear<'_> {
-    /// Factors the matrix.
+impl LinearFactor {
+    /// Factors the matrix with these columns and values in its rows; see [`Problem`] for them.
     ///
     /// # Errors
-    /// Arrays that do not fit, numbers that are not finite, a matrix that is not positive definite.
-    pub fn factor(&self) -> Result<LinearFactor, ReferenceError> {
-        let Self { row_ptr, col_idx, values } = *self;
-        let load = &vec![0.0; row_ptr.len().saturating_sub(1)];
+    /// Columns that do not fit, numbers that are not finite, a matrix that is not positive definite.
+    pub fn new<Row: IntoIterator<Item = (u32, f64)>>(
+        rows: impl IntoIterator<Item = Row>,
+    ) -> Result<Self, ReferenceError> {
+        let (mut row_ptr, mut col_idx, mut values) = (vec![0], Vec::new(), Vec::new());
+        for row in rows {
+            for (column, value) in row {
+                col_idx.push(column);
+                values.push(value);
+            }
+            row_ptr.push(values.len() as u32);
+        }
+        let load = &vec![0.0; row_ptr.len() - 1];
+        let (row_ptr, col_idx, values) = (&row_ptr[..], &col_idx[..], &values[..]);
         let problem =
             Problem { row_ptr, col_idx, values, load, lower: &[], spans: &[], floating: &[] };
         problem.check()?;
         let matrix = Matrix::of(&problem);
         let cholesky = SparseCholesky::new(&matrix, values)?;
         check_pivots(&cholesky, &matrix)?;
-        Ok(LinearFactor { matrix, cholesky })
+        Ok(Self { matrix, cholesky })
     }
 
-    /// Solves for the columns of `loads`, n numbers each, one after the other, as [`LinearFactor::solve`] does.
-    ///
-    /// # Errors
-    /// Those of [`Linear::factor`] and [`LinearFactor::solve`].
-    pub fn solve(&self, loads: &[f64]) -> Result<Vec<f64>, ReferenceError> {
-        self.factor()?.solve(loads)
-    }
-}
-
-impl LinearFactor {
     /// Solves for the columns of `loads`, n numbers each, one after the other, and corrects the result
     /// once by a residual summed in twice the working precision.
     ///

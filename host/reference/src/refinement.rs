@@ -34,9 +34,6 @@ pub struct Solution {
     pub steps: usize,
     /// Passes of refinement, two solves with the sparse factor each.
     pub passes: usize,
-    /// max of |λ_i|/K_ii over the free and |min(u_i − ψ_i, λ_i/K_ii)| over the contact unknowns, in
-    /// units of u.
-    pub residual: f64,
 }
 
 impl Factor {
@@ -68,8 +65,7 @@ impl Factor {
         let multiplier = residual[matrix.free..].iter().enumerate();
         let multiplier = multiplier.map(|(i, r)| if set.active[i] { -r } else { set.excess(i) });
         let multiplier = multiplier.collect();
-        let residual = matrix.complementarity(&u, &residual, lower, spans)?;
-        Ok(Solution { u, multiplier, steps: set.steps, active: set.active, passes, residual })
+        Ok(Solution { u, multiplier, steps: set.steps, active: set.active, passes })
     }
 
     /// Repeats the pass until d is the rounding of u; returns b − Ku and the number of passes.
@@ -138,38 +134,6 @@ impl Matrix {
             sum + error
         };
         load.iter().enumerate().map(row_sum).collect()
-    }
-
-    /// The largest violation of the optimality conditions by u with r = b − Ku, in units of u.
-    fn complementarity(
-        &self,
-        u: &[f64],
-        residual: &[f64],
-        lower: &[f64],
-        spans: &[f64],
-    ) -> Result<f64, ReferenceError> {
-        let mut worst = 0.0_f64;
-        for (row, r) in residual.iter().enumerate() {
-            let scaled = -r / self.values[self.diagonal(row)?];
-            let violation = match row.checked_sub(self.free) {
-                None => scaled,
-                Some(contact) => {
-                    let (opening, stiffness) =
-                        (u[row] - lower[contact], self.values[self.diagonal(row)?]);
-                    match spans.get(contact) {
-                        None | Some(&f64::INFINITY) => scaled.min(opening),
-                        Some(&f64::NEG_INFINITY) => scaled.max(opening),
-                        // 0 ≤ λ ≤ span is what λ/K − opening is cut to.
-                        Some(&span) => {
-                            let end = span / stiffness;
-                            scaled - (scaled - opening).clamp(end.min(0.0), end.max(0.0))
-                        }
-                    }
-                }
-            };
-            worst = worst.max(violation.abs());
-        }
-        Ok(worst)
     }
 }
 

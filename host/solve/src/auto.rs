@@ -10,23 +10,18 @@ use signorini_kernel::solver::Status;
 use super::cost::Size;
 use super::multigrid;
 use super::{
-    Attempt, Ending, Ldlt, Options, Ran, Result, ScalarKind, Solution, Solved, SolverKind,
-    by_kernel, direct, factored, unfit, went_well,
+    Attempt, Ending, Ldlt, Ran, Result, ScalarKind, Solution, Solved, SolverKind, Task, by_kernel,
+    direct, unfit, went_well,
 };
+use signorini_problem::Approach;
 use signorini_problem::scalar::Scalar;
-use signorini_problem::{Approach, Parts, Problem};
 
 /// The answer of the solver that is quickest by estimate, or of another where that has none.
-pub(super) fn chosen<R: Scalar>(
-    problem: &Problem,
-    parts: &Parts,
-    options: &Options,
-    start: &[f64],
-) -> Result<Solution> {
+pub(super) fn chosen<R: Scalar>(task: &Task) -> Result<Solution> {
     let is_double = ScalarKind::of::<R>() == ScalarKind::F64;
-    let quickest = match options.solver {
+    let quickest = match task.options.solver {
         SolverKind::Factor => Ran::Factor,
-        _ => Size::of(problem).quickest(is_double),
+        _ => Size::of(task.problem).quickest(is_double),
     };
     let order: &[Ran] = match quickest {
         Ran::Multigrid => &[Ran::Multigrid, Ran::Direct, Ran::Factor],
@@ -36,12 +31,12 @@ pub(super) fn chosen<R: Scalar>(
     };
     for solver in order {
         let found = match solver {
-            Ran::Multigrid => multigrid::attempted::<R>(problem, parts, options, start)?.ok(),
+            Ran::Multigrid => multigrid::attempted::<R>(task)?.ok(),
             Ran::Direct if is_double => {
-                let found = direct::attempted(problem, parts, options);
+                let found = direct::attempted(task);
                 found.ok().and_then(|found| found.ok()).filter(is_converged)
             }
-            Ran::Factor => by_factor::<R>(problem, parts, options, start, None)?,
+            Ran::Factor => by_factor::<R>(task, None)?,
             _ => None,
         };
         if let Some(found) = found {
@@ -49,7 +44,7 @@ pub(super) fn chosen<R: Scalar>(
         }
     }
     // Who has no answer leaves it to the kernel to say why.
-    by_kernel::<R>(problem, parts, options, start)
+    by_kernel::<R>(task)
 }
 
 fn is_converged(found: &Solution) -> bool {
@@ -60,25 +55,19 @@ fn is_converged(found: &Solution) -> bool {
 /// problem, where a part is held by nothing, which leaves the matrix singular, where the factor would be too large, or where
 /// it leaves digits open.
 pub(super) fn by_factor<R: Scalar>(
-    problem: &Problem,
-    parts: &Parts,
-    options: &Options,
-    start: &[f64],
+    task: &Task,
     known: Option<&Ldlt<R>>,
 ) -> Result<Option<Solution>> {
+    let Task { problem, parts, .. } = *task;
     if parts.counts.floating > 0 || Approach::Factor.lack_with(problem, parts.counts).is_some() {
         return Ok(None);
     }
-    let unfit = unfit::<R>(&problem.scene);
-    let mut attempt = Attempt::<R>::new(problem, parts, options)?;
+    let mut attempt = Attempt::<R>::new(task)?;
     attempt.assembled.set_parts(parts);
-    let system = attempt.assembled.system().map_err(&unfit)?;
-    let diagonal = attempt.assembled.diagonal().map_err(&unfit)?;
-    let mut u = attempt.started(start);
+    let mut u = attempt.started();
     let mut low = vec![R::ZERO; u.len()];
-    let settings = options.settings::<R>();
-    let found = factored::solve(&system, diagonal, &settings, &mut u, &mut low, known);
-    let Some((outcome, factored)) = found.map_err(&unfit)? else { return Ok(None) };
+    let found = attempt.by_factor(&mut u, &mut low, known).map_err(unfit::<R>(&problem.scene))?;
+    let Some((outcome, factored)) = found else { return Ok(None) };
     if !went_well(outcome.status) {
         return Ok(None);
     }

@@ -14,17 +14,24 @@ use signorini_problem::scalar::Scalar;
 use signorini_problem::{Assembled, Parts, Problem};
 use signorini_scene::error::Result;
 
+/// A request to a solver.
+#[derive(Clone, Copy)]
+pub(super) struct Task<'t> {
+    pub problem: &'t Problem,
+    pub parts: &'t Parts,
+    pub options: &'t Options,
+    /// u to begin with; empty for a cold start.
+    pub start: &'t [f64],
+}
+
 /// A problem in the hands of a solver: assembled in its scalar.
 pub(super) struct Attempt<'p, R: Scalar> {
-    pub problem: &'p Problem,
-    pub parts: &'p Parts,
+    pub task: Task<'p>,
     pub assembled: Assembled<'p, R>,
-    /// [`Options::averages`]
-    pub averages: bool,
     /// Seconds that it took.
-    pub assembly: f64,
+    assembly: f64,
     /// Started after the assembly.
-    pub clock: Clock,
+    clock: Clock,
 }
 
 /// An iterate, and how it was found.
@@ -38,25 +45,26 @@ pub(super) struct Solved<R> {
 }
 
 impl<'p, R: Scalar> Attempt<'p, R> {
-    /// Assembles `problem`.
-    pub fn new(problem: &'p Problem, parts: &'p Parts, options: &Options) -> Result<Self> {
-        let mut clock = Clock::start();
-        let assembled = Assembled::new(problem).map_err(unfit::<R>(&problem.scene))?;
-        let (averages, assembly) = (options.averages, clock.lap());
-        Ok(Self { problem, parts, assembled, averages, assembly, clock })
+    /// Assembles the problem.
+    pub fn new(task: &Task<'p>) -> Result<Self> {
+        let (mut clock, scene) = (Clock::start(), &task.problem.scene);
+        let assembled = Assembled::new(task.problem).map_err(unfit::<R>(scene))?;
+        Ok(Self { task: *task, assembled, assembly: clock.lap(), clock })
     }
 
-    /// u to begin with: what Dirichlet data and `start` say, and 0.
-    pub fn started(&self, start: &[f64]) -> Vec<R> {
+    /// u to begin with: what Dirichlet data and the start say, and 0.
+    pub fn started(&self) -> Vec<R> {
         let unknowns = self.assembled.edges().counts().unknowns();
         let mut u = self.assembled.start();
-        u.iter_mut().take(unknowns).zip(start).for_each(|(u, &start)| *u = R::narrow(start));
+        let own = u.iter_mut().take(unknowns).zip(self.task.start);
+        own.for_each(|(u, &start)| *u = R::narrow(start));
         u
     }
 
     /// Fluxes, certificate and what is read off.
     pub fn conclude(self, solved: Solved<R>) -> Result<Solution> {
-        let Self { problem, parts, assembled, averages, assembly, mut clock } = self;
+        let Self { task, assembled, assembly, mut clock } = self;
+        let Task { problem, parts, options, .. } = task;
         let unfit = unfit::<R>(&problem.scene);
         let Solved { outcome, ran, factored, u, low } = solved;
         if outcome.status == Status::NotFinite {
@@ -65,7 +73,7 @@ impl<'p, R: Scalar> Attempt<'p, R> {
         let solve = clock.lap();
         stage("fluxes and error bound");
         let data = Data::new(problem)?;
-        let certified = Certified::new(problem, parts, &assembled, (&data, averages), &u);
+        let certified = Certified::new(problem, parts, &assembled, (&data, options.averages), &u);
         let certified = certified.map_err(&unfit)?;
         let certificate = clock.lap();
         let read = read_off(problem, parts, &assembled, &outcome, [&u, &low], certified);
@@ -117,14 +125,14 @@ pub fn read_off<R: Scalar>(
 }
 
 /// Seconds from lap to lap.
-pub(super) struct Clock(Instant);
+struct Clock(Instant);
 
 impl Clock {
-    pub fn start() -> Self {
+    fn start() -> Self {
         Self(Instant::now())
     }
 
-    pub fn lap(&mut self) -> f64 {
+    fn lap(&mut self) -> f64 {
         let lap = self.0.elapsed().as_secs_f64();
         self.0 = Instant::now();
         lap

@@ -23,7 +23,7 @@ use signorini_kernel::stiffness::{Coefficient, Stiffness, fill};
 use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::Conductivity;
 use signorini_problem::Problem;
-use signorini_reference::{Linear, LinearFactor};
+use signorini_reference::LinearFactor;
 use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh::adapted::adapted;
 use signorini_scene::setting::CellKind;
@@ -77,9 +77,8 @@ pub fn time_constants(problem: &Problem) -> Result<Option<TimeConstants>> {
 
 /// K, M and max κ²h²c/α.
 struct Pencil {
-    row_ptr: Vec<u32>,
-    col_idx: Vec<u32>,
-    values: Vec<f64>,
+    /// The columns and entries of K, the diagonal first in every row.
+    rows: Vec<Vec<(u32, f64)>>,
     /// Diagonal of M.
     mass: Vec<f64>,
     coarseness: f64,
@@ -118,14 +117,12 @@ impl Pencil {
             (0..count).map(|at| of_stored(at, ((at * at) as f64).sin())).collect();
         let mut largest = 0.0;
         for _ in 0..POWERS {
-            let rows = self.row_ptr.windows(2).map(|row| row[0] as usize..row[1] as usize);
-            let product = |row: std::ops::Range<usize>| -> f64 {
-                row.map(|at| self.values[at] * v[self.col_idx[at] as usize]).sum()
+            let product = |row: &[(u32, f64)]| -> f64 {
+                row.iter().map(|&(column, entry)| entry * v[column as usize]).sum()
             };
-            let next: Vec<f64> = rows
-                .enumerate()
-                .map(|(at, row)| of_stored(at, product(row) / self.mass[at]))
-                .collect();
+            let rows = self.rows.iter().enumerate();
+            let next: Vec<f64> =
+                rows.map(|(at, row)| of_stored(at, product(row) / self.mass[at])).collect();
             let weighed = |a: &[f64], b: &[f64]| -> f64 {
                 self.mass.iter().zip(a).zip(b).map(|((mass, a), b)| mass * a * b).sum()
             };
@@ -171,35 +168,20 @@ impl Pencil {
         let stiffness = Stiffness { triangles: &triangles, quads: &quads };
         let terms = DiagonalTerms::in_step(&diagonal);
         assembly::values(&edges, stiffness, terms, &row_ptr, &mut values).map_err(refused)?;
-        Ok(Self { row_ptr, col_idx, values, mass, coarseness }.without_columns_from(unknowns))
-    }
-
-    /// That matrix with unknowns alone for columns.
-    fn without_columns_from(self, unknowns: usize) -> Self {
-        let Self { row_ptr, col_idx, values, mass, coarseness } = self;
-        let mut kept =
-            Self { row_ptr: vec![0], col_idx: Vec::new(), values: Vec::new(), mass, coarseness };
-        for row in row_ptr.windows(2) {
-            for at in row[0] as usize..row[1] as usize {
-                if (col_idx[at] as usize) < unknowns {
-                    kept.col_idx.push(col_idx[at]);
-                    kept.values.push(values[at]);
-                }
-            }
-            kept.row_ptr.push(kept.col_idx.len() as u32);
-        }
-        kept
+        // Unknowns alone are columns.
+        let is_unknown = |at: &usize| (col_idx[*at] as usize) < unknowns;
+        let entries = |row: &[u32]| row[0] as usize..row[1] as usize;
+        let of_row = |row| entries(row).filter(is_unknown).map(|at| (col_idx[at], values[at]));
+        let rows = row_ptr.windows(2).map(|row| of_row(row).collect()).collect();
+        Ok(Self { rows, mass, coarseness })
     }
 
     /// The factor of K − μM; nothing where that is not proved to be positive definite.
     fn factor(&self, mu: f64) -> Option<LinearFactor> {
-        let mut values = self.values.clone();
-        // The diagonal comes first in every row.
-        for (&start, mass) in self.row_ptr.iter().zip(&self.mass) {
-            values[start as usize] -= mu * mass;
-        }
-        let (row_ptr, col_idx) = (&self.row_ptr, &self.col_idx);
-        Linear { row_ptr, col_idx, values: &values }.factor().ok()
+        let mut rows = self.rows.clone();
+        let diagonal = rows.iter_mut().flat_map(|row| row.first_mut());
+        diagonal.zip(&self.mass).for_each(|((_, entry), mass)| *entry -= mu * mass);
+        LinearFactor::new(rows).ok()
     }
 
     /// λ_h nearly, by inverse iteration; nothing where K is singular.

@@ -6,7 +6,7 @@ use signorini_kernel::Error as KernelError;
 use signorini_kernel::mesh::components::Support;
 use signorini_kernel::solver::{Outcome, Status};
 
-use super::{Attempt, Factored, Options, Ran, Solution, Solved, by_kernel, unfit};
+use super::{Attempt, Factored, Ran, Solution, Solved, Task, by_kernel, unfit};
 use signorini_problem::progress::stage;
 use signorini_problem::scalar::{Scalar, widened};
 use signorini_problem::{Assembled, Parts, Problem};
@@ -14,11 +14,11 @@ use signorini_reference::{Factor, ReferenceError};
 use signorini_scene::error::{InputError, Result};
 
 /// Its answer; where its active set goes round in circles that of the kernel, which says so.
-pub(super) fn directly(problem: &Problem, parts: &Parts, options: &Options) -> Result<Solution> {
-    match attempted(problem, parts, options)? {
+pub(super) fn directly(task: &Task) -> Result<Solution> {
+    match attempted(task)? {
         Ok(found) => Ok(found),
         Err(why) => {
-            let solution = by_kernel::<f64>(problem, parts, options, &[])?;
+            let solution = by_kernel::<f64>(&Task { start: &[], ..*task })?;
             let given_up = Some(format!("the direct solver gave up, the kernel took over: {why}"));
             Ok(Solution { given_up, ..solution })
         }
@@ -26,13 +26,10 @@ pub(super) fn directly(problem: &Problem, parts: &Parts, options: &Options) -> R
 }
 
 /// Its answer, or why its active set does not settle.
-pub(super) fn attempted(
-    problem: &Problem,
-    parts: &Parts,
-    options: &Options,
-) -> Result<std::result::Result<Solution, String>> {
+pub(super) fn attempted(task: &Task) -> Result<std::result::Result<Solution, String>> {
+    let Task { problem, parts, options, .. } = *task;
     let unfit = unfit::<f64>(&problem.scene);
-    let attempt = Attempt::<f64>::new(problem, parts, options)?;
+    let attempt = Attempt::<f64>::new(task)?;
     let assembled = &attempt.assembled;
     let system = assembled.system().map_err(&unfit)?;
     let failed = |error: ReferenceError| {

@@ -3,7 +3,7 @@
 //! ```text
 //!   problem ─► units ─► auto ─┬─► factored, direct    a factor of the free unknowns
 //!                             ├─► multigrid           conjugate gradients
-//!                             └─► mixed, the kernel   sweeps
+//!                             └─► the kernel          sweeps
 //!                                     └─► conclude ─► Solution, certified ─► outputs, norms
 //!   adaptive: solve, bound, mark, refine
 //! ```
@@ -37,27 +37,23 @@ pub mod units;
 
 pub use cost::is_long_to_sweep;
 pub use ending::{Ending, Ran, status_name, went_well};
-pub use factored::Factored;
 pub use level::{FreeLevel, free_levels};
-pub use mixed::{Corrected, Mixed, mixed};
+pub use mixed::{Corrected, Mixed};
 pub use multigrid::Multigrid;
 pub use options::{MOST_SWEEPS, Options, ScalarKind, SolverKind};
 pub use shared::{MOST_FACTORED, SharedSolver};
-pub use solution::{Seconds, Solution};
+pub use solution::{Factored, Seconds, Solution};
 pub use start::{Start, at_start, check_stated, own_defaults, step_of, warnings};
 pub use tuned::{Trials, tuned_omega};
 pub use units::{Scaled, choose as choose_units, choose_for_inputs, in_scene, times};
 
-use signorini_kernel::mesh::diagonal::DiagonalTerms;
-use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::refinement;
 use signorini_kernel::rows::{self, Row, Rows};
 use signorini_kernel::solver::{Outcome, Settings, Status};
-use signorini_kernel::system::System;
 use signorini_kernel::{Error as KernelError, Libm};
 
 pub use conclude::read_off;
-use conclude::{Attempt, Clock, Solved};
+use conclude::{Attempt, Solved, Task};
 pub use direct::Reduced;
 pub use ldlt::{Exchanges, Ldlt, exchanges};
 use signorini_problem::progress::stage;
@@ -91,28 +87,23 @@ pub fn solve_from(problem: &Problem, options: &Options, start: &[f64]) -> Result
 }
 
 fn solve_in_its_units(problem: &Problem, options: &Options, start: &[f64]) -> Result<Solution> {
-    let parts = Parts::examine(problem)?;
+    let task = &Task { problem, parts: &Parts::examine(problem)?, options, start };
     match (options.solver, options.scalar) {
-        (SolverKind::Direct, ScalarKind::F64) => direct::directly(problem, &parts, options),
+        (SolverKind::Direct, ScalarKind::F64) => direct::directly(task),
         (SolverKind::Direct, ScalarKind::F32) => {
             let message = "--solver direct works in f64, --scalar f32 was asked for";
             Err(InputError::new(message).hint("leave out --scalar, or use --solver auto").into())
         }
-        (_, ScalarKind::F64) => in_scalar::<f64>(problem, &parts, options, start),
-        (_, ScalarKind::F32) => in_scalar::<f32>(problem, &parts, options, start),
+        (_, ScalarKind::F64) => in_scalar::<f64>(task),
+        (_, ScalarKind::F32) => in_scalar::<f32>(task),
     }
 }
 
-fn in_scalar<R: Scalar>(
-    problem: &Problem,
-    parts: &Parts,
-    options: &Options,
-    start: &[f64],
-) -> Result<Solution> {
-    match options.solver {
-        SolverKind::Kernel => by_kernel::<R>(problem, parts, options, start),
-        SolverKind::Multigrid => multigrid::by_multigrid::<R>(problem, parts, options, start),
-        _ => auto::chosen::<R>(problem, parts, options, start),
+fn in_scalar<R: Scalar>(task: &Task) -> Result<Solution> {
+    match task.options.solver {
+        SolverKind::Kernel => by_kernel::<R>(task),
+        SolverKind::Multigrid => multigrid::by_multigrid::<R>(task),
+        _ => auto::chosen::<R>(task),
     }
 }
 
@@ -153,84 +144,72 @@ fn beyond(scene: &Scene, message: String) -> InputError {
     InputError::new(message).file(&scene.path).hint(hint)
 }
 
-fn by_kernel<R: Scalar>(
-    problem: &Problem,
-    parts: &Parts,
-    options: &Options,
-    start: &[f64],
-) -> Result<Solution> {
-    let unfit = unfit::<R>(&problem.scene);
-    let mut attempt = Attempt::<R>::new(problem, parts, options)?;
-    attempt.assembled.set_parts(parts);
-    let system = attempt.assembled.system().map_err(&unfit)?;
-    let diagonal = attempt.assembled.diagonal().map_err(&unfit)?;
-    let mut u = attempt.started(start);
+fn by_kernel<R: Scalar>(task: &Task) -> Result<Solution> {
+    let mut attempt = Attempt::<R>::new(task)?;
+    attempt.assembled.set_parts(task.parts);
+    let mut u = attempt.started();
     let mut low = vec![R::ZERO; u.len()];
-    let iterate = if problem.mesh.quads.is_empty() {
-        iterate::<R, { rows::TRIANGLES }>
-    } else {
-        iterate::<R, { rows::QUADS }>
+    let found = match task.problem.mesh.quads.is_empty() {
+        true => attempt.iterate::<{ rows::TRIANGLES }>(&mut u, &mut low),
+        false => attempt.iterate::<{ rows::QUADS }>(&mut u, &mut low),
     };
-    let may_factor = Approach::Factor.lack_with(problem, parts.counts).is_none();
-    let edges = attempt.assembled.edges();
-    let found = iterate(&system, diagonal, edges, options, may_factor, &mut u, &mut low);
-    let (outcome, factored) = found.map_err(&unfit)?;
+    let (outcome, factored) = found.map_err(unfit::<R>(&task.problem.scene))?;
     let ran = if factored.is_some() { Ran::Factor } else { Ran::Sweeps };
     attempt.conclude(Solved { outcome, ran, factored, u, low })
 }
 
-/// Sweeps with rows of `WIDTH` entries and refines, and where that does not end, or is not expected to, takes the factor, if it may;
-/// `low` becomes the low part of `u`.
-fn iterate<R: Scalar, const WIDTH: usize>(
-    system: &System<R, u32>,
-    diagonal: DiagonalTerms<R, u32>,
-    edges: &Edges<u32>,
-    options: &Options,
-    may_factor: bool,
-    u: &mut [R],
-    low: &mut [R],
-) -> std::result::Result<(Outcome<R>, Option<Factored>), KernelError> {
-    let (counts, rounds, settings) = (edges.counts(), options.rounds(), options.settings::<R>());
-    let sweep = |settings, u: &mut [R], low: &mut [R]| {
-        let mut rows = vec![Row::<R, u32, WIDTH>::EMPTY; counts.unknowns()];
-        let rows = Rows::new(edges, &mut rows)?;
-        let mut scratch = vec![R::ZERO; refinement::scratch(counts)];
-        let u = [u, low];
-        refinement::run::<R, u32, Libm, WIDTH>(
-            system,
-            diagonal,
-            settings,
-            rounds,
-            u,
-            rows,
-            &mut scratch,
-        )
-    };
-    let is_long = cost::sweeps(counts.unknowns()) > f64::from(refinement::PLAIN);
-    let at_once = may_factor && options.max_sweeps.is_none() && is_long;
-    if at_once
-        && let Some((found, factored)) = factored::solve(system, diagonal, &settings, u, low, None)?
-    {
-        return Ok((found, Some(factored)));
+impl<R: Scalar> Attempt<'_, R> {
+    /// Sweeps with rows of `WIDTH` entries and refines, and where that does not end, or is not expected to, takes the factor, if it
+    /// may; `low` becomes the low part of `u`.
+    fn iterate<const WIDTH: usize>(
+        &self,
+        u: &mut [R],
+        low: &mut [R],
+    ) -> std::result::Result<(Outcome<R>, Option<Factored>), KernelError> {
+        let Task { problem, parts, options, .. } = self.task;
+        let (system, diagonal) = (self.assembled.system()?, self.assembled.diagonal()?);
+        let (edges, counts) = (self.assembled.edges(), problem.topology.counts);
+        let (rounds, settings) = (options.rounds(), options.settings::<R>());
+        let may_factor = Approach::Factor.lack_with(problem, parts.counts).is_none();
+        let sweep = |settings, u: &mut [R], low: &mut [R]| {
+            let mut rows = vec![Row::<R, u32, WIDTH>::EMPTY; counts.unknowns()];
+            let rows = Rows::new(edges, &mut rows)?;
+            let mut scratch = vec![R::ZERO; refinement::scratch(counts)];
+            let u = [u, low];
+            refinement::run::<R, u32, Libm, WIDTH>(
+                &system,
+                diagonal,
+                settings,
+                rounds,
+                u,
+                rows,
+                &mut scratch,
+            )
+        };
+        let is_long = cost::sweeps(counts.unknowns()) > f64::from(refinement::PLAIN);
+        let at_once = may_factor && options.max_sweeps.is_none() && is_long;
+        if at_once && let Some((found, factored)) = self.by_factor(u, low, None)? {
+            return Ok((found, Some(factored)));
+        }
+        let most = settings.max_sweeps;
+        let patience = Settings { max_sweeps: most.min(refinement::PLAIN), ..settings };
+        stage(&format!("at most {} sweeps", patience.max_sweeps));
+        let swept = sweep(patience, u, low)?;
+        let ended = !matches!(swept.status, Status::OutOfSweeps | Status::Stalled);
+        if ended || swept.sweeps >= most {
+            return Ok((swept, None));
+        }
+        // What has no factor from one start has none from another.
+        if may_factor
+            && !at_once
+            && let Some((found, factored)) = self.by_factor(u, low, None)?
+        {
+            return Ok((Outcome { sweeps: swept.sweeps, ..found }, Some(factored)));
+        }
+        let left = most - swept.sweeps;
+        stage(&format!("at most {left} more sweeps, as no factor solves it"));
+        let mut found = sweep(Settings { max_sweeps: left, ..settings }, u, low)?;
+        found.sweeps = found.sweeps.saturating_add(swept.sweeps);
+        Ok((found, None))
     }
-    let most = settings.max_sweeps;
-    let patience = Settings { max_sweeps: most.min(refinement::PLAIN), ..settings };
-    stage(&format!("at most {} sweeps", patience.max_sweeps));
-    let swept = sweep(patience, u, low)?;
-    let ended = !matches!(swept.status, Status::OutOfSweeps | Status::Stalled);
-    if ended || swept.sweeps >= most {
-        return Ok((swept, None));
-    }
-    // What has no factor from one start has none from another.
-    if may_factor
-        && !at_once
-        && let Some((found, factored)) = factored::solve(system, diagonal, &settings, u, low, None)?
-    {
-        return Ok((Outcome { sweeps: swept.sweeps, ..found }, Some(factored)));
-    }
-    let left = most - swept.sweeps;
-    stage(&format!("at most {left} more sweeps, as no factor solves it"));
-    let mut found = sweep(Settings { max_sweeps: left, ..settings }, u, low)?;
-    found.sweeps = found.sweeps.saturating_add(swept.sweeps);
-    Ok((found, None))
 }

@@ -6,10 +6,9 @@ use signorini_kernel::system::Residual;
 use signorini_multigrid::{self as multigrid, Settings};
 
 use super::direct::directly;
-use super::{Attempt, Options, Ran, Reduced, ScalarKind, Solution, Solved, by_kernel, unfit};
+use super::{Attempt, Options, Ran, Reduced, ScalarKind, Solution, Solved, Task, by_kernel, unfit};
 use signorini_problem::progress::stage;
 use signorini_problem::scalar::{Scalar, widened};
-use signorini_problem::{Parts, Problem};
 use signorini_scene::error::Result;
 
 /// Iterations at most: where as many are not enough, a factor is quicker.
@@ -29,19 +28,14 @@ pub struct Multigrid {
 }
 
 /// Its answer, or that of a solver with a factor, the direct one in f64, which says why multigrid has none.
-pub(super) fn by_multigrid<R: Scalar>(
-    problem: &Problem,
-    parts: &Parts,
-    options: &Options,
-    start: &[f64],
-) -> Result<Solution> {
-    let why = match attempted::<R>(problem, parts, options, start)? {
+pub(super) fn by_multigrid<R: Scalar>(task: &Task) -> Result<Solution> {
+    let why = match attempted::<R>(task)? {
         Ok(found) => return Ok(found),
         Err(why) => why,
     };
     let (solver, solution) = match ScalarKind::of::<R>() {
-        ScalarKind::F64 => ("direct solver", directly(problem, parts, options)?),
-        ScalarKind::F32 => ("kernel", by_kernel::<R>(problem, parts, options, start)?),
+        ScalarKind::F64 => ("direct solver", directly(task)?),
+        ScalarKind::F32 => ("kernel", by_kernel::<R>(task)?),
     };
     let after = solution.given_up.map(|next| format!("; {next}")).unwrap_or_default();
     let given_up = Some(format!("multigrid gave up, the {solver} took over: {why}{after}"));
@@ -49,17 +43,13 @@ pub(super) fn by_multigrid<R: Scalar>(
 }
 
 /// Its answer, or why it has none. The matrix is that of the scalar; it is solved with in f64, and u has a low part.
-pub(super) fn attempted<R: Scalar>(
-    problem: &Problem,
-    parts: &Parts,
-    options: &Options,
-    start: &[f64],
-) -> Result<std::result::Result<Solution, String>> {
+pub(super) fn attempted<R: Scalar>(task: &Task) -> Result<std::result::Result<Solution, String>> {
+    let Task { problem, parts, options, start } = *task;
     let unfit = unfit::<R>(&problem.scene);
-    let attempt = Attempt::<R>::new(problem, parts, options)?;
+    let attempt = Attempt::<R>::new(task)?;
     let assembled = &attempt.assembled;
     let system = assembled.system().map_err(&unfit)?;
-    let mut u = attempt.started(start);
+    let mut u = attempt.started();
     let reduced = Reduced::new(problem, parts, assembled, &u).map_err(&unfit)?;
     stage("conjugate gradients and multigrid");
     let unknowns = problem.topology.counts.unknowns();

@@ -96,6 +96,11 @@ impl Default for Options {
 }
 
 impl Options {
+    /// The default with another solver.
+    pub fn by(solver: SolverKind) -> Self {
+        Self { solver, ..Self::default() }
+    }
+
     /// Corrections of the defect at most: each gains about as many digits as the scalar leaves. In
     /// f64 the rounding limit itself is accurate enough, unless the floor is asked for.
     pub(super) fn rounds(&self) -> u32 {

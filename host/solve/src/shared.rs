@@ -2,7 +2,7 @@
 
 use super::auto::by_factor;
 use super::multigrid::by_multigrid;
-use super::{Ldlt, Options, Result, Solution, unfit};
+use super::{Ldlt, Options, Result, Solution, Task, unfit};
 use signorini_problem::{Assembled, Parts, Problem};
 
 /// Beyond so many unknowns a factor takes longer, and more memory, than some solutions without.
@@ -38,10 +38,11 @@ impl SharedSolver {
     /// # Errors
     /// Numbers that f64 cannot hold.
     pub fn solve(&self, problem: &Problem, start: &[f64]) -> Result<Option<Solution>> {
-        let (parts, options) = (Parts::examine(problem)?, Options::default());
+        let (parts, options) = (&Parts::examine(problem)?, &Options::default());
+        let task = Task { problem, parts, options, start };
         match self {
-            Self::Factor(factor) => by_factor(problem, &parts, &options, &[], Some(factor)),
-            Self::Multigrid => by_multigrid::<f64>(problem, &parts, &options, start).map(Some),
+            Self::Factor(factor) => by_factor(&Task { start: &[], ..task }, Some(factor)),
+            Self::Multigrid => by_multigrid::<f64>(&task).map(Some),
         }
     }
 }

@@ -8,11 +8,22 @@ use signorini_kernel::Real;
 use signorini_kernel::mesh::components::{PartCounts, Support};
 use signorini_kernel::mesh::geometry::{quad_area, triangle_area};
 
-use super::{Ending, Factored, Multigrid, Ran, ScalarKind};
+use super::{Ending, Multigrid, Ran, ScalarKind};
 use signorini_certify::{CertifiedFields, ErrorBound, NoBound};
 use signorini_problem::field::CellField;
 use signorini_problem::{Parts, Problem, State};
 use signorini_scene::scene::units::Units;
+
+/// Work of the factor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Factored {
+    /// Entries of L.
+    pub entries: usize,
+    /// Contact edges that changed sides; of the direct solver, active-set steps.
+    pub exchanges: u32,
+    /// Substitutions, corrections among them; of the direct solver, passes of refinement.
+    pub rounds: u32,
+}
 
 /// The answer of a solve or of a tick; numbers of an f32 one are held exactly in f64.
 #[derive(Debug, Clone, Default)]
@@ -196,10 +207,8 @@ pub fn centre_floating(problem: &Problem, parts: &Parts, u: &mut [f64], vertices
     for (edge, u) in u.iter_mut().enumerate() {
         *u -= shift(parts.of_edge(&edges, edge));
     }
-    let cells = mesh.triangles.iter().map(|cell| cell.as_slice());
-    let cells = cells.chain(mesh.quads.iter().map(|cell| cell.as_slice())).enumerate();
-    let of_vertex: HashMap<u32, usize> =
-        cells.flat_map(|(cell, corners)| corners.iter().map(move |&v| (v, cell))).collect();
+    let corners = |cell| problem.vertices_of(cell).iter().map(move |&vertex| (vertex, cell));
+    let of_vertex: HashMap<u32, usize> = (0..problem.cells()).flat_map(corners).collect();
     for (&vertex, &cell) in &of_vertex {
         if let Some(value) = vertices.get_mut(vertex as usize) {
             *value -= shift(parts.of_cell(cell));

@@ -66,8 +66,7 @@ impl<'p, R: Scalar> Trials<'p, R> {
     /// # Errors
     /// No solution, numbers that the scalar type cannot hold.
     pub fn new(problem: &'p Problem, goal: f64) -> Result<Self> {
-        let direct = Options { solver: SolverKind::Direct, ..Options::default() };
-        let solution = solve(problem, &direct)?.u;
+        let solution = solve(problem, &Options::by(SolverKind::Direct))?.u;
         let mut assembled = Assembled::new(problem).map_err(unfit::<R>(&problem.scene))?;
         assembled.set_parts(&Parts::examine(problem)?);
         let mut trials = Self { assembled, solution, goal: 0.0 };

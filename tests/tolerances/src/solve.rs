@@ -33,7 +33,7 @@ table! {
         "a matrix of condition 10⁴";
     OPTIMAL: "equations and complementarity, over the largest displacement", 1e-14,
         "rows of at most 5 entries, after refinement";
-    RESIDUAL: "residual that the solver tells, and its change by a warm start, over the largest displacement", 1e-15,
+    WARM: "change of a solution by a warm start, over the largest displacement", 1e-15,
         "refinement ends at ε";
     BISECTED: "integral of a jump by bisection", 1e-5,
         "panels of 2⁻¹⁷ around it";

@@ -117,22 +117,22 @@ pub fn modal(problem: &Problem, negligible: f64) -> Result<(ModalModel, Recovery
         model.certificate =
             Err("a transfer coefficient that changes varies along an edge".to_owned());
     }
-    let of_laws = of_laws(problem, &pieces, &recovery, &model)?;
+    let of_laws = of_laws(&pieces, &recovery, &model)?;
     let alpha = |mode: &Mode| -> Vec<f64> {
         model.opening.iter().zip(&mode.of_contact).map(|(d, of)| d * of).collect()
     };
-    let alphas = |of: &[(&Mode, f64)]| of.iter().map(|(mode, _)| alpha(mode)).collect::<Vec<_>>();
-    let betas = |of: &[(&Mode, f64)]| -> Vec<Vec<f64>> {
-        of.iter().map(|(mode, _)| mode.of_inputs.clone()).collect()
+    let rows = |of: &[(&Mode, f64)]| -> (Vec<_>, Vec<_>) {
+        of.iter().map(|(mode, _)| (mode.of_inputs.clone(), alpha(mode))).unzip()
     };
+    let ((of_inputs, of_contact), (beta, of_others)) = (rows(&kept), rows(&others));
     let modal = ModalModel {
-        of_inputs: betas(&kept),
-        of_contact: alphas(&kept),
+        of_inputs,
+        of_contact,
         slack: slack(&model, &modes, &modes.iter().map(alpha).collect::<Vec<_>>()),
         left_out: LeftOut {
             count: others.len(),
-            of_inputs: norms(&betas(&others), m),
-            of_contact: norms(&alphas(&others), model.contact),
+            of_inputs: norms(&beta, m),
+            of_contact: norms(&of_others, model.contact),
         },
         inputs: m,
         input: input + 1,
@@ -202,13 +202,12 @@ fn laws(problem: &Problem, pattern: &TransferPattern, range: f64) -> Result<Opti
 
 /// F_π in the units of the model.
 fn of_laws(
-    problem: &Problem,
     pieces: &Pieces,
     recovery: &Recovery,
     model: &CondensedModel,
 ) -> Result<Option<LawsForm>> {
     let (Some(laws), Some(of)) = (&pieces.laws, &recovery.admissibles) else { return Ok(None) };
-    let blocks = laws.blocks(problem, &pieces.patterns, &of.functions)?;
+    let blocks = laws.blocks(pieces, &of.functions)?;
     let mut factor = packed(&triangular(&blocks, &of.s, &of.fluxes));
     let of_inputs = model.inputs * (model.inputs + 1) / 2;
     factor.iter_mut().take(of_inputs).for_each(|entry| *entry /= model.energy_unit);

@@ -2,6 +2,7 @@
 
 use super::ModalModel;
 use crate::evaluate::dot;
+use crate::model::sum;
 use crate::{CondensedModel, Measure};
 
 impl ModalModel {
@@ -43,7 +44,7 @@ impl ModalModel {
 
     /// Model at `value` with the x of [`ModalModel::model`]: its matrix has a diagonal of 1 or more.
     pub fn in_own_scale(&self, value: f64) -> CondensedModel {
-        let (n, m, unit) = (self.model.contact, self.inputs, self.model.energy_unit);
+        let (n, unit) = (self.model.contact, self.model.energy_unit);
         let gains = self.gains(value);
         let mut model = self.model.clone();
         for ((gain, alpha), beta) in gains.iter().zip(&self.of_contact).zip(&self.of_inputs) {
@@ -56,26 +57,17 @@ impl ModalModel {
                 changes.for_each(|(entry, a)| *entry -= gain * a * b / unit);
             }
         }
-        model.load.truncate(m);
-        model.spans.truncate(m);
         for measure in &mut model.outputs {
             self.follow(measure, &gains);
         }
-        model.defaults.truncate(m);
+        model.keep_inputs(self.inputs, "the bound of another coefficient");
         model.defaults[self.input] = value;
-        model.ranges.truncate(m);
-        model.inputs = m;
-        model.certificate = Err("the bound of another coefficient".to_owned());
         model
     }
 
     /// y put into an output.
     fn follow(&self, measure: &mut Measure, gains: &[f64]) {
-        let (Measure::Linear { of_inputs, of_contact }
-        | Measure::Flux { of_inputs, of_contact, .. }) = measure
-        else {
-            return;
-        };
+        let Some((of_inputs, of_contact, _)) = sum(measure) else { return };
         if of_inputs.len() <= self.inputs {
             return;
         }
@@ -108,15 +100,9 @@ impl CondensedModel {
         self.load.iter_mut().chain(&mut self.spans).for_each(|column| divide(column));
         divide(&mut self.opening);
         multiply(&mut self.multiplier);
-        for measure in &mut self.outputs {
-            match measure {
-                Measure::Linear { of_contact, .. } => divide(of_contact),
-                Measure::Flux { of_contact, of_reaction, .. } => {
-                    divide(of_contact);
-                    multiply(of_reaction);
-                }
-                Measure::Length { .. } | Measure::Saturated { .. } | Measure::Bound => {}
-            }
+        for (_, of_contact, of_reaction) in self.outputs.iter_mut().filter_map(sum) {
+            divide(of_contact);
+            multiply(of_reaction);
         }
     }
 }

@@ -14,7 +14,7 @@ use signorini_reference::ReferenceError;
 /// Steps at most: each is an enclosure, and later ones gain little.
 pub(super) const STEPS: u32 = 16;
 /// An enclosure that shrinks by less than this part of its size in a step is taken.
-pub(super) const GAIN: f64 = 1e-3;
+const GAIN: f64 = 1e-3;
 
 /// lo ≤ x ≤ hi for every load of a box.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,12 +68,6 @@ pub struct EndBox {
 }
 
 impl EndBox {
-    /// Loads of edges whose fluxes all go up without an end.
-    pub fn above(least: LoadBox) -> Self {
-        let infinite = vec![f64::INFINITY; least.lo.len()];
-        Self { least, greatest: LoadBox { lo: infinite.clone(), hi: infinite } }
-    }
-
     /// Enclosure of the solutions of `model` for p in `ranges`. An input has one value in a load and in the end of its side.
     pub fn new(model: &CondensedModel, ranges: &[[f64; 2]]) -> Self {
         let ends: Vec<_> = (0..model.contact).map(|at| model.end_columns(at)).collect();
@@ -138,23 +132,11 @@ impl Enclosure {
         }
         let lowest = if is_limited { f64::NEG_INFINITY } else { 0.0 };
         let (lo, hi, reaction) = (vec![lowest; n], vec![f64::INFINITY; n], vec![0.0; n]);
-        let mut now = Self { lo, hi, reaction };
-        for step in 0..STEPS {
-            let before = now.width();
-            let [push, _] = split.push(&now.lo);
-            let hi = split.above(&minus(&least.hi, &push), &greatest.hi)?;
-            now.hi = lower(&now.hi, &hi);
-            if !split.has_all_signs() && !now.is_finite() {
-                break;
-            }
-            let [_, push] = split.push(&now.hi);
-            let lo = split.below(&minus(&least.lo, &push), &greatest.lo)?;
-            now.lo = higher(&now.lo, &lo);
-            let has_shrunk = before - now.width() > GAIN * before;
-            if split.has_all_signs() || step > 0 && !has_shrunk {
-                break;
-            }
-        }
+        let above = |lo: &[f64]| {
+            let [push, _] = split.push(lo);
+            split.above(&minus(&least.hi, &push), &greatest.hi)
+        };
+        let mut now = Self { lo, hi, reaction }.shrunk(split, box_of, above)?;
         // What overflows tells nothing of any edge.
         if now.is_finite() {
             // (Sx − b)_i = s_ii x_i + (Nx)_i off the diagonal + (Px)_i − b_i
@@ -164,16 +146,28 @@ impl Enclosure {
         Ok(Some(now))
     }
 
-    /// Encloses the solutions of `model` for p in `ranges`, as [`Enclosure::new`] does.
-    ///
-    /// # Errors
-    /// Loads that are not finite.
-    pub fn of(
+    /// Each side made from what the other one pushes by, until both stay; `above` finds upper ones from lower ones.
+    pub(super) fn shrunk(
+        mut self,
         split: &Split,
-        model: &CondensedModel,
-        ranges: &[[f64; 2]],
-    ) -> Result<Option<Self>, ReferenceError> {
-        Self::new(split, &EndBox::new(model, ranges))
+        EndBox { least, greatest }: &EndBox,
+        above: impl Fn(&[f64]) -> Result<Vec<f64>, ReferenceError>,
+    ) -> Result<Self, ReferenceError> {
+        for _ in 0..STEPS {
+            let before = self.width();
+            self.hi = lower(&self.hi, &above(&self.lo)?);
+            if !split.has_all_signs() && !self.is_finite() {
+                break;
+            }
+            let [_, push] = split.push(&self.hi);
+            let lo = split.below(&minus(&least.lo, &push), &minus(&greatest.lo, &push))?;
+            self.lo = higher(&self.lo, &lo);
+            let has_shrunk = before.is_infinite() || before - self.width() > GAIN * before;
+            if split.has_all_signs() || !has_shrunk {
+                break;
+            }
+        }
+        Ok(self)
     }
 
     /// Whether nothing has overflowed.
@@ -182,7 +176,7 @@ impl Enclosure {
     }
 
     /// Σ (hi − lo)
-    pub(super) fn width(&self) -> f64 {
+    fn width(&self) -> f64 {
         self.hi.iter().zip(&self.lo).map(|(hi, lo)| hi - lo).sum()
     }
 
@@ -234,10 +228,10 @@ pub(super) fn minus(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
-pub(super) fn lower(a: &[f64], b: &[f64]) -> Vec<f64> {
+fn lower(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a.min(*b)).collect()
 }
 
-pub(super) fn higher(a: &[f64], b: &[f64]) -> Vec<f64> {
+fn higher(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a.max(*b)).collect()
 }

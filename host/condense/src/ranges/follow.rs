@@ -9,12 +9,13 @@
 //! solution, since there is one alone. The box is proposed by the middle of the piece, widened, and checked.
 
 use super::change::Change;
-use super::enclosure::Enclosure;
+use super::enclosure::{Enclosure, EndBox};
 use super::interval::{Interval, between};
 use super::outputs::intervals;
 use super::sides::{EdgeSide, Sides, widened};
 use super::split::Split;
-use crate::{CondensedModel, Measure, ModalModel};
+use crate::model::sum;
+use crate::{CondensedModel, ModalModel};
 use signorini_reference::ReferenceError;
 
 /// Pieces to begin with, and how often one is halved that is not proved.
@@ -189,7 +190,7 @@ impl<'p> Piece<'p> {
             return Ok(None);
         }
         self.model.ranges[m..].copy_from_slice(&ends);
-        let found = Enclosure::of(&self.split, &self.model, &self.model.ranges)?;
+        let found = Enclosure::new(&self.split, &EndBox::new(&self.model, &self.model.ranges))?;
         Ok(found.filter(Enclosure::is_finite))
     }
 }
@@ -222,9 +223,7 @@ fn extend(model: &mut CondensedModel) {
     model.defaults.resize(model.inputs, 0.0);
     model.ranges.resize(model.inputs, [0.0, 0.0]);
     for (at, measure) in model.outputs.iter_mut().enumerate() {
-        let (Measure::Linear { of_inputs, .. } | Measure::Flux { of_inputs, .. }) = measure else {
-            continue;
-        };
+        let Some((of_inputs, ..)) = sum(measure) else { continue };
         // What is a sum of reactions alone stays one.
         if !of_inputs.is_empty() {
             of_inputs.resize(m, 0.0);

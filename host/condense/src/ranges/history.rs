@@ -12,7 +12,7 @@
 //! Every lag has its own inputs. What bounds the loads is the sum of positive parts of all lags, and that of negative ones.
 
 use super::enclosure::{Enclosure, EndBox};
-use super::lags::backward;
+use super::lags;
 use super::sides::widened;
 use super::split::product;
 use crate::{Memory, SteppedModel};
@@ -42,11 +42,10 @@ impl<'h> History<'h> {
         let mut back = vec![0.0; n * n];
         for row in 0..n {
             for at in 0..=row {
-                let later = later(&memory.fading, [&columns[row], &columns[at]]);
+                let pair = [&columns[row][..], &columns[at]];
+                let later = later(&memory.fading, pair);
                 for (row, at) in [(row, at), (at, row)] {
-                    let total = of.opening_load(at)[row];
-                    let first = first(total, [&columns[row], &columns[at]]);
-                    back[row * n + at] = (first.max(0.0) + later).max(-total);
+                    back[row * n + at] = against(of.opening_load(at)[row], pair, later);
                 }
             }
         }
@@ -136,13 +135,7 @@ impl<'h> History<'h> {
         let moves: Vec<f64> = of.lo.iter().zip(&of.hi).map(|(lo, hi)| hi - lo).collect();
         let ranges = self.ranges();
         let widths: Vec<f64> = ranges.iter().skip(1).map(|[lo, hi]| hi - lo).collect();
-        let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a.abs() * b).sum::<f64>();
-        let rows = memory.of_contact.iter().zip(&memory.of_inputs).zip(&memory.begin);
-        let states = rows.zip(&memory.fading).map(|(((of_x, of_p), begin), omega)| {
-            let size = begin.abs() + sum(of_x, &moves) + sum(of_p, &widths);
-            size + 2.0 * size / (1.0 - omega)
-        });
-        let states: Vec<f64> = states.collect();
+        let states = memory.drift([&moves, &widths]);
         let of_edge = |at: usize| {
             let openings = (0..n)
                 .map(|j| (model.matrix[at * n + j].abs() + own.opening_load(j)[at].abs()) * x[j]);
@@ -151,7 +144,8 @@ impl<'h> History<'h> {
                 let [lo, hi] = ranges[if j < m { j } else { j + 1 - m }];
                 model.load[j][at].abs() * hi.max(-lo)
             });
-            let of_states = sum(&column(&memory.of_contact, at), &states);
+            let column = column(&memory.of_contact, at);
+            let of_states: f64 = column.iter().zip(&states).map(|(c, y)| c.abs() * y).sum();
             rounding * (openings.sum::<f64>() + inputs.sum::<f64>() + of_states)
         };
         (0..n).map(of_edge).collect()
@@ -191,7 +185,7 @@ impl<'h> History<'h> {
             let own = of.model.load[m + j][at];
             let total = own - carried().sum::<f64>();
             let pair = [&columns[at][..], &changes];
-            let back = (first(total, pair).max(0.0) + later(&memory.fading, pair)).max(-total);
+            let back = backward(total, &memory.fading, pair);
             let terms = own.abs() + carried().map(f64::abs).sum::<f64>() + 2.0 * back;
             ([total + back, back], terms)
         };
@@ -217,18 +211,24 @@ impl SteppedModel {
     }
 }
 
-/// −(total − Σ_j a_j b_j) at most: what the first lag is below 0.
-pub(crate) fn first(total: f64, [a, b]: [&[f64]; 2]) -> f64 {
+/// Σ_i max(−a_i, 0) of lags that add up to `total`, at least: a first one, total − Σ_j a_j b_j, and those of `later`.
+pub(crate) fn backward(total: f64, fading: &[f64], pair: [&[f64]; 2]) -> f64 {
+    against(total, pair, later(fading, pair))
+}
+
+/// A sum of [`backward`] where `later` is the part of it that the other lags have.
+fn against(total: f64, [a, b]: [&[f64]; 2], later: f64) -> f64 {
     let (sum, noise) = product(a, b);
-    sum - total + noise + 2.0 * f64::EPSILON * total.abs()
+    let first = sum - total + noise + 2.0 * f64::EPSILON * total.abs();
+    (first.max(0.0) + later).max(-total)
 }
 
 /// Σ_i max(−a_i, 0) of the later lags, a_i = Σ_j a_j b_j (1 − ω_j) ω_j^i.
-pub(crate) fn later(fading: &[f64], [a, b]: [&[f64]; 2]) -> f64 {
+fn later(fading: &[f64], [a, b]: [&[f64]; 2]) -> f64 {
     let weights = a.iter().zip(b).zip(fading).map(|((a, b), omega)| (1.0 - omega) * a * b);
-    backward(&weights.collect::<Vec<f64>>(), fading)
+    lags::backward(&weights.collect::<Vec<f64>>(), fading)
 }
 
-fn column(rows: &[Vec<f64>], at: usize) -> Vec<f64> {
+pub(crate) fn column(rows: &[Vec<f64>], at: usize) -> Vec<f64> {
     rows.iter().map(|row| row[at]).collect()
 }

@@ -15,7 +15,7 @@
 
 use faer::{MatRef, Side};
 
-use super::enclosure::{Enclosure, EndBox, GAIN, STEPS, higher, lower, minus, rooms};
+use super::enclosure::{Enclosure, EndBox, STEPS, minus, rooms};
 use super::history::History;
 use super::sides::Sides;
 use super::split::{Split, product};
@@ -62,10 +62,10 @@ pub fn lasting(
     let history = History::new(of, memory);
     let [pull, push] = history.parts();
     let is_definite = MatRef::from_row_major_slice(&model.matrix, n, n).llt(Side::Lower).is_ok();
-    let split = Split::of(pull.clone(), push.clone(), n).filter(|_| is_definite);
+    let split = Split::of(pull, push, n).filter(|_| is_definite);
     let Some(split) = split else { return Ok(Err(Unproved::Indefinite)) };
     let loads = history.loads();
-    let lasting = Lasting { n, is_limited: model.is_limited(), pull, push, history, split };
+    let lasting = Lasting { n, is_limited: model.is_limited(), history, split };
     let found = lasting.rounded(&loads, rounding)?;
     Ok(found.map(|enclosure| {
         let every = Sides::unproved(model);
@@ -80,8 +80,6 @@ struct Lasting<'h> {
     is_limited: bool,
     history: History<'h>,
     /// N, and ν + P.
-    pull: Vec<f64>,
-    push: Vec<f64>,
     split: Split,
 }
 
@@ -114,19 +112,8 @@ impl Lasting<'_> {
             false => Some([vec![0.0; self.n], vec![f64::INFINITY; self.n]]),
         };
         let Some([lo, hi]) = begin else { return Ok(Err(Unproved::IndefiniteWithLimits)) };
-        let mut now = Enclosure { lo, hi, reaction: vec![0.0; self.n] };
-        for _ in 0..STEPS {
-            let before = now.width();
-            let EndBox { least, greatest } = loads;
-            now.hi = lower(&now.hi, &self.above(&least.hi, &greatest.hi, &now.lo)?);
-            let [_, push] = self.split.push(&now.hi);
-            let lo = self.split.below(&minus(&least.lo, &push), &minus(&greatest.lo, &push))?;
-            now.lo = higher(&now.lo, &lo);
-            let has_shrunk = before.is_infinite() || before - now.width() > GAIN * before;
-            if !has_shrunk {
-                break;
-            }
-        }
+        let begin = Enclosure { lo, hi, reaction: vec![0.0; self.n] };
+        let mut now = begin.shrunk(&self.split, loads, |lo| self.above(loads, lo))?;
         if !now.is_finite() {
             return Ok(Err(Unproved::Overflow));
         }
@@ -143,26 +130,22 @@ impl Lasting<'_> {
     }
 
     /// The upper solution with the gap at its highest.
-    fn above(
-        &self,
-        least: &[f64],
-        greatest: &[f64],
-        lo: &[f64],
-    ) -> Result<Vec<f64>, ReferenceError> {
+    fn above(&self, loads: &EndBox, lo: &[f64]) -> Result<Vec<f64>, ReferenceError> {
+        let EndBox { least, greatest } = loads;
         let [push, _] = self.split.push(lo);
         let moves = &self.history.moves;
-        let of_gap = self.pull.chunks(self.n.max(1)).map(|row| {
+        let of_gap = self.split.negative.chunks(self.n.max(1)).map(|row| {
             let (sum, noise) = product(row, moves);
             sum - noise
         });
         let off: Vec<f64> = push.iter().zip(of_gap).map(|(push, gap)| push + gap).collect();
-        let above = self.split.above(&minus(least, &off), &minus(greatest, &off))?;
+        let above = self.split.above(&minus(&least.hi, &off), &minus(&greatest.hi, &off))?;
         Ok(above.iter().zip(moves).map(|(x, moves)| (x + moves).next_up()).collect())
     }
 
     /// −h and h; nothing where N − ν − P is not proved to be an M-matrix.
     fn linear(&self, loads: &EndBox) -> Result<Option<[Vec<f64>; 2]>, ReferenceError> {
-        let rest = minus(&self.pull, &self.push);
+        let rest = minus(&self.split.negative, &self.split.positive);
         let Some(split) = Split::of(rest.clone(), vec![0.0; self.n * self.n], self.n) else {
             return Ok(None);
         };
@@ -190,7 +173,7 @@ impl Lasting<'_> {
 
     /// At most the way from the residual of an edge, where u = ψ is taken, to either end; none where the gap moves.
     fn rooms(&self, of: &Enclosure, loads: &EndBox) -> Vec<f64> {
-        let rows = self.pull.chunks(self.n.max(1)).enumerate().map(|(at, row)| {
+        let rows = self.split.negative.chunks(self.n.max(1)).enumerate().map(|(at, row)| {
             let mut row = row.to_vec();
             // Of the edge itself its past alone.
             row[at] = -self.history.forward[at * self.n + at];

@@ -54,16 +54,17 @@ pub fn released(
     let is_free = |vertex| sides.at(vertex, &maps) == VertexSide::Free;
     let mut free: BTreeSet<u32> =
         vertices.filter(|(vertex, _)| is_free(vertex)).map(|(_, &at)| at).collect();
+    let pieces = Pieces::new(problem)?;
     for _ in 0..TRIALS {
         if free.is_empty() {
             break;
         }
-        let Some((model, recovery)) = with_released(problem, whole, recovery, &free)? else {
+        let Some((model, recovery)) = with_released(&pieces, whole, recovery, &free)? else {
             break;
         };
         let Ok(form) = &model.certificate else { break };
         let proof = Proof { model: &model, form, sides, maps: &maps };
-        let all = recovery.released(problem, model.energy_unit)?;
+        let all = recovery.released(&pieces, model.energy_unit)?;
         let clear: BTreeMap<u32, f64> =
             all.iter().map(|of| (of.vertex, proof.clearance(of))).collect();
         // A NaN proves nothing.
@@ -144,15 +145,15 @@ struct ReleasedVertex {
 /// # Errors
 /// As for [`crate::condense`].
 fn with_released(
-    problem: &Problem,
+    pieces: &Pieces,
     whole: &CondensedModel,
     recovery: &Recovery,
     released: &BTreeSet<u32>,
 ) -> Result<Option<(CondensedModel, Recovery)>> {
-    let (pieces, n, unit) = (Pieces::new(problem)?, whole.contact, whole.energy_unit);
+    let (n, unit) = (whole.contact, whole.energy_unit);
     let openings: Vec<f64> = whole.opening.iter().map(|d| d / unit).collect();
     let matrix = Mat::from_fn(n, n, |i, j| whole.matrix[i * n + j]);
-    let columns = Columns { pieces: &pieces, fields: &recovery.fields, openings: &openings };
+    let columns = Columns { pieces, fields: &recovery.fields, openings: &openings };
     let data = FormData { columns, matrix: &matrix, source: None, touching: &[], released };
     let Ok((mut form, admissibles)) = data.form()? else { return Ok(None) };
     form.rescale(unit, whole.inputs);
@@ -168,11 +169,10 @@ impl Recovery {
     }
 
     /// The vertices that were released.
-    fn released(&self, problem: &Problem, unit: f64) -> Result<Vec<ReleasedVertex>> {
+    fn released(&self, pieces: &Pieces, unit: f64) -> Result<Vec<ReleasedVertex>> {
         let Some(Admissibles { s, released, .. }) = &self.admissibles else {
             return Ok(Vec::new());
         };
-        let pieces = Pieces::new(problem)?;
         let peaks: Vec<_> =
             pieces.patterns.iter().map(|p| peaks(&p.problem, released)).collect::<Result<_>>()?;
         let inputs = pieces.patterns.len();

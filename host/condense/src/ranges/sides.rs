@@ -14,7 +14,7 @@
 //!   ends at a Dirichlet value.
 //! ```
 
-use super::enclosure::Enclosure;
+use super::enclosure::{Enclosure, EndBox};
 use super::reduction::Reduction;
 use super::split::Split;
 use crate::{CondensedModel, Form, Vertex};
@@ -81,7 +81,7 @@ impl Sides {
         let is_held = model.held_by_contact.is_empty();
         let split = Split::new(&model.matrix, n).filter(|_| is_bounded && is_held && n > 0);
         let Some(split) = split else { return Ok(Self::unproved(model)) };
-        let Some(enclosure) = Enclosure::of(&split, model, &inputs)? else {
+        let Some(enclosure) = Enclosure::new(&split, &EndBox::new(model, &inputs))? else {
             return Ok(Self::unproved(model));
         };
         let mut sides = Self::proposed(model, enclosure, inputs);

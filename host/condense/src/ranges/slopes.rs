@@ -13,7 +13,7 @@
 //! which is y(p*) where no slope changes its sign. The same from below.
 
 use super::affine::AffineOutput;
-use super::enclosure::Enclosure;
+use super::enclosure::{Enclosure, EndBox};
 use super::interval::{Interval, between, dot};
 use super::split::Split;
 use crate::CondensedModel;
@@ -79,7 +79,7 @@ impl<'s> Slopes<'s> {
             ends.map(|(slope, range)| [range[usize::from(rises(slope))]; 2]).collect();
         let x = match &self.split {
             None => Vec::new(),
-            Some(split) => Enclosure::of(split, self.model, &corner)?.map_or_else(
+            Some(split) => Enclosure::new(split, &EndBox::new(self.model, &corner))?.map_or_else(
                 || vec![Interval::between([f64::NEG_INFINITY, f64::INFINITY]); self.model.contact],
                 |found| found.intervals(),
             ),

@@ -23,9 +23,9 @@ use signorini_reference::ReferenceError;
 pub struct Split {
     n: usize,
     /// N, row by row.
-    negative: Vec<f64>,
+    pub(super) negative: Vec<f64>,
     /// P, row by row.
-    positive: Vec<f64>,
+    pub(super) positive: Vec<f64>,
     /// w
     direction: Vec<f64>,
     /// At most min (Nw)_i, and above 0.

@@ -11,19 +11,20 @@
 
 use std::collections::BTreeSet;
 
+use super::super::Pieces;
 use super::super::best::{Table, complete};
 use super::super::block::{Block, Functions};
 use super::super::chain::Chain;
 use super::super::elimination::failed;
-use super::super::form::{Admissibles, Assembly, FormData, Found, fix_unused, table};
-use super::super::residual::{blocks, of_means};
-use super::super::{Columns, Pieces};
+use super::super::form::{FormData, Found};
+use super::super::residual::{Of, Residual};
 use super::rows::storage;
 use signorini_kernel::mesh::boundary::Robin;
 use signorini_problem::Problem;
 use signorini_scene::error::Result;
 
 /// What s of a step is a sum of.
+#[derive(Clone)]
 pub(in super::super) struct StepShapes {
     /// Means of a unit of each input with the constant, each scaled opening, and each state.
     pub means: [Vec<Vec<f64>>; 3],
@@ -35,19 +36,21 @@ pub(in super::super) struct StepShapes {
     pub corrections: usize,
 }
 
-/// Why there is no bound of steps of this problem, if so.
-fn obstacle(pieces: &Pieces) -> Option<&'static str> {
-    let is_curved = pieces.patterns.iter().any(|pattern| !pattern.curved.is_empty());
-    let quads = pieces.problem.mesh.triangles.len()..pieces.problem.cells();
-    let is_oblique = |cell| !signorini_certify::cell::Cell::of(pieces.problem, cell).is_affine();
-    match () {
-        () if is_curved => {
-            Some("a gap or a value that is not linear along an edge has none in condensed steps")
+impl Pieces<'_> {
+    /// Why there is no bound of steps of this problem, if so.
+    pub(in super::super) fn obstacle_of_steps(&self) -> Option<&'static str> {
+        let is_curved = self.patterns.iter().any(|pattern| !pattern.curved.is_empty());
+        let quads = self.problem.mesh.triangles.len()..self.problem.cells();
+        let is_oblique = |cell| !signorini_certify::cell::Cell::of(self.problem, cell).is_affine();
+        match () {
+            () if is_curved => Some(
+                "a gap or a value that is not linear along an edge has none in condensed steps",
+            ),
+            () if quads.into_iter().any(is_oblique) => {
+                Some("quads that are no parallelograms have none in condensed steps")
+            }
+            () => None,
         }
-        () if quads.into_iter().any(is_oblique) => {
-            Some("quads that are no parallelograms have none in condensed steps")
-        }
-        () => None,
     }
 }
 
@@ -68,7 +71,9 @@ fn of_robin(problem: &Problem) -> Vec<Block> {
 /// How many contact vertices s is corrected at, for openings in these units, and where s − ψ comes from at the ends of each unknown's edge;
 /// none where s cannot be fixed.
 pub(super) fn corrections(pieces: &Pieces, openings: &[f64]) -> (usize, Vec<[usize; 2]>) {
-    if obstacle(pieces).is_some() || pieces.patterns.iter().any(|of| of.no_bound.is_some()) {
+    if pieces.obstacle_of_steps().is_some()
+        || pieces.patterns.iter().any(|of| of.no_bound.is_some())
+    {
         return (0, Vec::new());
     }
     let chain = Chain::new(pieces, openings, &BTreeSet::new());
@@ -120,52 +125,24 @@ impl FormData<'_> {
     ///
     /// # Errors
     /// As for [`FormData::form`].
-    pub fn of_step(&self, of: &StepShapes) -> Result<Found> {
-        let Columns { pieces, fields, openings } = self.columns;
-        let Pieces { problem, patterns, .. } = pieces;
-        let (none, edge_count) = (&BTreeSet::new(), problem.ends.len());
-        if let Some(reason) = obstacle(pieces) {
-            return Ok(Err(reason.to_owned()));
-        }
-        let chain = match Chain::new(pieces, openings, none) {
-            Ok(chain) => chain,
-            Err(reason) => return Ok(Err(reason)),
-        };
-        let functions = Functions::of(problem);
-        let by_means = of_means(problem, patterns, &functions, none)?;
+    pub fn of_step(&self, of: &StepShapes, chain: Chain) -> Result<Found> {
+        let Pieces { problem, patterns, .. } = self.columns.pieces;
+        let (edges, functions) = (problem.ends.len(), Functions::of(problem));
+        let residual = Residual::new(self.columns.pieces, &functions, self.released)?;
+        let by_means = residual.of_cells(Of::Means)?;
         let [inputs, of_openings, states] = &of.means;
-        let zeros = vec![vec![0.0; edge_count]; of.corrections];
-        let all: Vec<&[f64]> = inputs
-            .iter()
-            .chain(of_openings)
-            .chain(&zeros)
-            .chain(states)
-            .map(Vec::as_slice)
-            .collect();
+        let zeros = vec![vec![0.0; edges]; of.corrections];
+        let all = inputs.iter().chain(of_openings).chain(&zeros).chain(states);
+        let means = Table::of_columns(edges, all);
         let mut own = self.boundary_values(&chain, &functions, [inputs.len(), states.len()]);
-        let mut fixed = vec![false; functions.count()];
-        chain.fixed().iter().for_each(|&vertex| fixed[vertex as usize] = true);
-        fix_unused(&by_means, &mut fixed);
-        let means = table(edge_count, &all);
+        let fixed = chain.fixed(&functions, &by_means);
         // Nothing but a transfer law may hold a part: slopes leave a constant of s there.
         if complete(&by_means, &fixed, &means, &mut own).is_err() {
             let held = [&by_means[..], &of_robin(problem)].concat();
             complete(&held, &fixed, &means, &mut own).map_err(failed(&problem.scene))?;
         }
-        let s = of.table(&own);
-        let own = blocks(problem, patterns, &functions, None, none)?;
-        let blocks: Vec<Block> =
-            own.into_iter().chain(storage(problem, patterns, &functions)).collect();
-        let means: Vec<&[f64]> = fields.iter().map(|field| &field.u[..]).collect();
-        let jump = Some((by_means, table(edge_count, &means)));
-        let found = self.assembled(chain, &blocks, &s, jump)?;
-        let is_settled = pieces.settled.count() > 0;
-        let mending = if is_settled { self.mending() } else { None };
-        let admissible = |(form, contact)| {
-            let fluxes = self.fluxes(fields);
-            let released = Vec::new();
-            (form, Admissibles { s, fluxes, functions, contact, released, mending })
-        };
-        Ok(found.map(|found: Assembly| admissible(found)))
+        let mut rows = residual.blocks()?;
+        rows.extend(storage(problem, patterns, &functions));
+        self.assembled(chain, &rows, (of.table(&own), functions), Some(by_means))
     }
 }

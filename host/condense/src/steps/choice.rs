@@ -12,7 +12,8 @@ use faer::{Mat, Side};
 
 use super::super::CondensedModel;
 use super::gramian::Subspace;
-use super::modes::Deviations;
+use super::motion::Motion;
+use super::shapes::{Begun, Shapes};
 use signorini_kernel::evolution::{PHI, THETA};
 use signorini_problem::random::Random;
 
@@ -35,17 +36,7 @@ const REST: u32 = 40;
 pub(super) struct Trial<'t> {
     /// Its inputs are those of the scene, p⁻ and x⁻.
     pub model: &'t CondensedModel,
-    /// The steady one.
-    pub steady: &'t CondensedModel,
-    /// p, the constant first, and x at the start.
-    pub begin: [&'t [f64]; 2],
-    /// How much each input changes.
-    pub sizes: &'t [f64],
-    pub deviations: &'t Deviations,
-    /// Coordinates of the shapes of p without the constant, then of x.
-    pub columns: &'t [Vec<f64>],
-    /// Coordinates at the start.
-    pub start: &'t [f64],
+    pub motion: &'t Motion<'t>,
     /// dt and λ.
     pub pace: [f64; 2],
 }
@@ -62,7 +53,7 @@ impl Trial<'_> {
                 pairs.clone().all(|(dropped, bound)| *dropped <= SHARE * bound)
             })
         };
-        let most = self.deviations.count();
+        let most = self.motion.deviations.count();
         let tried = TRIED.iter().copied().filter(|&count| count < most).find(is_enough);
         tried.unwrap_or(most.min(TRIED[TRIED.len() - 1]))
     }
@@ -76,12 +67,14 @@ impl Trial<'_> {
     /// The inputs of each tick, and the fading mean of the steady bounds; nothing without any.
     fn reference(&self) -> Option<Reference> {
         let [step, rate] = self.pace;
-        if rate.is_nan() || rate <= 0.0 || self.sizes.is_empty() {
+        let Motion { shapes: Shapes { steady, .. }, start: Begun { inputs: begin, .. }, .. } =
+            self.motion;
+        if rate.is_nan() || rate <= 0.0 || begin.len() == 1 {
             return None;
         }
-        let inputs = trajectory(self.steady, self.sizes, self.begin[0]);
-        let bound = |p: &[f64]| self.steady.bound(p, &self.steady.solve(p).ok()?);
-        let (mut mean, fading) = (bound(self.begin[0])?.powi(2), self.fading());
+        let inputs = trajectory(steady, &self.motion.sizes, begin);
+        let bound = |p: &[f64]| steady.bound(p, &steady.solve(p).ok()?);
+        let (mut mean, fading) = (bound(begin)?.powi(2), self.fading());
         let mut bounds = Vec::new();
         for p in &inputs {
             mean = fading * mean + (1.0 - fading) * bound(p)?.powi(2);
@@ -93,10 +86,10 @@ impl Trial<'_> {
     /// The bound of what is dropped, in the same mean; nothing where a tick has no answer.
     fn dropped(&self, states: &Subspace, inputs: &[Vec<f64>]) -> Option<Vec<f64>> {
         let ([step, rate], fading) = (self.pace, self.fading());
-        let [given, x] = self.begin;
-        let (mut p_old, mut x_old) = (given[1..].to_vec(), x.to_vec());
-        let mut y = states.inner(self.start);
-        let rows = states.changes(&self.deviations.fading, self.columns);
+        let Motion { start: begin, deviations, coordinates, left, .. } = self.motion;
+        let (mut p_old, mut x_old) = (begin.inputs[1..].to_vec(), begin.openings.clone());
+        let mut y = states.inner(left);
+        let rows = states.changes(&deviations.fading, coordinates);
         let of_load = self.factor()?;
         let (mut square, mut all) = (0.0, Vec::new());
         let mut of_tick = self.model.clone();
@@ -115,15 +108,15 @@ impl Trial<'_> {
                 .chain(x.iter().zip(&x_old))
                 .map(|(now, was)| now - was)
                 .collect();
-            let mut z = states.outer(&y, self.deviations.count());
-            for (change, shape) in changes.iter().zip(self.columns) {
+            let mut z = states.outer(&y, deviations.count());
+            for (change, shape) in changes.iter().zip(coordinates) {
                 z.iter_mut().zip(shape).for_each(|(z, of)| *z -= change * of);
             }
-            z.iter_mut().zip(&self.deviations.fading).for_each(|(z, rho)| *z *= rho);
+            z.iter_mut().zip(&deviations.fading).for_each(|(z, rho)| *z *= rho);
             y = states.inner(&z);
             let kept = states.outer(&y, z.len());
             let delta: Vec<f64> = z.iter().zip(&kept).map(|(z, kept)| z - kept).collect();
-            let eta = self.square(&delta, &self.columns[p_old.len()..], &of_load);
+            let eta = self.square(&delta, &coordinates[p_old.len()..], &of_load);
             square = fading * (square + step * eta / (2.0 * (1.0 - THETA - PHI)));
             all.push((square * THETA * rate / PHI).sqrt());
             (p_old, x_old) = (p[1..].to_vec(), x);
@@ -134,10 +127,11 @@ impl Trial<'_> {
     /// S in the unit of x of the steps.
     fn factor(&self) -> Option<faer::linalg::solvers::Llt<f64>> {
         let n = self.model.contact;
-        let unit = self.steady.energy_unit;
-        let pairs = self.model.opening.iter().zip(&self.steady.opening);
+        let steady = &self.motion.shapes.steady;
+        let unit = steady.energy_unit;
+        let pairs = self.model.opening.iter().zip(&steady.opening);
         let scale: Vec<f64> = pairs.map(|(own, d)| unit * own / d).collect();
-        let entry = |i: usize, j: usize| self.steady.matrix[n * i + j] * scale[i] * scale[j];
+        let entry = |i: usize, j: usize| steady.matrix[n * i + j] * scale[i] * scale[j];
         Mat::from_fn(n, n, entry).llt(Side::Lower).ok()
     }
 
@@ -148,7 +142,8 @@ impl Trial<'_> {
         openings: &[Vec<f64>],
         of_load: &faer::linalg::solvers::Llt<f64>,
     ) -> f64 {
-        let nu: Vec<f64> = self.deviations.fading.iter().map(|rho| rho / (1.0 - rho)).collect();
+        let nu: Vec<f64> =
+            self.motion.deviations.fading.iter().map(|rho| rho / (1.0 - rho)).collect();
         let own: f64 = delta.iter().zip(&nu).map(|(d, nu)| ((1.0 + nu) * d).powi(2)).sum();
         let load = |shape: &Vec<f64>| -> f64 {
             shape.iter().zip(delta).zip(&nu).map(|((of, d), nu)| nu * of * d).sum()

@@ -9,7 +9,7 @@ use super::super::best::Table;
 use super::super::block::Block;
 use super::super::factor::{packed, triangular};
 use super::super::form::Admissibles;
-use super::super::residual::blocks;
+use super::super::residual::Residual;
 use super::super::rounding::{FEW, terms};
 use super::super::{Pieces, Recovery};
 use super::SteppedModel;
@@ -61,7 +61,7 @@ impl EvolutionForms {
         let fluxes = picked(&fields.fluxes, &columns);
         let mut residual = storage(problem, &pieces.patterns[1..of.inputs], functions);
         residual.iter_mut().for_each(|block| scale_inputs(block, 1.0 / of.model.energy_unit));
-        let motion = blocks(problem, &pieces.patterns, functions, None, &BTreeSet::new())?;
+        let motion = Residual::new(pieces, functions, &BTreeSet::new())?.blocks()?;
         let motion: Vec<Block> = motion.into_iter().map(of_s_alone).collect();
         let (moved, none) =
             (difference(&s, functions.count()), Table::new(problem.ends.len(), s.columns));
@@ -167,14 +167,7 @@ impl SteppedModel {
             let row = fields.s.row(count + place).iter();
             row.zip(&self.model.defaults).map(|(s, term)| s * term).sum()
         };
-        let edges = 0..problem.ends.len();
-        let bubble = |edge| fields.functions.bubble(edge).map_or(0.0, |place| at(place as usize));
-        CertifiedFields {
-            vertices: (0..problem.mesh.vertices.len()).map(at).collect(),
-            bubbles: edges.clone().map(bubble).collect(),
-            tau: vec![0.0; edges.end],
-            ..CertifiedFields::default()
-        }
+        fields.functions.fields(problem, at, vec![0.0; problem.ends.len()])
     }
 
     /// How much of the bound at the start rounding may hide, for these openings, in the scene's unit of energy.

@@ -30,6 +30,18 @@ impl Memory {
             begin: numbers(begin),
         }
     }
+
+    /// The size that rounding of each state may add up to, over the part of its terms that it is in a step, where openings and inputs
+    /// change by so much at most.
+    pub(crate) fn drift(&self, [of_contact, of_inputs]: [&[f64]; 2]) -> Vec<f64> {
+        let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a.abs() * b).sum::<f64>();
+        let rows = self.of_contact.iter().zip(&self.of_inputs).zip(&self.begin).zip(&self.fading);
+        let states = rows.map(|(((x, p), begin), omega)| {
+            let size = begin.abs() + sum(x, of_contact) + sum(p, of_inputs);
+            size + 2.0 * size / (1.0 - omega)
+        });
+        states.collect()
+    }
 }
 
 /// The numbers of states, the slowest first.

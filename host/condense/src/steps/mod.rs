@@ -27,8 +27,9 @@ use std::cell::LazyCell;
 
 use super::elimination::{columns, fields};
 use super::evaluate::dot;
-use super::{CondensedModel, Measure, Pieces, Recovery, Settled};
+use super::{CondensedModel, Pieces, Recovery, Settled};
 pub(super) use bound::StepShapes;
+use choice::Trial;
 pub use evolution::EvolutionForms;
 use gramian::Subspace;
 pub use memory::Memory;
@@ -146,7 +147,8 @@ fn with_settled(
         Some(memory) => memory,
         None => {
             let without = pieces.without_form(&mut pieces.fields(Vec::new())?)?.0;
-            motion.trial(&without, [length, decay_rate(problem)?]).least(dominant)
+            let pace = [length, decay_rate(problem)?];
+            Trial { model: &without, motion: &motion, pace }.least(dominant)
         }
     };
     let kept = dominant(memory);
@@ -183,18 +185,8 @@ impl SteppedModel {
     #[must_use]
     pub fn without_bound(&self) -> Self {
         let mut of = Self { corrections: 0, evolution: None, ..self.clone() };
-        let model = &mut of.model;
-        model.inputs -= self.corrections;
-        model.load.truncate(model.inputs);
-        model.spans.truncate(model.inputs);
-        model.defaults.truncate(model.inputs);
-        model.ranges.truncate(model.inputs);
-        for measure in &mut model.outputs {
-            if let Measure::Linear { of_inputs, .. } | Measure::Flux { of_inputs, .. } = measure {
-                of_inputs.truncate(model.inputs);
-            }
-        }
-        model.certificate = Err("certificate = false leaves it out".to_owned());
+        let inputs = self.model.inputs - self.corrections;
+        of.model.keep_inputs(inputs, "certificate = false leaves it out");
         of
     }
 }
@@ -215,12 +207,7 @@ impl<'p> Pieces<'p> {
     }
 
     /// These pieces in a step of `problem`, with the shape of the `constant` in what it begins from.
-    fn in_step<'q>(
-        &self,
-        problem: &'q Problem,
-        length: f64,
-        constant: &[f64],
-    ) -> Result<Pieces<'q>> {
+    fn in_step(&self, problem: &'p Problem, length: f64, constant: &[f64]) -> Result<Self> {
         let zero = State::zero(problem);
         let in_step = |(at, pattern): (usize, &TermData)| {
             // The constant's shape is there from the beginning.
@@ -228,19 +215,9 @@ impl<'p> Pieces<'p> {
                 if at == 0 { State { u: constant.to_vec(), ..zero.clone() } } else { zero.clone() };
             Ok(TermData { problem: pattern.problem.stepping(length, begin)?, ..pattern.clone() })
         };
-        Ok(Pieces {
-            problem,
-            parts: self.parts.clone(),
-            patterns: self.patterns.iter().enumerate().map(in_step).collect::<Result<_>>()?,
-            spans: self.spans.clone(),
-            edges: self.edges.clone(),
-            settled: self.settled.clone(),
-            held_by_contact: Vec::new(),
-            alone: None,
-            laws: None,
-            beyond: Vec::new(),
-            step: None,
-        })
+        let patterns = self.patterns.iter().enumerate().map(in_step).collect::<Result<_>>()?;
+        let (held_by_contact, alone) = (Vec::new(), None);
+        Ok(Pieces { problem, patterns, held_by_contact, alone, ..self.clone() })
     }
 
     /// d_i for U = 1.

@@ -9,7 +9,7 @@
 
 use faer::{Mat, Side};
 
-use super::super::elimination::{FreeRows, free_block};
+use super::super::elimination::{failed, free_block, free_rows};
 use signorini_problem::{Assembled, Problem};
 use signorini_scene::error::{InputError, Result};
 use signorini_solve::unfit;
@@ -30,7 +30,8 @@ pub(super) struct Deviations {
     vectors: Mat<f64>,
     /// The eliminated edges that store something, by their rows, and M^½ there.
     stored: Vec<(usize, f64)>,
-    rows: FreeRows,
+    /// The edges of these rows.
+    rows: Vec<usize>,
     edges: usize,
 }
 
@@ -47,8 +48,8 @@ impl Deviations {
         let step = problem.loads.step.as_ref().map(|step| step.storage(&topology)).transpose();
         let step = step.map_err(&unfit)?;
         step.iter().for_each(|step| step.add_to_diagonal(&topology, &mut masses));
-        let rows = FreeRows::new(problem, open);
-        let of_rows = rows.edges.iter().map(|&edge| masses[edge]).enumerate();
+        let rows = free_rows(problem, open);
+        let of_rows = rows.iter().map(|&edge| masses[edge]).enumerate();
         let stored: Vec<_> =
             of_rows.filter(|(_, mass)| *mass > 0.0).map(|(at, mass)| (at, mass.sqrt())).collect();
         if stored.len() > MOST {
@@ -59,7 +60,7 @@ impl Deviations {
             let hint = "take the full model (--full, model = \"full\")";
             return Err(InputError::new(message).file(&problem.scene.path).hint(hint).into());
         }
-        let (count, free, edges) = (stored.len(), rows.count(), counts.edges());
+        let (count, free, edges) = (stored.len(), rows.len(), counts.edges());
         let mut own = Self {
             fading: Vec::new(),
             roots: Vec::new(),
@@ -96,8 +97,7 @@ impl Deviations {
     pub fn coordinates(&self, u: &[f64]) -> Vec<f64> {
         let of_mode = |j: usize| {
             let terms = self.stored.iter().enumerate();
-            let of_row =
-                |(at, &(row, root))| self.vectors[(at, j)] * root * u[self.rows.edges[row]];
+            let of_row = |(at, &(row, root))| self.vectors[(at, j)] * root * u[self.rows[row]];
             let sum: f64 = terms.map(of_row).sum();
             self.roots[j] * sum
         };
@@ -111,16 +111,16 @@ impl Deviations {
         };
         // K w = M^½ Σ ψ_j κ_j^½ y_j is for edges that store nothing: the others are known without its rounding.
         let right = all.iter().flat_map(|y| self.weighed(|at| sum(at, &|j| self.roots[j] * y[j])));
-        let free = self.rows.count();
+        let free = self.rows.len();
         let has_all = self.stored.len() == free;
         let solved =
             if has_all { Vec::new() } else { self.solved(problem, &right.collect::<Vec<_>>())? };
         let shape = |(number, y): (usize, &Vec<f64>)| {
             let mut u = vec![0.0; self.edges];
             let solved = solved.iter().skip(number * free);
-            self.rows.edges.iter().zip(solved).for_each(|(&edge, &solved)| u[edge] = solved);
+            self.rows.iter().zip(solved).for_each(|(&edge, &solved)| u[edge] = solved);
             for (at, &(row, root)) in self.stored.iter().enumerate() {
-                u[self.rows.edges[row]] = sum(at, &|j| y[j] / self.roots[j]) / root;
+                u[self.rows[row]] = sum(at, &|j| y[j] / self.roots[j]) / root;
             }
             u
         };
@@ -129,7 +129,7 @@ impl Deviations {
 
     /// M^½ times what `of` gives of the edges that store something: a column over all that are eliminated.
     fn weighed(&self, of: impl Fn(usize) -> f64) -> Vec<f64> {
-        let mut column = vec![0.0; self.rows.count()];
+        let mut column = vec![0.0; self.rows.len()];
         self.stored.iter().enumerate().for_each(|(at, &(row, root))| column[row] = root * of(at));
         column
     }
@@ -139,7 +139,6 @@ impl Deviations {
         let mut steady = problem.clone();
         steady.loads.step = None;
         let assembled = Assembled::<f64>::new(&steady).map_err(unfit::<f64>(&problem.scene))?;
-        free_block(&assembled, &self.rows, right)
-            .map_err(super::super::elimination::failed(&problem.scene))
+        free_block(&assembled, &self.rows, right).map_err(failed(&problem.scene))
     }
 }

@@ -1,6 +1,5 @@
 //! How u moves from step to step, whatever states a model keeps of it.
 
-use super::choice::Trial;
 use super::gramian::{Gramian, Subspace};
 use super::modes::Deviations;
 use super::shapes::{Begun, Shapes};
@@ -9,15 +8,15 @@ use crate::{CondensedModel, Recovery, Settled};
 
 /// Shapes that a step begins from, and what u deviates from them, in coordinates of modes.
 pub(super) struct Motion<'s> {
-    shapes: &'s Shapes,
-    start: &'s Begun,
+    pub shapes: &'s Shapes,
+    pub start: &'s Begun,
     pub deviations: Deviations,
     /// Shapes of p⁻ without the constant, and of x⁻.
     pub columns: Vec<Vec<f64>>,
     /// How much each of them may change.
-    sizes: Vec<f64>,
+    pub sizes: Vec<f64>,
     /// Coordinates of these shapes.
-    coordinates: Vec<Vec<f64>>,
+    pub coordinates: Vec<Vec<f64>>,
     /// Coordinates of what the start deviates from its static shape.
     pub left: Vec<f64>,
 }
@@ -42,20 +41,6 @@ impl<'s> Motion<'s> {
 
     pub fn gramian(&self) -> Gramian<'_> {
         Gramian::new(&self.deviations.fading, (&self.coordinates, &self.sizes), &self.left)
-    }
-
-    /// The trial that finds how many states a model needs, without states so far.
-    pub fn trial<'t>(&'t self, model: &'t CondensedModel, pace: [f64; 2]) -> Trial<'t> {
-        Trial {
-            model,
-            steady: &self.shapes.steady,
-            begin: [&self.start.inputs, &self.start.openings],
-            sizes: &self.sizes[..self.inputs()],
-            deviations: &self.deviations,
-            columns: &self.coordinates,
-            start: &self.left,
-            pace,
-        }
     }
 
     /// What the bound takes of a step that keeps these states.

@@ -11,11 +11,11 @@
 //! Inputs lie in their ranges, and openings are kept within limits by the tick. So the least value over all of them, lag by lag, less
 //! what rounding may add up to in any scalar, is a proof. Where steps begin s is one number at each vertex.
 
-use super::super::ranges::history::{first, later};
+use super::super::ranges::history::{backward, column};
 use super::super::ranges::sides::widened;
 use super::super::{Recovery, Settled, Vertex};
-use super::SteppedModel;
 use super::memory::by_fading;
+use super::{Memory, SteppedModel};
 use signorini_certify::TermData;
 use signorini_problem::Problem;
 
@@ -31,7 +31,8 @@ pub(super) struct Proof<'p> {
     /// Contact vertices, and where s − ψ = e + d lies there.
     vertices: &'p [Vertex],
     raised: Vec<[f64; 2]>,
-    /// The states, the slowest first.
+    /// The states, the slowest first, and their numbers.
+    memory: Memory,
     order: Vec<usize>,
     /// The part of a sum's terms by which rounding in f32 may put it off.
     rounding: f64,
@@ -56,11 +57,12 @@ impl<'p> Proof<'p> {
             [0.0, highest.sum::<f64>().max(0.0)]
         };
         let raised = form.vertices.iter().map(raised).collect();
-        let order = by_fading(&of.fading);
+        let (memory, order) = (of.memory(), by_fading(&of.fading));
         // Half of an ε per term.
         let terms = (of.model.inputs + of.model.contact + 4) as f64;
         let rounding = ROUNDINGS.max(0.5 * terms) * f64::from(f32::EPSILON);
-        Some(Self { of, recovery, vertices: &form.vertices, inputs, raised, order, rounding })
+        let vertices = &form.vertices;
+        Some(Self { of, recovery, vertices, inputs, raised, memory, order, rounding })
     }
 
     /// The edges of which some step might break what the bound asks for.
@@ -136,25 +138,17 @@ impl<'p> Proof<'p> {
         let mut sum = Least::default();
         now.chain(raised).chain(raised_before).for_each(|(factor, range)| sum.add(*factor, *range));
         let weights: Vec<f64> = self.order.iter().map(|&at| of_states[at]).collect();
-        let fading: Vec<f64> = self.order.iter().map(|&at| of.fading[at]).collect();
-        let past = self.inputs.iter().skip(1).enumerate().map(|(j, range)| {
-            let column: Vec<f64> = self.order.iter().map(|&at| of.of_inputs[at][j]).collect();
-            (given_before[j], column, range)
-        });
-        let of_contact = of.of_contact();
-        let opened = limits.iter().enumerate().map(|(j, range)| {
-            let column: Vec<f64> = self.order.iter().map(|&at| of_contact[at][j]).collect();
-            (openings_before[j], column, range)
-        });
+        let Memory { fading, of_contact, of_inputs, .. } = &self.memory;
+        let past = self.inputs.iter().skip(1).enumerate();
+        let past = past.map(|(j, range)| (given_before[j], column(of_inputs, j), range));
+        let opened = limits.iter().enumerate();
+        let opened = opened.map(|(j, range)| (openings_before[j], column(of_contact, j), range));
         for (total, column, &range) in past.chain(opened) {
-            let pair = [&weights[..], &column];
-            let back = (first(total, pair).max(0.0) + later(&fading, pair)).max(-total);
+            let back = backward(total, fading, [&weights, &column]);
             sum.add(total + back, range);
             sum.add(-back, range);
         }
-        sum.value + self.begun(&weights, &fading)
-            - self.rounding * sum.size
-            - self.drift(&weights, &fading)
+        sum.value + self.begun(&weights) - self.rounding * sum.size - self.drift(&weights)
     }
 
     /// Factors of openings, those of e + d being `corrections`.
@@ -169,13 +163,11 @@ impl<'p> Proof<'p> {
     }
 
     /// The least that what the start has left adds in any step.
-    fn begun(&self, weights: &[f64], fading: &[f64]) -> f64 {
-        let first = self.of.inputs - 1 + self.of.model.contact;
-        let begin = &self.of.start()[first..][..fading.len()];
+    fn begun(&self, weights: &[f64]) -> f64 {
         let (mut sum, mut least, mut size) = (0.0_f64, 0.0_f64, 0.0);
         // Powers of ω fall along the states: what they make of a sum is between its parts.
-        for (weight, &at) in weights.iter().zip(&self.order) {
-            let term = weight * begin[at];
+        for (weight, begin) in weights.iter().zip(&self.memory.begin) {
+            let term = weight * begin;
             (sum, size) = (sum + term, size + term.abs());
             least = least.min(sum);
         }
@@ -183,22 +175,11 @@ impl<'p> Proof<'p> {
     }
 
     /// What the rounding of states may add up to.
-    fn drift(&self, weights: &[f64], fading: &[f64]) -> f64 {
-        let of = self.of;
-        let width = |[lo, hi]: &[f64; 2]| hi - lo;
-        let sum = |row: &[f64], ranges: &[[f64; 2]]| -> f64 {
-            row.iter().zip(ranges).map(|(factor, range)| factor.abs() * width(range)).sum()
-        };
-        let states = weights.iter().zip(fading).zip(&self.order);
-        let of_state = |((weight, omega), &at): ((&f64, &f64), &usize)| {
-            let first = of.inputs - 1 + of.model.contact;
-            let begin = of.start()[first + at].abs();
-            let size = begin
-                + sum(&of.of_contact()[at], &of.model.limits)
-                + sum(&of.of_inputs[at], &self.inputs[1..]);
-            weight.abs() * (size + 2.0 * size / (1.0 - omega))
-        };
-        self.rounding * states.map(of_state).sum::<f64>()
+    fn drift(&self, weights: &[f64]) -> f64 {
+        let widths = |of: &[[f64; 2]]| of.iter().map(|[lo, hi]| hi - lo).collect::<Vec<f64>>();
+        let [openings, inputs] = [&self.of.model.limits[..], &self.inputs[1..]].map(widths);
+        let states = weights.iter().zip(self.memory.drift([&openings, &inputs]));
+        self.rounding * states.map(|(weight, drift)| weight.abs() * drift).sum::<f64>()
     }
 }
 

@@ -22,11 +22,7 @@ pub(super) fn storage(
         let cell = Cell::of(problem, at);
         let (area, edges) = (cell.area(), problem.topology.edges_of(at));
         let k = content / area;
-        let bubbles = edges.iter().enumerate();
-        let bubbles: Vec<(usize, u32)> = bubbles
-            .filter(|_| at >= problem.mesh.triangles.len())
-            .filter_map(|(side, &edge)| Some((side, functions.bubble(edge as usize)?)))
-            .collect();
+        let bubbles = functions.bubbles_of(edges);
         let vertices = problem.vertices_of(at);
         let own: Vec<u32> =
             vertices.iter().copied().chain(bubbles.iter().map(|&(_, function)| function)).collect();
@@ -47,8 +43,10 @@ pub(super) fn storage(
             of_s.chain(rest.iter().map(|entry| factor * entry)).collect::<Vec<f64>>()
         };
         let rule = if at < problem.mesh.triangles.len() { 2 } else { 3 };
-        let points = points(&cell, rule, &[]).into_iter();
-        let columns: Vec<Vec<f64>> = transposed(points.map(row).collect());
+        let mut columns = vec![Vec::new(); 2 * own.len() + rest.len()];
+        for point in points(&cell, rule, &[]) {
+            columns.iter_mut().zip(row(point)).for_each(|(to, entry)| to.push(entry));
+        }
         Some(Block {
             functions: own.iter().copied().chain(old).collect(),
             edges: edges.to_vec(),
@@ -56,9 +54,4 @@ pub(super) fn storage(
         })
     };
     (0..problem.cells()).filter_map(of_cell).collect()
-}
-
-fn transposed(rows: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
-    let width = rows.first().map_or(0, Vec::len);
-    (0..width).map(|at| rows.iter().map(|row| row[at]).collect()).collect()
 }

@@ -73,13 +73,8 @@ fn modes_keep_their_limits() -> Result<()> {
         let model = modes.at(value);
         let x = model.solve(&model.defaults).expect("a solution");
         let (_, solution, expected) = full_at(&problem, &model.defaults)?;
-        let found = model.outputs(&model.defaults, &x);
-        for ((found, expected), measure) in found.iter().zip(&expected).zip(&model.outputs) {
-            if *measure != Measure::Bound {
-                let off = found.expect("a value") - expected.expect("a value");
-                CONDENSED.check_over(format_args!("{measure:?}"), off, solution.largest_flux());
-            }
-        }
+        let scale = solution.largest_flux();
+        check_outputs(CONDENSED, &model, [&model.defaults, &x], &expected, scale);
     }
     Ok(())
 }

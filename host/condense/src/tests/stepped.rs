@@ -40,9 +40,8 @@ fn differences(
     for tick in 0..ticks {
         let mut p = moved(model, 0.4, 17 * (tick / 3));
         p.truncate(of.inputs);
-        let direct = Options { solver: SolverKind::Direct, ..Options::default() };
         let now = problem.with_inputs(&p[1..])?.stepping(length, state)?;
-        let solution = solve(&now, &direct)?;
+        let solution = solve(&now, &Options::by(SolverKind::Direct))?;
         let terms = [&p[..], &past].concat();
         let x = model.solve(&terms).expect("a solution");
         add_to(&mut seen, states(&x));
@@ -100,7 +99,7 @@ fn a_steady_state_is_exact_with_any_states() -> Result<()> {
     for capacity in CAPACITIES {
         let (_, problem) = on_grid(&scene_of(capacity, ""), grid(4, Cells::Mixed))?;
         let steady = problem.with_inputs(&[])?;
-        let full = solve(&steady, &Options { solver: SolverKind::Direct, ..Options::default() })?;
+        let full = solve(&steady, &Options::by(SolverKind::Direct))?;
         for memory in [0, 1, 5] {
             let (of, recovery) = stepped(&problem, Some(memory))?;
             let mut past = of.start().to_vec();

@@ -247,8 +247,7 @@ fn the_bound_of_a_step_is_above_its_error() -> Result<()> {
                 fine.ends.iter().map(|ends| 0.5 * (old[ends[0] as usize] + old[ends[1] as usize]));
             let begin = State { u: means.collect(), ..State::zero(&fine) };
             let fine = fine.with_inputs(&values)?.stepping(length, begin)?;
-            let direct = Options { solver: SolverKind::Direct, ..Options::default() };
-            let u = solve(&fine, &direct)?.u;
+            let u = solve(&fine, &Options::by(SolverKind::Direct))?.u;
             let distance = distance(&fine, &u, &now, length);
             assert!(said.bound >= distance, "{length} {memory} {at}: {} {distance}", said.bound);
             assert!(

@@ -1,7 +1,5 @@
 //! Transfer coefficients that 8 points of an edge do not see have a bound: above the error, near it at the solution.
 
-use signorini_tolerances::solve::GUARANTEE_LIMITED;
-
 use super::limits_bound::Certified;
 use super::*;
 use signorini_problem::fixtures::{SMOOTH, changed, on_grid};
@@ -20,12 +18,9 @@ fn a_step_of_the_transfer_coefficient_has_a_bound() -> Result<()> {
             ],
         );
         for cells in [Cells::Triangles, Cells::Quads] {
-            let (_, problem) = on_grid(&text, grid(8, cells))?;
-            let (model, recovery) = crate::recoverable(&problem)?;
-            let certified = Certified { problem, model, recovery };
+            let certified = Certified::of(on_grid(&text, grid(8, cells))?.1)?;
             let x = certified.model.solve(&certified.model.defaults).expect("a solution");
-            let [bound, combined, _] = certified.at(&x)?;
-            GUARANTEE_LIMITED.check_at_most("combined", combined, bound);
+            let [bound, combined, _] = certified.at(h, &x)?;
             assert!(bound < near * combined, "{h} {cells:?}: {bound} {combined}");
         }
     }

@@ -4,6 +4,12 @@ use super::*;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::structured::{Trapezoids, trapezoids};
 
+/// The intervals of a solution.
+fn found_on(text: &str, mesh: Mesh) -> Result<BTreeMap<String, Found>> {
+    let (_, problem) = on_grid(text, mesh)?;
+    Ok(of_outputs(&problem, &solve(&problem, &options())?, Coverage::Usual))
+}
+
 /// The interval of an output that has one.
 fn interval<'f>(found: &'f BTreeMap<String, Found>, name: &str) -> &'f OutputBound {
     found[name].as_ref().unwrap_or_else(|why| panic!("{name}: {why}"))
@@ -36,8 +42,7 @@ fn they_hold_the_values_of_an_exact_solution() -> Result<()> {
     for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
         let mut widths = Vec::new();
         for n in [4, 16] {
-            let (_, problem) = on_grid(HARMONIC, grid(n, cells))?;
-            let found = of_outputs(&problem, &solve(&problem, &options())?, Coverage::Usual);
+            let found = found_on(HARMONIC, grid(n, cells))?;
             exact.iter().for_each(|&(name, value)| check(name, interval(&found, name), value));
             let width = |name| interval(&found, name).plus_minus;
             assert!(width("two") <= width("bottom") + width("cold"), "{cells:?}: {found:?}");
@@ -66,8 +71,7 @@ output.through = { kind = "flux", of = "right" }
     let exact = 1.0 / (4.0 / 7.0 + (9.0_f64 / 7.0).ln());
     for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
         for n in [1, 2, 4, 8] {
-            let (_, problem) = on_grid(PLATEAU, grid(n, cells))?;
-            let found = of_outputs(&problem, &solve(&problem, &options())?, Coverage::Usual);
+            let found = found_on(PLATEAU, grid(n, cells))?;
             let through = interval(&found, "through");
             check(&format!("{cells:?} {n}"), through, exact);
             assert!(through.plus_minus > 0.0, "{through:?}");
@@ -92,8 +96,7 @@ setting.element = "nonparametric"
     for vertex in &mut mesh.vertices {
         *vertex = [vertex[0], if vertex[0] < 0.0 { vertex[1] } else { 3.0 * vertex[1] }];
     }
-    let (_, problem) = on_grid(TRAPEZOID, mesh)?;
-    let found = of_outputs(&problem, &solve(&problem, &options())?, Coverage::Usual);
+    let found = found_on(TRAPEZOID, mesh)?;
     let middle = interval(&found, "middle");
     check("the area's", middle, -5.0 / 12.0 + 2.0 * 13.0 / 12.0);
     assert!(middle.plus_minus < 1e-6, "{middle:?}");
@@ -177,8 +180,7 @@ output.side = { kind = "flux", of = "left" }
 fn without_transfer_there_are_intervals_that_hold() -> Result<()> {
     let (_, fine) = on_grid(ROOF, grid(32, Cells::Triangles))?;
     let exact = outputs(&fine, &solve(&fine, &options())?)?;
-    let (_, problem) = on_grid(ROOF, grid(4, Cells::Triangles))?;
-    let found = of_outputs(&problem, &solve(&problem, &options())?, Coverage::Usual);
+    let found = found_on(ROOF, grid(4, Cells::Triangles))?;
     for name in ["below", "side"] {
         check(name, interval(&found, name), exact[name].expect("a value"));
     }

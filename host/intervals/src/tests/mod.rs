@@ -21,7 +21,7 @@ use signorini_tolerances::solve::SHARED_SOLVER;
 use signorini_tolerances::{is_whole, some};
 
 fn options() -> Options {
-    Options { solver: SolverKind::Factor, ..Options::default() }
+    Options::by(SolverKind::Factor)
 }
 
 fn scene(name: &str) -> Result<Scene> {

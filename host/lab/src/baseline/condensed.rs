@@ -11,7 +11,7 @@ use faer::Mat;
 
 use signorini_condense::{CondensedModel, along_boundary};
 use signorini_problem::Problem;
-use signorini_reference::{Factor, Linear};
+use signorini_reference::{Factor, LinearFactor};
 use signorini_scene::Result;
 
 use super::failed;
@@ -90,12 +90,11 @@ fn held_by_contact(floating: &[bool], schur: &Mat<f64>) -> Vec<Vec<usize>> {
 /// b̃ of every tick.
 fn condensed_loads(full: &Quadratic) -> Result<Vec<Vec<f64>>> {
     let (n, free) = (full.contact(), full.free());
-    let mut inner = Matrix::new();
-    (0..free).for_each(|row| inner.push(full.matrix.row(row).filter(|&(j, _)| j < free)));
+    let own = |row| full.matrix.row(row).filter(|&(j, _)| j < free).map(|(j, k)| (j as u32, k));
+    let inner = LinearFactor::new((0..free).map(own)).map_err(failed)?;
     let loads: Vec<f64> =
         full.ticks.iter().flat_map(|tick| tick.load[..free].iter().copied()).collect();
-    let Matrix { row_ptr, col_idx, values } = &inner;
-    let inner = Linear { row_ptr, col_idx, values }.solve(&loads).map_err(failed)?;
+    let inner = inner.solve(&loads).map_err(failed)?;
     let of_tick = |(at, tick): (usize, &QuadraticLoads)| {
         let z = &inner[at * free..(at + 1) * free];
         let held = |i: usize| {

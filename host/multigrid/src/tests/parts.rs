@@ -73,7 +73,7 @@ fn vertex_matrix_is_product(square: &Square, count: usize) {
     }
     let mut stiffness = vec![vec![0.0; n]; n];
     for (at, row) in stiffness.iter_mut().enumerate() {
-        problem.row(at).for_each(|(column, value)| row[column] = 2.0 * value);
+        problem.contact.row(at).for_each(|(column, value)| row[column] = 2.0 * value);
     }
     let expected = product(&transposed(&means), &product(&stiffness, &means));
     let found = galerkin(&problem, &numbering, 2.0);

@@ -111,7 +111,8 @@ impl Square {
     /// K times x.
     pub fn times(&self, x: &[f64]) -> Vec<f64> {
         let problem = self.problem();
-        let row = |at: usize| problem.row(at).map(|(column, value)| value * x[column]).sum();
+        let row =
+            |at: usize| problem.contact.row(at).map(|(column, value)| value * x[column]).sum();
         (0..self.load.len()).map(row).collect()
     }
 

@@ -75,7 +75,7 @@ fn plain_linear_solve_without_contact() {
 #[test]
 fn nothing_to_solve() {
     let solution = solve(&Stencil::from_rows(&[], Vec::new(), Vec::new())).expect("solvable");
-    assert!(solution.u.is_empty() && solution.residual == 0.0);
+    assert!(solution.u.is_empty());
 }
 
 /// Two chains a – free – b that nothing holds but contact at a and b (unknowns 2, 3 and 4, 5).

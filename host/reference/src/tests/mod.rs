@@ -17,6 +17,11 @@ impl Random {
         ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
+    /// In (0, 1).
+    fn part(&mut self) -> f64 {
+        0.5 + 0.5 * self.next()
+    }
+
     fn vector(&mut self, length: usize) -> Vec<f64> {
         (0..length).map(|_| self.next()).collect()
     }

@@ -41,11 +41,11 @@ impl<'p, R: Scalar> Sweeps<'p, R> for Assembled<'p, R> {
 
 impl<'p> Sweeps<'p, f64> for Mixed<'p> {
     fn assembled(&self) -> &Assembled<'p, f64> {
-        Mixed::assembled(self)
+        &self.wide
     }
 
     fn assembled_mut(&mut self) -> &mut Assembled<'p, f64> {
-        Mixed::assembled_mut(self)
+        &mut self.wide
     }
 
     fn run(&mut self, settings: Settings<f64>, u: &mut [f64]) -> Refused<Outcome<f64>> {

@@ -5,6 +5,7 @@
 //!   a contact edge     ψ where the old edge touched; else not on the other side of ψ than the old edge
 //! ```
 
+use std::cmp::Ordering;
 use std::collections::HashMap;
 
 use super::Level;
@@ -23,7 +24,7 @@ pub(super) fn start(level: &Level, problem: &Problem, carried: &Carried) -> Vec<
             }
         }
     }
-    let before = states(level);
+    let before = sides_of_gap(level);
     let free = problem.topology.counts.free;
     let origins: HashMap<_, _> = carried.boundary.iter().map(|of| (of.edge, of.origin)).collect();
     for (at, u) in u.iter_mut().enumerate().skip(free) {
@@ -31,9 +32,9 @@ pub(super) fn start(level: &Level, problem: &Problem, carried: &Carried) -> Vec<
         let old = origins.get(&[a.min(b), a.max(b)]).and_then(|origin| before.get(origin));
         let gap = problem.loads.gap[at - free];
         match old {
-            Some(&State::Touching) => *u = gap,
-            Some(&State::Above) => *u = u.max(gap),
-            Some(&State::Below) => *u = u.min(gap),
+            Some(Ordering::Equal) => *u = gap,
+            Some(Ordering::Greater) => *u = u.max(gap),
+            Some(Ordering::Less) => *u = u.min(gap),
             None => {}
         }
     }
@@ -61,27 +62,14 @@ fn at_middle(level: &Level, cell: usize, problem: &Problem, edge: usize) -> Opti
     Some(field.sample(&Point { x, reference, weight: 0.0 }).u)
 }
 
-/// On which side of ψ an edge was.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum State {
-    Touching,
-    Above,
-    Below,
-}
-
-/// Of every contact edge, by its vertices.
-fn states(level: &Level) -> HashMap<[u32; 2], State> {
+/// The side of ψ that u was on, of every contact edge by its vertices.
+fn sides_of_gap(level: &Level) -> HashMap<[u32; 2], Ordering> {
     let Level { problem, solution, .. } = level;
     let counts = problem.topology.counts;
     let of_edge = |at: usize| {
         let [a, b] = problem.ends[counts.free + at];
         let (u, gap) = (solution.u[counts.free + at], solution.gap(problem, at));
-        let state = match u.partial_cmp(&gap) {
-            Some(std::cmp::Ordering::Greater) => State::Above,
-            Some(std::cmp::Ordering::Less) => State::Below,
-            _ => State::Touching,
-        };
-        ([a.min(b), a.max(b)], state)
+        ([a.min(b), a.max(b)], u.partial_cmp(&gap).unwrap_or(Ordering::Equal))
     };
     (0..counts.contact).map(of_edge).collect()
 }

@@ -15,8 +15,23 @@ use signorini_tolerances::{is_whole, some};
 const KINDS: [Cells; 3] = [Cells::Triangles, Cells::Quads, Cells::Mixed];
 
 fn wanted(goal: Goal) -> Wanted {
-    let options = Options { solver: SolverKind::Auto, ..Options::default() };
+    let options = Options::by(SolverKind::Auto);
     Wanted { goal, most_unknowns: 60_000, options }
+}
+
+/// With the average of u_h for s: a better one gains most where cells are fine everywhere.
+fn averaged(goal: Goal) -> Wanted {
+    let wanted = wanted(goal);
+    Wanted { options: Options { averages: true, ..wanted.options }, ..wanted }
+}
+
+/// The problem on a mesh refined everywhere, and its bound as a goal.
+fn uniform(scene: &Scene, mesh: &Mesh, times: u32) -> (Problem, Goal) {
+    let finer =
+        (1..times).fold(refined(mesh).expect("finer"), |mesh, _| refined(&mesh).expect("finer"));
+    let problem = Problem::new(scene, finer).expect("a problem");
+    let solution = solve(&problem, &averaged(Goal::Part(1.0)).options).expect("a solution");
+    (problem, Goal::Energy(solution.bound.expect("a bound").total))
 }
 
 /// N and bound of every level, and how it ended.
@@ -109,23 +124,14 @@ fn the_bound_falls_as_it_would_without_the_corner() {
 }
 
 /// Never more unknowns than 1.3 times those of the mesh refined everywhere. On quads 1.4 times, and 1.5 times where u is like r^{3/2}:
-/// their cuts are triangles, between which less of the oscillation cancels than in a row of quads. With the average: a better s gains
-/// most where cells are fine everywhere.
+/// their cuts are triangles, between which less of the oscillation cancels than in a row of quads.
 #[test]
 fn where_u_is_smooth_it_costs_what_refining_everywhere_does() {
     for (text, kind) in [(SMOOTH.to_owned(), 0), (two_transitions([-1.0, 2.0]), 1)] {
         let scene = scene(&text).expect("a scene");
         for cells in KINDS {
             let mesh = if kind == 0 { with_four_sides(grid(4, cells)) } else { grid(4, cells) };
-            let finer = refined(&refined(&mesh).expect("finer")).expect("finer");
-            let problem = Problem::new(&scene, finer).expect("a problem");
-            let averaged = |goal: Goal| {
-                let mut wanted = wanted(goal);
-                wanted.options.averages = true;
-                wanted
-            };
-            let uniform = solve(&problem, &averaged(Goal::Part(1.0)).options).expect("a solution");
-            let goal = Goal::Energy(uniform.bound.expect("a bound").total);
+            let (problem, goal) = uniform(&scene, &mesh, 2);
             let (levels, _, stop) = levels(&scene, mesh, &averaged(goal));
             let factor = if cells == Cells::Quads { [1.4, 1.5][kind] } else { 1.3 };
             let most = factor * problem.topology.counts.unknowns() as f64;
@@ -135,22 +141,13 @@ fn where_u_is_smooth_it_costs_what_refining_everywhere_does() {
     }
 }
 
-/// On open edges s takes nothing of a curved gap, and cells may stay coarse there. With the average: a better s gains most where cells
-/// are fine everywhere.
+/// On open edges s takes nothing of a curved gap, and cells may stay coarse there.
 #[test]
 fn a_curved_gap_is_followed_where_it_touches_alone() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../meshes/scenes/strip.toml");
     let scene = Scene::read(file.as_ref()).expect("a scene");
     let mesh = mesh::read(&scene.mesh.value).expect("a mesh");
-    let finer = refined(&mesh).expect("finer");
-    let problem = Problem::new(&scene, finer).expect("a problem");
-    let averaged = |goal| {
-        let mut wanted = wanted(goal);
-        wanted.options.averages = true;
-        wanted
-    };
-    let uniform = solve(&problem, &averaged(Goal::Part(1.0)).options).expect("a solution");
-    let goal = Goal::Energy(uniform.bound.expect("a bound").total);
+    let (problem, goal) = uniform(&scene, &mesh, 1);
     let (levels, _, stop) = levels(&scene, mesh, &averaged(goal));
     assert_eq!(stop, Stop::Reached);
     assert!(levels[levels.len() - 1][0] < 0.5 * problem.topology.counts.unknowns() as f64);

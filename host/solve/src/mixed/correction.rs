@@ -10,18 +10,11 @@ use super::Refused;
 /// A contact problem for the rest of u, in f32 and in the unit s.
 #[derive(Debug)]
 pub(super) struct Correction {
-    pub load: Vec<f32>,
-    pub lower: Vec<f32>,
+    load: Vec<f32>,
+    lower: Vec<f32>,
     spans: Vec<f32>,
     /// One entry an edge, 0 on Dirichlet edges.
-    pub v: Vec<f32>,
-}
-
-/// Arrays of a correction in the form that the kernel takes.
-pub(super) struct Posed<'c> {
-    pub load: &'c [f32],
-    pub law: Law<'c, f32>,
-    pub v: &'c mut [f32],
+    v: Vec<f32>,
 }
 
 impl Correction {
@@ -66,10 +59,14 @@ impl Correction {
         }
     }
 
-    /// The problem that the kernel solves, and v.
-    pub fn posed(&mut self) -> Refused<Posed<'_>> {
+    /// The problem that the kernel solves with the matrix of `narrow`, and v.
+    pub fn posed<'c>(
+        &'c mut self,
+        narrow: &System<'c, f32, u32>,
+    ) -> Refused<(System<'c, f32, u32>, &'c mut [f32])> {
         let Self { load, lower, spans, v } = self;
-        Ok(Posed { load, law: Law::above(lower).with_spans(Spans::new(spans)?), v })
+        let law = Law::above(lower).with_spans(Spans::new(spans)?);
+        Ok((narrow.with_data(load, law)?, v))
     }
 
     /// Adds it to u.

@@ -20,18 +20,17 @@ use signorini_kernel::Error as KernelError;
 use signorini_kernel::rows::{self, Row, Rows};
 use signorini_kernel::solver::{Outcome, Settings};
 
-use super::{Attempt, Clock, Options, Ran, ScalarKind, Solution, Solved, unfit};
 use correction::Correction;
 use rounds::Rounds;
 use signorini_problem::{Assembled, Parts, Problem};
-use signorini_scene::error::Result;
 
-type Refused<T> = std::result::Result<T, KernelError>;
+type Refused<T> = Result<T, KernelError>;
 
 /// A problem assembled in both scalars, for many solves.
 #[derive(Debug)]
 pub struct Mixed<'p> {
-    wide: Assembled<'p, f64>,
+    /// The problem in f64, whose loads may become those of another time.
+    pub wide: Assembled<'p, f64>,
     narrow: Assembled<'p, f32>,
     rows: Packed,
     correction: Correction,
@@ -71,16 +70,6 @@ impl<'p> Mixed<'p> {
         Ok(Self { wide, narrow, rows, correction: Correction::new(counts) })
     }
 
-    /// The problem in f64.
-    pub fn assembled(&self) -> &Assembled<'p, f64> {
-        &self.wide
-    }
-
-    /// The problem in f64, for the loads of another time.
-    pub fn assembled_mut(&mut self) -> &mut Assembled<'p, f64> {
-        &mut self.wide
-    }
-
     /// Sweeps until `settings` are met, in f64. `u` (one entry an edge, u_D included) is start and answer.
     ///
     /// # Errors
@@ -97,22 +86,4 @@ impl<'p> Mixed<'p> {
             }
         }
     }
-}
-
-/// Solves `problem` in both scalars; the answer is one in f64.
-///
-/// # Errors
-/// No solution, numbers that f32 cannot hold.
-pub fn mixed(problem: &Problem, options: &Options) -> Result<Solution> {
-    let unfit = unfit::<f32>(&problem.scene);
-    let settings = Options { scalar: ScalarKind::F64, ..*options }.settings();
-    let parts = Parts::examine(problem)?;
-    let mut clock = Clock::start();
-    let mut mixed = Mixed::new(problem, &parts).map_err(&unfit)?;
-    let assembly = clock.lap();
-    let mut u = mixed.wide.start();
-    let Corrected { outcome, .. } = mixed.run(settings, &mut u).map_err(&unfit)?;
-    let (parts, assembled, averages) = (&parts, mixed.wide, options.averages);
-    let attempt = Attempt { problem, parts, assembled, averages, assembly, clock };
-    attempt.conclude(Solved { outcome, ran: Ran::Sweeps, factored: None, u, low: Vec::new() })
 }

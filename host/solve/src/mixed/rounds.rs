@@ -5,7 +5,7 @@ use signorini_kernel::rows::Rows;
 use signorini_kernel::solver::{Outcome, Settings, Solver, Status};
 use signorini_kernel::system::{Residual, System};
 
-use super::correction::{Correction, Posed};
+use super::correction::Correction;
 use super::{Corrected, Refused};
 
 /// Sweeps without a fall of the residual after which a solve has stalled.
@@ -58,8 +58,7 @@ impl Rounds<'_> {
                 return Ok(now);
             }
             correction.pose(&wide, unit, u);
-            let Posed { load, law, v } = correction.posed()?;
-            let system = narrow.with_data(load, law)?;
+            let (system, v) = correction.posed(&narrow)?;
             if now.corrections == 0 {
                 solver.start(&system, &mut rows, v)?;
             } else {

@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
-use super::{distance, read, standard_scenes};
+use super::{LOOSE, distance, read, standard_scenes};
 use crate::auto::by_factor;
 use crate::cost::Size;
-use crate::{Options, Ran, ScalarKind, Solution, SolverKind, solve};
-use signorini_problem::Parts;
+use crate::{Options, Ran, ScalarKind, Solution, SolverKind, Task, solve};
 use signorini_problem::fixtures::{SMOOTH, on_grid};
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{Parts, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_tolerances::Tolerance;
@@ -15,22 +16,12 @@ use signorini_tolerances::solve::{
     AGREEMENT, BOUND_OF_FACTOR, BOUND_OF_FACTOR_NARROW, FACTOR_NARROW,
 };
 
-const AUTO: Options = Options {
-    scalar: ScalarKind::F64,
-    solver: SolverKind::Auto,
-    tolerance: None,
-    to_the_floor: false,
-    max_sweeps: None,
-    averages: false,
-};
-
-/// A domain that nothing holds, in balance.
-const LOOSE: &str = r#"
-mesh = "grid"
-material.default.conductivity = "1"
-source.f = "x"
-boundary.default = { kind = "neumann", flux = "0" }
-"#;
+/// The answer of the kernel's factor alone, in this scalar.
+pub(super) fn factored<R: Scalar>(problem: &Problem) -> Result<Option<Solution>> {
+    let parts = &Parts::examine(problem)?;
+    let options = &Options { scalar: ScalarKind::of::<R>(), ..Options::default() };
+    by_factor::<R>(&Task { problem, parts, options, start: &[] }, None)
+}
 
 /// Asserts one answer: converged, equal active edges, u and bound.
 fn same(name: &str, found: &Solution, kernel: &Solution, allowed: [Tolerance; 2]) {
@@ -52,16 +43,14 @@ fn the_factor_alone_answers_like_the_kernel_on_every_standard_scene() -> Result<
     for path in standard_scenes() {
         let (_, problem) = read(&path)?;
         let name = path.file_stem().unwrap().to_string_lossy();
-        let parts = Parts::examine(&problem)?;
         let kernel = solve(&problem, &Options::default())?;
-        let found = by_factor::<f64>(&problem, &parts, &AUTO, &[], None)?.expect("a factor");
+        let found = factored::<f64>(&problem)?.expect("a factor");
         same(&name, &found, &kernel, [AGREEMENT, BOUND_OF_FACTOR]);
-        let single = Options { scalar: ScalarKind::F32, ..AUTO };
-        let found = by_factor::<f32>(&problem, &parts, &single, &[], None)?.expect("a factor");
+        let found = factored::<f32>(&problem)?.expect("a factor");
         assert!(found.converged() && found.ran == Ran::Factor, "{name}");
         let far = distance(&found.u, &kernel.u);
         FACTOR_NARROW.check(&name, far);
-        let chosen = solve(&problem, &AUTO)?;
+        let chosen = solve(&problem, &Options::by(SolverKind::Auto))?;
         same(&name, &chosen, &kernel, [AGREEMENT, BOUND_OF_FACTOR]);
     }
     Ok(())
@@ -74,7 +63,7 @@ fn small_meshes_are_swept_and_large_ones_factored() -> Result<()> {
         (Cells::Quads, ScalarKind::F64),
         (Cells::Mixed, ScalarKind::F32),
     ] {
-        let auto = Options { scalar, ..AUTO };
+        let auto = Options { scalar, ..Options::by(SolverKind::Auto) };
         let (_, problem) = on_grid(SMOOTH, grid(8, cells))?;
         let small = solve(&problem, &auto)?;
         assert_eq!((small.ran, small.factored), (Ran::Sweeps, None));
@@ -169,11 +158,12 @@ fn the_choice_is_near_the_quickest_of_the_record() {
 #[test]
 fn what_nothing_holds_goes_to_the_direct_solver() -> Result<()> {
     let (_, problem) = on_grid(LOOSE, grid(40, Cells::Triangles))?;
-    let found = solve(&problem, &AUTO)?;
+    let found = solve(&problem, &Options::by(SolverKind::Auto))?;
     assert_eq!((found.ran, found.sweeps), (Ran::Direct, 0));
-    let direct = solve(&problem, &Options { solver: SolverKind::Direct, ..AUTO })?;
+    let direct = solve(&problem, &Options::by(SolverKind::Direct))?;
     assert_eq!(distance(&found.u, &direct.u), 0.0);
-    let single = solve(&problem, &Options { scalar: ScalarKind::F32, ..AUTO })?;
+    let single =
+        solve(&problem, &Options { scalar: ScalarKind::F32, ..Options::by(SolverKind::Auto) })?;
     assert!(single.converged() && single.ran == Ran::Sweeps, "{}", single.ending());
     Ok(())
 }
@@ -181,7 +171,7 @@ fn what_nothing_holds_goes_to_the_direct_solver() -> Result<()> {
 #[test]
 fn the_direct_solver_has_steps_and_tells_a_tolerance_that_it_misses() -> Result<()> {
     let (_, problem) = on_grid(SMOOTH, grid(8, Cells::Triangles))?;
-    let with = |tolerance| Options { solver: SolverKind::Direct, tolerance, ..AUTO };
+    let with = |tolerance| Options { tolerance, ..Options::by(SolverKind::Direct) };
     let found = solve(&problem, &with(None))?;
     assert_eq!((found.ran, found.sweeps), (Ran::Direct, 0));
     assert!(found.ending().contains("active-set steps") && !found.ending().contains("sweeps"));

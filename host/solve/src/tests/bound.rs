@@ -1,8 +1,8 @@
 //! The bound of a solve: it holds where rounding is most of it (thin cells, u large against its changes), and it is the
 //! identity where extensions of rough data are.
 
-use crate::{Options, ScalarKind, SolverKind, solve};
-use signorini_certify::exact::distance;
+use super::judged;
+use crate::{Options, ScalarKind, SolverKind};
 use signorini_problem::fixtures::{self, on_grid};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
@@ -31,10 +31,7 @@ exact = { u = "OFFSET + x", gradient = ["1", "0"] }
 fn bound(text: &str, cells: Cells, height: f64, options: Options) -> Result<[f64; 2]> {
     let mut mesh = grid(3, cells);
     mesh.vertices.iter_mut().for_each(|vertex| vertex[1] *= height);
-    let (scene, problem) = on_grid(text, mesh)?;
-    let solution = solve(&problem, &options)?;
-    let exact = scene.exact.as_ref().expect("an exact solution");
-    let found = distance(exact, &problem, &solution.certified.admissible())?;
+    let (solution, found) = judged(&on_grid(text, mesh)?.1, &options)?;
     Ok([solution.bound.expect("a bound").total, found.combined])
 }
 
@@ -81,12 +78,8 @@ fn the_bound_is_the_identity_for_gaps_with_kinks() -> Result<()> {
             .replace("20 + 1e6*y", "y^2 - x^2 + 1")
             .replace("\"-x^2\"", &format!("{gap:?}"));
         for cells in [Cells::Triangles, Cells::Quads] {
-            let (scene, problem) = on_grid(&(text.clone() + exact), grid(4, cells))?;
-            let options = Options { solver: SolverKind::Direct, ..Options::default() };
-            let solution = solve(&problem, &options)?;
-            let exact = scene.exact.as_ref().expect("an exact solution");
-            let admissible = solution.certified.admissible();
-            let found = distance(exact, &problem, &admissible)?;
+            let (_, problem) = on_grid(&(text.clone() + exact), grid(4, cells))?;
+            let (solution, found) = judged(&problem, &Options::by(SolverKind::Direct))?;
             let ratio = solution.bound.expect("a bound").duality_gap / found.identity;
             CURVED_ENERGY.check(format_args!("{gap}, {cells:?}"), ratio - 1.0);
         }
@@ -107,10 +100,9 @@ fn the_bound_is_the_identity_beside_narrow_transfer_coefficients() -> Result<()>
          gradient = [\"2*x\", \"-2*y\"]\n"
     );
     for cells in [Cells::Triangles, Cells::Mixed] {
-        let (scene, problem) = on_grid(&text, grid(4, cells))?;
-        let solution = solve(&problem, &Options::default())?;
-        let (exact, bound) = (scene.exact.as_ref().expect("one"), solution.bound.expect("a bound"));
-        let found = distance(exact, &problem, &solution.certified.admissible())?;
+        let (_, problem) = on_grid(&text, grid(4, cells))?;
+        let (solution, found) = judged(&problem, &Options::default())?;
+        let bound = solution.bound.expect("a bound");
         assert!(found.combined <= bound.total, "{found:?} {bound:?}");
         assert!((bound.duality_gap / found.identity - 1.0).abs() < 2e-3, "{found:?} {bound:?}");
     }

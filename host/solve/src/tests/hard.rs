@@ -25,8 +25,7 @@ fn the_factor_takes_over_where_sweeps_do_not_end() -> Result<()> {
     for tensor in [[1e4 + 1.0, 1e2, 1.0], [9000.001, 3000.0, 1000.0]] {
         let (_, problem) = with_tensor("t-h-tri.toml", tensor)?;
         let found = solve(&problem, &Options::default())?;
-        let direct = Options { solver: SolverKind::Direct, ..Options::default() };
-        let reference = solve(&problem, &direct)?;
+        let reference = solve(&problem, &Options::by(SolverKind::Direct))?;
         let what = format!("{tensor:?}: {:?}, {:?}", found.status, found.factored);
         assert!(found.converged() && found.sweeps == 10_000, "{what}");
         let factored = found.factored.expect("a factor");

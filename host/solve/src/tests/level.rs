@@ -33,7 +33,7 @@ fn a_level_between_two_gaps_is_free_and_told() -> Result<()> {
     let problem = slab("0", ["0.2", "-1", "0"], ["-0.1", "0", "1"])?;
     // The reference's active set does not settle there, and says so.
     for solver in [SolverKind::Kernel, SolverKind::Auto] {
-        let found = solve(&problem, &Options { solver, ..Options::default() })?;
+        let found = solve(&problem, &Options::by(solver))?;
         let levels = free_levels(&problem, &found)?;
         let [level] = levels[..] else { panic!("{solver:?}: {levels:?}") };
         let u = found.u[0];
@@ -55,7 +55,7 @@ fn a_level_that_an_edge_holds_is_not_told() -> Result<()> {
     ];
     for problem in cases {
         for solver in [SolverKind::Kernel, SolverKind::Direct] {
-            let found = solve(&problem, &Options { solver, ..Options::default() })?;
+            let found = solve(&problem, &Options::by(solver))?;
             assert_eq!(free_levels(&problem, &found)?, [], "{solver:?}: {:?}", found.u);
         }
     }
@@ -78,7 +78,7 @@ boundary.right = { kind = \"neumann\", flux = \"0\" }
     for n in [1, 4, 8, 16] {
         let (_, problem) = on_grid(text, grid(n, Cells::Triangles))?;
         for solver in [SolverKind::Kernel, SolverKind::Auto] {
-            let found = solve(&problem, &Options { solver, ..Options::default() })?;
+            let found = solve(&problem, &Options::by(solver))?;
             let levels = free_levels(&problem, &found)?;
             let [level] = levels[..] else { panic!("{n}, {solver:?}: {levels:?}") };
             let room = level.by[0] + level.by[1];

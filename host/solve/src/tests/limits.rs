@@ -3,27 +3,24 @@
 use signorini_tolerances::cases;
 use signorini_tolerances::solve::{DUVAUT, LIMITED, LIMITED_NARROW, LIMITED_RANDOM};
 
-use super::{Options, SolverKind, distance, mixed, solve};
-use crate::auto::by_factor;
+use super::auto::factored;
+use super::{Options, SolverKind, distance, judged, mixed, solve};
 use crate::outputs::outputs;
 use crate::{ScalarKind, Solution};
-use signorini_certify::exact::distance as distance_to_exact;
+use signorini_problem::Problem;
 use signorini_problem::fixtures::limited::{drawn, fading, three_states, two_transitions, wall};
 use signorini_problem::fixtures::{distorted, on_grid};
-use signorini_problem::{Parts, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::structured::{Cells, grid};
 
-fn solved(problem: &Problem, solver: SolverKind, scalar: ScalarKind) -> Result<Solution> {
-    solve(problem, &Options { solver, scalar, ..Options::default() })
+fn by((solver, scalar): (SolverKind, ScalarKind)) -> Options {
+    Options { solver, scalar, ..Options::default() }
 }
 
-const WAYS: [(SolverKind, ScalarKind); 3] = [
-    (SolverKind::Kernel, ScalarKind::F64),
-    (SolverKind::Kernel, ScalarKind::F32),
-    (SolverKind::Direct, ScalarKind::F64),
-];
+const KERNEL: (SolverKind, ScalarKind) = (SolverKind::Kernel, ScalarKind::F64);
+const DIRECT: (SolverKind, ScalarKind) = (SolverKind::Direct, ScalarKind::F64);
+const WAYS: [(SolverKind, ScalarKind); 3] = [KERNEL, (SolverKind::Kernel, ScalarKind::F32), DIRECT];
 
 /// Duvaut and Lions in one dimension: the skin is above + σ/2 over a height of 1, and σ is what the law allows.
 #[test]
@@ -59,7 +56,7 @@ fn a_thermostat_heats_as_much_as_it_needs_and_can() -> Result<()> {
         for (above, ends, sigma, skin) in cases {
             let (_, problem) = on_grid(&wall(above, ends), grid(4, cells))?;
             for (solver, scalar) in WAYS {
-                let found = solved(&problem, solver, scalar)?;
+                let found = solve(&problem, &by((solver, scalar)))?;
                 let values = outputs(&problem, &found)?;
                 let value = |name: &str| values[name].expect("a value");
                 let name = format!("{above}, {ends:?}, {solver:?} {scalar:?}");
@@ -83,12 +80,10 @@ fn both_transitions_converge_and_are_bounded() -> Result<()> {
     for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
         let mut before: Option<f64> = None;
         for n in [8, 16, 32] {
-            let (scene, problem) = on_grid(&two_transitions([0.0, 1.5]), grid(n, cells))?;
-            let exact = scene.exact.as_ref().expect("an exact solution");
-            let found = solved(&problem, SolverKind::Kernel, ScalarKind::F64)?;
-            let reference = solved(&problem, SolverKind::Direct, ScalarKind::F64)?;
+            let (_, problem) = on_grid(&two_transitions([0.0, 1.5]), grid(n, cells))?;
+            let (found, of) = judged(&problem, &by(KERNEL))?;
+            let reference = solve(&problem, &by(DIRECT))?;
             LIMITED.check(format_args!("{cells:?} {n}"), distance(&found.u, &reference.u));
-            let of = distance_to_exact(exact, &problem, &found.certified.admissible())?;
             let ratio = found.bound.expect("a bound").total / of.combined;
             let counts = states(&problem, &found);
             assert!((1.0..1.02).contains(&ratio), "{cells:?} {n}: {ratio}");
@@ -130,24 +125,21 @@ pub(super) fn meshes(n: u32) -> [(&'static str, Mesh); 4] {
 #[test]
 fn a_solution_with_three_states_is_found_and_bounded() -> Result<()> {
     for (name, mesh) in meshes(20) {
-        let (scene, problem) = on_grid(&three_states(), mesh)?;
-        let exact = scene.exact.as_ref().expect("an exact solution");
-        let reference = solved(&problem, SolverKind::Direct, ScalarKind::F64)?;
+        let (_, problem) = on_grid(&three_states(), mesh)?;
+        let reference = solve(&problem, &by(DIRECT))?;
         for (solver, scalar) in WAYS {
-            let found = solved(&problem, solver, scalar)?;
+            let (found, of) = judged(&problem, &by((solver, scalar)))?;
             let far = distance(&found.u, &reference.u);
             if scalar == ScalarKind::F64 {
                 LIMITED.check(format_args!("{name} {solver:?}"), far);
             }
-            let of = distance_to_exact(exact, &problem, &found.certified.admissible())?;
             let bound = found.bound.expect("a bound").total;
             let gap = found.bound.expect("a bound").duality_gap;
             assert!(bound >= of.combined && bound >= of.identity, "{name}: {bound} {of:?}");
             assert!(gap < 1.02 * of.combined, "{name}: {gap} {of:?}");
         }
-        let found = mixed(&problem, &Options::default())?;
-        assert!(found.converged(), "{name}: {:?}", found.status);
-        LIMITED.check(format_args!("{name}, mixed"), distance(&found.u, &reference.u));
+        let (u, _) = mixed(name, &problem)?;
+        LIMITED.check(format_args!("{name}, mixed"), distance(&u, &reference.u));
     }
     Ok(())
 }
@@ -157,12 +149,9 @@ fn a_solution_with_three_states_is_found_and_bounded() -> Result<()> {
 fn ends_that_meet_have_a_bound() -> Result<()> {
     for supply in [1.0, 0.05] {
         for (name, mesh) in meshes(8) {
-            let (scene, problem) = on_grid(&fading(), mesh)?;
-            let problem = problem.with_inputs(&[supply])?;
-            let exact = scene.exact.as_ref().expect("an exact solution");
+            let problem = on_grid(&fading(), mesh)?.1.with_inputs(&[supply])?;
             for (solver, scalar) in [WAYS[1], WAYS[2]] {
-                let found = solved(&problem, solver, scalar)?;
-                let of = distance_to_exact(exact, &problem, &found.certified.admissible())?;
+                let (found, of) = judged(&problem, &by((solver, scalar)))?;
                 let bound = found.bound.expect("a bound").total;
                 let name = format!("{name}, {supply}, {solver:?} {scalar:?}: {bound} {of:?}");
                 assert!(bound >= of.combined && bound >= of.identity, "{name}");
@@ -188,16 +177,13 @@ fn random_problems_agree_with_the_reference() -> Result<()> {
             Err(error) => return Err(error),
         };
         counted += 1;
-        let reference = solved(&problem, SolverKind::Direct, ScalarKind::F64)?;
+        let reference = solve(&problem, &by(DIRECT))?;
         all_three += u64::from(states(&problem, &reference).iter().all(|&count| count > 0));
-        let kernel = solved(&problem, SolverKind::Kernel, ScalarKind::F64)?;
+        let kernel = solve(&problem, &by(KERNEL))?;
         LIMITED_RANDOM.check(format_args!("{seed}: sweeps"), distance(&kernel.u, &reference.u));
-        let parts = Parts::examine(&problem)?;
-        let auto = Options { solver: SolverKind::Auto, ..Options::default() };
-        let factored = by_factor::<f64>(&problem, &parts, &auto, &[], None)?.expect("a factor");
-        LIMITED_RANDOM.check(format_args!("{seed}: factor"), distance(&factored.u, &reference.u));
-        let single = Options { scalar: ScalarKind::F32, ..auto };
-        if let Some(found) = by_factor::<f32>(&problem, &parts, &single, &[], None)? {
+        let of_factor = factored::<f64>(&problem)?.expect("a factor");
+        LIMITED_RANDOM.check(format_args!("{seed}: factor"), distance(&of_factor.u, &reference.u));
+        if let Some(found) = factored::<f32>(&problem)? {
             LIMITED_NARROW.check(format_args!("{seed}: f32"), distance(&found.u, &reference.u));
         }
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use signorini_tolerances::solve::{MULTIGRID, MULTIGRID_NARROW};
 use signorini_tolerances::some;
 
-use super::{Options, SolverKind, distance, meshes, read, solve, standard_scenes};
+use super::{LOOSE, Options, SolverKind, distance, meshes, read, solve, standard_scenes};
 use crate::{Ran, ScalarKind, Solution};
 use signorini_problem::Problem;
 use signorini_problem::fixtures::{SMOOTH, changed, on_grid, scene};
@@ -14,14 +14,10 @@ use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::adaptive::refined;
 use signorini_scene::mesh::structured::{Cells, grid};
 
-fn by(solver: SolverKind) -> Options {
-    Options { solver, ..Options::default() }
-}
-
 /// The answer, which is the direct solver's; by itself where that is `expected`.
 fn agrees(what: &str, problem: &Problem, expected: bool) -> Result<Solution> {
-    let reference = solve(problem, &by(SolverKind::Direct))?;
-    let found = solve(problem, &by(SolverKind::Multigrid))?;
+    let reference = solve(problem, &Options::by(SolverKind::Direct))?;
+    let found = solve(problem, &Options::by(SolverKind::Multigrid))?;
     let given_up = found.given_up.as_deref().unwrap_or_default();
     assert!(found.converged(), "{what}: {}", found.ending());
     MULTIGRID.check(what, distance(&found.u, &reference.u));
@@ -77,7 +73,7 @@ fn single_precision_has_the_digits_of_the_factor() -> Result<()> {
         ["catalogue/h-tri.toml", "catalogue/a-quad.toml", "scenes/levee.toml", "limits/l-tri.toml"]
     {
         let (_, problem) = read(&meshes(name))?;
-        let single = |solver| Options { scalar: ScalarKind::F32, ..by(solver) };
+        let single = |solver| Options { scalar: ScalarKind::F32, ..Options::by(solver) };
         let factor = solve(&problem, &single(SolverKind::Factor))?;
         let found = solve(&problem, &single(SolverKind::Multigrid))?;
         assert!(found.converged() && found.ran == Ran::Multigrid, "{name}: {}", found.ending());
@@ -91,13 +87,7 @@ fn single_precision_has_the_digits_of_the_factor() -> Result<()> {
 /// Nothing holds the domain: it has a solution up to a constant.
 #[test]
 fn a_loose_domain_is_centred_as_ever() -> Result<()> {
-    let text = r#"
-mesh = "grid"
-material.default.conductivity = "1"
-source.f = "x"
-boundary.default = { kind = "neumann", flux = "0" }
-"#;
-    agrees("loose", &on_grid(text, grid(12, Cells::Triangles))?.1, true)?;
+    agrees("loose", &on_grid(LOOSE, grid(12, Cells::Triangles))?.1, true)?;
     Ok(())
 }
 
@@ -114,7 +104,7 @@ fn iterations_stay_where_they_are() -> Result<()> {
         let (_, mut problem) = read(&path)?;
         for _ in 0..2 {
             problem = finer(&problem)?;
-            let found = solve(&problem, &by(SolverKind::Multigrid))?;
+            let found = solve(&problem, &Options::by(SolverKind::Multigrid))?;
             let work = found.multigrid.expect("multigrid");
             assert!(work.longest <= most, "{}: {work:?}", path.display());
             assert!(found.ending().contains("by multigrid, "), "{}", found.ending());
@@ -138,9 +128,9 @@ boundary.default = { kind = \"contact\", gap = \"5*x - 7*y\", flux = \"-1\", lim
         ..Mesh::default()
     };
     let problem = Problem::new(&scene(text)?, mesh)?;
-    let known = solve(&problem, &by(SolverKind::Kernel))?;
+    let known = solve(&problem, &Options::by(SolverKind::Kernel))?;
     for solver in [SolverKind::Direct, SolverKind::Multigrid] {
-        let found = solve(&problem, &by(solver))?;
+        let found = solve(&problem, &Options::by(solver))?;
         assert!(found.converged(), "{solver:?}: {}", found.ending());
         let given_up = found.given_up.as_deref().unwrap_or_default();
         assert!(given_up.contains("the kernel took over"), "{solver:?}: {given_up}");

@@ -2,8 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Options, SolverKind, solve};
-use signorini_certify::exact::distance;
+use super::{Options, SolverKind, judged};
 use signorini_problem::fixtures::on_grid;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
@@ -44,11 +43,7 @@ fn placed(mut mesh: Mesh, angle: f64, to: impl Fn([f64; 2]) -> [f64; 2]) -> Mesh
 
 /// Total over the true error.
 fn ratio(text: &str, mesh: Mesh) -> Result<f64> {
-    let (scene, problem) = on_grid(text, mesh)?;
-    let options = Options { solver: SolverKind::Direct, ..Options::default() };
-    let found = solve(&problem, &options)?;
-    let exact = scene.exact.as_ref().expect("an exact solution");
-    let of = distance(exact, &problem, &found.certified.admissible())?;
+    let (found, of) = judged(&on_grid(text, mesh)?.1, &Options::by(SolverKind::Direct))?;
     let bound = found.bound.expect("a bound");
     assert!(bound.total >= of.combined, "{bound:?} {of:?}");
     Ok(bound.total / of.combined)

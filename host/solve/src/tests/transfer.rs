@@ -18,7 +18,7 @@ fn a_wall_passes_what_its_resistances_let_through() -> Result<()> {
     for h in [4.0, 0.0, 1e-3, 1.0, 100.0] {
         let now = wall.with_inputs(&[h])?;
         for solver in [SolverKind::Kernel, SolverKind::Direct] {
-            let solution = solve(&now, &Options { solver, ..Options::default() })?;
+            let solution = solve(&now, &Options::by(solver))?;
             let values = outputs(&now, &solution)?;
             let per_length = h * 2.0 / (h + 2.0);
             let [heat, skin] = ["heat", "skin"].map(|name| values[name].expect("a value"));

@@ -58,7 +58,7 @@ input.heat = { of = \"source\", field = \"f\", pattern = \"1 - 3*y\", range = [-
 
 /// All openings of u at these inputs: steady, or after the step from `state`.
 fn openings(problem: &Problem, p: &[f64], state: Option<State>) -> Result<(Vec<f64>, State)> {
-    let direct = Options { solver: SolverKind::Direct, ..Options::default() };
+    let direct = Options::by(SolverKind::Direct);
     let given = problem.with_inputs(p)?;
     let given = match state {
         Some(state) => given.stepping(0.05, state)?,

@@ -129,7 +129,9 @@ fn drawn(ranges: &[[f64; 2]], random: &mut impl FnMut() -> f64) -> Vec<f64> {
 }
 
 fn enclosed(split: &Split, loads: LoadBox) -> Enclosure {
-    let found = Enclosure::new(split, &EndBox::above(loads)).expect("finite loads");
+    let infinite = vec![f64::INFINITY; loads.lo.len()];
+    let greatest = LoadBox { lo: infinite.clone(), hi: infinite };
+    let found = Enclosure::new(split, &EndBox { least: loads, greatest }).expect("finite loads");
     found.expect("no limits")
 }
 

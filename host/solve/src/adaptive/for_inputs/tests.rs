@@ -32,7 +32,7 @@ fn other_inputs_meet_it_too() {
     let problem = Problem::new(&scene, mesh).expect("a problem");
     assert_eq!(problem.topology.counts.unknowns(), promise.unknowns);
     let spaces = InputSpace::of(&scene);
-    let options = Options { solver: SolverKind::Direct, ..Options::default() };
+    let options = Options::by(SolverKind::Direct);
     let mut largest = 0.0_f64;
     for number in 0..60 {
         let value = |(at, space): (usize, &InputSpace)| {
@@ -56,7 +56,7 @@ fn without_inputs_it_is_the_mesh_of_the_same_goal() {
     let mesh = || with_four_sides(grid(4, Cells::Mixed));
     let goal = Goal::Part(0.05);
     let (found, promise) = promised_mesh(&scene, mesh(), marked(goal)).expect("a mesh");
-    let options = Options { solver: SolverKind::Auto, ..Options::default() };
+    let options = Options::by(SolverKind::Auto);
     let goal = Goal::Part(MARGIN * 0.05);
     let wanted = super::super::Wanted { goal, most_unknowns: MOST_UNKNOWNS, options };
     let (last, stop) =
