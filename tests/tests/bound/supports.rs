@@ -8,6 +8,7 @@ use signorini_scene::mesh::structured::Cells;
 use signorini_solve::{Options, ScalarKind, SolverKind, solve};
 use signorini_tests::random::Random;
 use signorini_tests::written::{Contact, Side, Smooth, TwoMaterials, Units, Written};
+use signorini_tolerances::cases;
 use signorini_tolerances::twins::{GUARANTEE, IDENTITY};
 
 use super::run::{Run, options, posed, run};
@@ -42,7 +43,7 @@ fn holds(what: &str, run: &Run) {
 
 #[test]
 fn contact_alone_has_a_bound_at_convergence() {
-    for seed in 0..50 {
+    for seed in 0..cases(50) {
         let run = on_contact_alone(&mut Random::new(seed), None);
         holds(&format!("seed {seed}"), &run);
     }
@@ -52,7 +53,7 @@ fn contact_alone_has_a_bound_at_convergence() {
 #[test]
 fn contact_alone_under_way_has_a_bound_that_holds_or_none() {
     let mut with = 0;
-    for seed in 0..50 {
+    for seed in 0..cases(50) {
         let random = &mut Random::new(seed);
         let sweeps = 1 << random.below(8);
         let run = on_contact_alone(random, Some(sweeps));
@@ -61,7 +62,7 @@ fn contact_alone_under_way_has_a_bound_that_holds_or_none() {
             with += 1;
         }
     }
-    assert!(with >= 10, "{with} of 50");
+    assert!(with >= cases(10), "{with} of {}", cases(50));
 }
 
 /// H is even in x: cut along x = 0, both halves keep it, the left one on its Dirichlet side.

@@ -18,6 +18,7 @@ use signorini_problem::inputs::{InputSpace, drawn};
 use signorini_problem::scalar::Scalar;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::setting::ModelKind;
+use signorini_tolerances::some;
 
 const AIR: &str = "
 [input.airspeed]
@@ -188,7 +189,7 @@ fn exchanges<R: Bakes>(problem: &Problem) -> [u32; 2] {
 
 #[test]
 fn no_state_takes_more_exchanges_than_are_proved() {
-    for problem in [levee("step = 600"), slab(&[])] {
+    for problem in some(2, [levee("step = 600"), slab(&[])]) {
         let found = exchanges::<f32>(&problem);
         assert!(6 * found[0] > found[1], "{found:?}");
     }
