@@ -26,7 +26,7 @@ pub fn run(steps: &mut Steps) {
             true => record::compare(RECORD, &versions, &table, bless)?,
             false => record::compare_part(RECORD, &versions, &table)?,
         };
-        if is_same { quoted(&table) } else { Ok(()) }
+        if is_same { quoted(&table, is_whole) } else { Ok(()) }
     });
 }
 
@@ -42,14 +42,15 @@ fn footprint(row: &Row, most: u64) -> Result<Footprint, String> {
     }
 }
 
-/// `Ok` where the page on firmware shows this table, up to what records may differ by: the folder of a clone
-/// moves constants by a few bytes.
-fn quoted(table: &str) -> Result<(), String> {
+/// `Ok` where the page on firmware shows this table, or has its rows where it is not the whole one, up to what records may differ by:
+/// the folder of a clone moves constants by a few bytes.
+fn quoted(table: &str, is_whole: bool) -> Result<(), String> {
     const PAGE: &str = "docs/firmware.md";
     let page = snapshot::read(PAGE)?;
     let head = table.lines().next().unwrap_or_default();
     let (_, shown) = page.split_once(head).ok_or(format!("{PAGE} does not show the table"))?;
-    let shown = shown.split("```").next().unwrap_or_default();
-    let differs = record::differences(&record::part(&format!("{head}{shown}"), table), table)?;
+    let shown = format!("{head}{}", shown.split("```").next().unwrap_or_default());
+    let shown = if is_whole { shown } else { record::part(&shown, table) };
+    let differs = record::differences(&shown, table)?;
     if differs.is_empty() { Ok(()) } else { Err(format!("{PAGE}: {}", differs.join("; "))) }
 }

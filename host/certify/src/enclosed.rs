@@ -55,7 +55,7 @@ fn key(problem: &Problem, fields: &[Field]) -> Vec<u64> {
     let of_boundaries = scene
         .boundaries
         .iter()
-        .flat_map(|boundary| fields.iter().filter_map(|&field| boundary.condition.load(field)));
+        .flat_map(|boundary| fields.iter().filter_map(|&field| boundary.condition.datum(field)));
     let source = fields.contains(&Field::Source).then_some(&scene.source);
     let patterns = inputs().map(|input| &input.pattern);
     let mut data = of_boundaries.chain(source).chain(patterns);

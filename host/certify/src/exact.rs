@@ -70,7 +70,7 @@ pub fn distance_on(
     Integrands { exact, problem, admissible, deviations, u, lift, panels, fewer: 1 }.distance()
 }
 
-/// [`Distance::combined`] with half of the points a direction.
+/// [`Distance::combined`] with half of the points a direction: how far the rule may be trusted.
 ///
 /// # Errors
 /// As for [`distance`].

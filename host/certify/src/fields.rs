@@ -1,4 +1,4 @@
-//! The fields that a certificate is about, in the scalar that it is computed in.
+//! The fields that a certificate is about, in its own scalar or in f64, and columns of them.
 
 use signorini_bound::certificate::{Buffers, Discretization, LoadCase, openings};
 use signorini_kernel::Error as KernelError;

@@ -19,6 +19,8 @@ pub(crate) struct Conjugate {
     product: Vec<f32>,
     /// p·q of the last direction; ∞ where there is none to go on from.
     curvature: f64,
+    /// The part of the first √(r·z) that was last seen in a correction.
+    pub left: f64,
 }
 
 impl Conjugate {
@@ -29,6 +31,7 @@ impl Conjugate {
             direction: vec![0.0; n],
             product: vec![0.0; n],
             curvature: f64::INFINITY,
+            left: 1.0,
         }
     }
 
@@ -39,8 +42,8 @@ impl Conjugate {
         self.product.fill(0.0);
     }
 
-    /// Corrects from x = 0 until √(r·z) has fallen to `reduction` of what it was, by `most` iterations at most. How many were
-    /// made; none where rounding or an indefinite matrix ended it at once.
+    /// Corrects from x = 0 until √(r·z) has fallen to `reduction` of what it was, or will have, by `most` iterations at most. How many
+    /// were made; none where rounding or an indefinite matrix ended it at once.
     ///
     /// Where r·z goes on to fall as it did in the last iteration, e to e²/e₋, and that is enough, the next one is not worked out:
     /// it would take a preconditioner whose z nobody uses.
@@ -52,13 +55,15 @@ impl Conjugate {
     ) -> usize {
         self.x.fill(0.0);
         edges.rest.copy_from_slice(&self.residual);
-        let (mut enough, mut last) = (0.0, 0.0);
+        let (mut first, mut last) = (0.0, 0.0);
         for iteration in 0..most {
             edges.precondition(&self.residual);
             let energy = dot(&self.residual, &edges.z);
             if iteration == 0 {
-                enough = reduction * reduction * energy;
+                first = energy;
             }
+            self.left = (energy / first).sqrt();
+            let enough = reduction * reduction * first;
             if !(energy > enough && energy.is_finite()) {
                 return iteration;
             }

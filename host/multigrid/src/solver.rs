@@ -77,8 +77,7 @@ impl<'a, const WIDTH: usize> Solver<'a, WIDTH> {
             if self.change_sides() || is_new {
                 self.begin_set();
                 (best, waited, is_new) = (f64::INFINITY, 0, false);
-                let correction = self.correct(settings, ROUGH)?;
-                error = ROUGH * correction;
+                error = self.correct(settings, ROUGH)?;
                 continue;
             }
             let Measure { scale, scaled } = self.measure();
@@ -88,7 +87,7 @@ impl<'a, const WIDTH: usize> Solver<'a, WIDTH> {
                 return Ok(self.conclude());
             }
             let reduction = (0.1 * settings.tolerance / scaled).clamp(FINE, ROUGH);
-            error = reduction * self.correct(settings, reduction)?;
+            error = self.correct(settings, reduction)?;
         }
     }
 
@@ -163,7 +162,7 @@ impl<'a, const WIDTH: usize> Solver<'a, WIDTH> {
         self.edges.hold(self.set.sides.iter().map(|&side| side == Side::Touching));
     }
 
-    /// Adds a correction to u, and returns the largest entry of it.
+    /// Adds a correction to u, and returns what is left of the largest entry of it.
     fn correct(&mut self, settings: &Settings, reduction: f64) -> Result<f64, Failure> {
         let force = |row: usize| row.checked_sub(self.free).map_or(0.0, |at| self.set.force(at));
         let is_held = |row: usize| {
@@ -208,7 +207,7 @@ impl<'a, const WIDTH: usize> Solver<'a, WIDTH> {
             *u += step;
             change = change.max(step.abs());
         }
-        Ok(change)
+        Ok(self.conjugate.left * change)
     }
 
     fn conclude(self) -> Solution {

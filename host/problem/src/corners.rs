@@ -167,7 +167,7 @@ impl Meeting {
         let of = |edge: usize| {
             let boundary = problem.boundary_of(edge)?;
             let field = rounding::field_of(problem.kinds[edge]);
-            let base = boundary.condition.load(field)?;
+            let base = boundary.condition.datum(field)?;
             let at = |datum: &Datum| datum.value.eval(x, y, problem.time);
             let is_own =
                 |input: &Input| input.of.value == boundary.name.value && input.field.value == field;

@@ -51,7 +51,7 @@ impl<'s> Sum<'s> {
     /// `field` of the boundary that an edge lies on, where its condition has such a field, at the time of the problem.
     pub fn on_edge(problem: &'s Problem, edge: usize, field: Field) -> Option<Self> {
         let boundary = problem.boundary_of(edge)?;
-        let base = boundary.condition.load(field)?;
+        let base = boundary.condition.datum(field)?;
         Some(Self::new(&problem.scene, &boundary.name.value, field, base, problem.time))
     }
 

@@ -70,10 +70,10 @@ fn check_edge(problem: &Problem, edge: usize) -> Result<()> {
     let Some(base) = boundary.condition.transfer() else { return Ok(()) };
     let terms = terms(problem, boundary, base, 0.0);
     for at @ [x, y] in problem.looks(edge, &terms) {
-        let parts: Vec<f64> = terms.iter().map(|of| of.least_at(at)).collect();
+        let parts: Vec<f64> = terms.iter().map(|of| least(of, at)).collect();
         let total = parts.iter().sum::<f64>();
         let added = inputs(problem, boundary).zip(&parts[1..]);
-        // A NaN is told with the loads, at the inputs that make it.
+        // A NaN is told with the loads, at the inputs that make it: it is not below 0.
         if total < 0.0
             && let Some((input, _)) = added.min_by(|a, b| a.1.total_cmp(b.1))
             && let Some(range) = &input.range
@@ -85,6 +85,13 @@ fn check_edge(problem: &Problem, edge: usize) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// The least that a term adds at a point; NaN where it has no number there.
+fn least(of: &Ranged, at: [f64; 2]) -> f64 {
+    let value = of.at(at);
+    let [a, b] = of.factor.map(|end| end * value);
+    a.min(b)
 }
 
 /// h of a boundary: what the scene states, and what each input adds within its range.
@@ -220,7 +227,7 @@ impl Problem {
     ) -> impl Iterator<Item = (Term, &'s Located<Expression>)> {
         let scene = &self.scene;
         let boundary = scene.boundaries.iter().find(|known| known.name.value == of.of.value);
-        let base = boundary.and_then(|known| known.condition.load(Field::Ambient));
+        let base = boundary.and_then(|known| known.condition.datum(Field::Ambient));
         let acts = |(_, other): &(Term, &Input)| {
             other.field.value == Field::Ambient && other.of.value == of.of.value
         };
@@ -265,6 +272,8 @@ mod tests {
         };
         assert_eq!(said("3", &input("1", "[-3, 1]")), "sound");
         assert_eq!(said("3", &input("x", "[-3, 3]")), "sound");
+        // At x = 0 it has no number, which is not below 0; loads ask inside edges alone.
+        assert_eq!(said("1 + sin(x)/x", &input("1", "[0, 1]")), "sound");
         let message = said("3", &input("1", "[-3.5, 1]"));
         let expected = "input.h.range: boundary.contact.coefficient falls to -0.5 at (";
         assert!(message.contains(expected), "{message}");

@@ -38,7 +38,7 @@ pub(super) fn now(problem: &Problem, edge: usize) -> Option<Ranged<'_>> {
 /// `None` where an end is infinite.
 pub(super) fn terms<'p>(problem: &'p Problem, boundary: &'p Boundary) -> Option<Vec<Ranged<'p>>> {
     let alone = |expression: &'p Datum| Sum::alone(&problem.scene, expression, problem.time);
-    let [minus, plus] = ENDS.map(|field| boundary.condition.load(field).map(alone));
+    let [minus, plus] = ENDS.map(|field| boundary.condition.datum(field).map(alone));
     let stated = Ranged { minus, plus: Some(plus?), factor: [1.0; 2] };
     if !is_finite(&stated) {
         return None;

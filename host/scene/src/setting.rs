@@ -1,6 +1,7 @@
 //! A setting: what trades speed for accuracy, as the `[setting]` of a scene states it.
 //!
-//! Keys, meanings and defaults stand in the list of [`crate::scene::keys`].
+//! Keys, meanings and defaults stand in the list of [`crate::scene::keys`]. `sweeps` of a condensed model are in the place of the exact
+//! method. A factor is worked out on the host; where nothing is stated, `bake` takes the quicker solver.
 //! `refine` and `error` exclude each other, so do `sweeps` and `share`, and a factor excludes both. Without `model`, a key that means something to
 //! the full one alone asks for that, and so does `solver = "sweeps"`; `solver = "exact"` and `memory` ask for the condensed one. The
 //! bound is left out where `certificate = false` says so, and nowhere else. The file reads them in [`crate::scene`].

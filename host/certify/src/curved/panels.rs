@@ -147,7 +147,7 @@ impl Panels {
 pub(super) struct Mended {
     /// Corrections of w and w′ at all points.
     pub(super) change: [f64; 2],
-    /// Whether that is more than rounding.
+    /// Whether the bound has it added: it is more than rounding, and than panels may miss.
     pub(super) is_counted: bool,
 }
 

@@ -54,6 +54,9 @@ pub fn released(
     let is_free = |vertex| sides.at(vertex, &maps) == VertexSide::Free;
     let mut free: BTreeSet<u32> =
         vertices.filter(|(vertex, _)| is_free(vertex)).map(|(_, &at)| at).collect();
+    if free.is_empty() {
+        return Ok(None);
+    }
     let pieces = Pieces::new(problem)?;
     for _ in 0..TRIALS {
         if free.is_empty() {

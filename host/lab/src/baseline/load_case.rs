@@ -11,7 +11,6 @@ use std::sync::Arc;
 
 use signorini_problem::inputs::{InputSpace, drawn};
 use signorini_problem::{Loads, Problem};
-use signorini_scene::scene::Field;
 use signorini_scene::{Result, Scene};
 
 /// The tilt of loads at most, over the tenth by which inputs are drawn: less would leave the contact set of
@@ -61,7 +60,7 @@ pub(super) fn load_cases(problem: &Problem, ticks: usize) -> Result<Vec<Loads>> 
 fn with_inputs(problem: &Problem, values: &[f64]) -> Result<Loads> {
     let mut scene = Scene::clone(&problem.scene);
     let inputs = scene.inputs.iter_mut().zip(values);
-    let of_loads = inputs.filter(|(input, _)| input.field.value != Field::Coefficient);
+    let of_loads = inputs.filter(|(input, _)| input.field.value.is_load());
     of_loads.for_each(|(input, value)| input.default = *value);
     Loads::of(&Problem { scene: Arc::new(scene), ..problem.clone() })
 }

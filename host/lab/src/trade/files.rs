@@ -74,7 +74,8 @@ struct Fragment<'a> {
 /// The fragment of `scene` with `setting` for a file in `folder`; `why` stands above it.
 fn fragment(folder: &Path, scene: &Scene, setting: &Setting, why: &str) -> Result<String> {
     let whole = |path: &Path| path.canonicalize().map_err(Error::io(path));
-    let (scene, folder) = (whole(&scene.path)?, whole(folder)?);
+    // No name at all is the folder at hand.
+    let (scene, folder) = (whole(&scene.path)?, whole(&Path::new(".").join(folder))?);
     let way = pathdiff::diff_paths(&scene, &folder).unwrap_or(scene);
     let fragment = Fragment { extends: way.to_string_lossy().replace('\\', "/"), setting };
     let text = toml::to_string(&fragment).map_err(|error| Error::Check(error.to_string()))?;

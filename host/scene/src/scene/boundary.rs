@@ -129,7 +129,7 @@ impl Condition {
     }
 
     /// The load or coefficient `field` of this boundary, to which an input may add, if its kind has it.
-    pub fn load(&self, field: Field) -> Option<&Datum> {
+    pub fn datum(&self, field: Field) -> Option<&Datum> {
         self.data().into_iter().find_map(|(of, data)| (of == field).then_some(data))
     }
 }

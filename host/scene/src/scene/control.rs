@@ -85,7 +85,7 @@ fn check_field(
         _ => {
             // One that could not be read is told of already.
             let Some(condition) = find(of, BOUNDARIES, boundaries)? else { return Ok(()) };
-            if let Some(base) = condition.load(field) {
+            if let Some(base) = condition.datum(field) {
                 let infinite = base.value.is_constant().filter(|value| value.is_infinite());
                 return infinite.map_or(Ok(()), |value| {
                     let message = format!("{} is {value}, to which nothing can be added", base.key);
@@ -93,7 +93,7 @@ fn check_field(
                     Err(entry.error(message).hint(hint).into())
                 });
             }
-            let has = |&&(_, field): &&(&str, Field)| condition.load(field).is_some();
+            let has = |&&(_, field): &&(&str, Field)| condition.datum(field).is_some();
             let names: Vec<_> = FIELDS.iter().filter(has).map(|(name, _)| *name).collect();
             (format!("a {} boundary", condition.kind()), names.join(", "))
         }

@@ -1,6 +1,6 @@
 //! A scene's loads as a sum: base + Σ input · pattern, and the scene that only some of these terms leave.
 
-use super::{Datum, Field, Located, Output, Quantity, Scene};
+use super::{Datum, Located, Output, Quantity, Scene};
 use crate::expression::Expression;
 
 /// A term of the sum: 0 is the base, 1 + j what one unit of input j adds.
@@ -11,7 +11,7 @@ pub type Term = usize;
 pub fn left_with(scene: &Scene, terms: &[Term]) -> Scene {
     let mut scene = scene.clone();
     let inputs = scene.inputs.iter_mut().enumerate();
-    for (at, input) in inputs.filter(|(_, input)| input.field.value != Field::Coefficient) {
+    for (at, input) in inputs.filter(|(_, input)| input.field.value.is_load()) {
         input.default = if terms.contains(&(at + 1)) { 1.0 } else { 0.0 };
     }
     if !terms.contains(&0) {
@@ -45,7 +45,7 @@ pub fn each_load(scene: &mut Scene, mut each: impl FnMut(&mut Datum)) {
     each(&mut scene.source);
     for boundary in &mut scene.boundaries {
         let data = boundary.condition.data_mut().into_iter();
-        data.filter(|(field, _)| *field != Field::Coefficient).for_each(|(_, data)| each(data));
+        data.filter(|(field, _)| field.is_load()).for_each(|(_, data)| each(data));
     }
 }
 

@@ -30,6 +30,16 @@ impl Field {
             Self::Coefficient => Unit::Conductivity,
         }
     }
+
+    /// Whether u is linear in it, so that what inputs add to it is a term of its own.
+    pub fn is_load(self) -> bool {
+        match self {
+            Self::Value | Self::Gap | Self::Ambient | Self::Flux | Self::Limit | Self::Source => {
+                true
+            }
+            Self::Coefficient => false,
+        }
+    }
 }
 
 /// The values that 1 stands for, each a power of two, and the u that 0 stands for.

@@ -190,7 +190,7 @@ fn edge_at(problem: &Problem, at: usize, cell: &Cell, [x, y, z]: [f64; 3]) -> us
     nearest.map_or(0, |(&edge, _)| edge as usize)
 }
 
-/// Barycentric coordinates in the parent of child `number`, in the order of [`signorini_scene::mesh::refine`].
+/// Barycentric coordinates in the parent of child `number`, in the order of [`signorini_scene::mesh::adaptive::refined`].
 fn of_child(number: usize, [a, b, c]: [f64; 3]) -> [f64; 3] {
     let half = [0.5 * a, 0.5 * b, 0.5 * c];
     match number {

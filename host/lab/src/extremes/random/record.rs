@@ -29,6 +29,7 @@ pub struct Record {
     pub classes: BTreeMap<String, BTreeMap<String, usize>>,
     /// The largest ratios and the cases that they belong to.
     pub worst: BTreeMap<String, Worst>,
+    #[serde(default)]
     pub features: BTreeMap<String, Spread>,
     pub violations: Vec<Violation>,
 }

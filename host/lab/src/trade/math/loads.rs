@@ -63,7 +63,7 @@ fn loads(problem: &Problem) -> Vec<(&Located<Expression>, usize)> {
         }
     }
     let on_boundaries = problem.scene.boundaries.iter().zip(edges).flat_map(|(boundary, edges)| {
-        FIELDS.iter().filter_map(move |&field| Some((boundary.condition.load(field)?, edges)))
+        FIELDS.iter().filter_map(move |&field| Some((boundary.condition.datum(field)?, edges)))
     });
     std::iter::once((&problem.scene.source, problem.cells())).chain(on_boundaries).collect()
 }

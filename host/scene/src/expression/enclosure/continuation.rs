@@ -145,7 +145,7 @@ impl Numbers for Discs {
     fn unary(&self, operation: Unary, a: Disc) -> Disc {
         let (c, r) = (a.centre, a.radius);
         let value = operation.apply(c);
-        // The least product of distances from the poles or branch points ±1, ±i.
+        // The least product of distances from the branch points ±1.
         let off = ((c - 1.0).abs() - r) * ((c + 1.0).abs() - r);
         match operation {
             Unary::Negate => a.combined(-1.0, self.constant(0.0), 0.0, self.0),
