@@ -37,7 +37,7 @@ const CUT_OFF: f64 = 8.0;
 
 #[test]
 fn at_convergence_the_bound_is_close_to_the_error() {
-    for (name, written) in some(3, cases()) {
+    for (name, written) in cases() {
         let text = written.scene([Side::Dirichlet; 3], Units::ONE);
         for cells in [Cells::Triangles, Cells::Quads] {
             let what = format!("{name} on {cells:?}");
