@@ -95,7 +95,6 @@ pub fn recoverable(problem: &Problem) -> Result<(CondensedModel, Recovery)> {
 }
 
 /// Data of a condensed model before anything is eliminated.
-#[derive(Clone)]
 struct Pieces<'p> {
     problem: &'p Problem,
     parts: Parts,

@@ -216,8 +216,19 @@ impl<'p> Pieces<'p> {
             Ok(TermData { problem: pattern.problem.stepping(length, begin)?, ..pattern.clone() })
         };
         let patterns = self.patterns.iter().enumerate().map(in_step).collect::<Result<_>>()?;
-        let (held_by_contact, alone) = (Vec::new(), None);
-        Ok(Pieces { problem, patterns, held_by_contact, alone, ..self.clone() })
+        Ok(Pieces {
+            problem,
+            parts: self.parts.clone(),
+            patterns,
+            spans: self.spans.clone(),
+            edges: self.edges.clone(),
+            settled: self.settled.clone(),
+            held_by_contact: Vec::new(),
+            alone: None,
+            laws: None,
+            beyond: Vec::new(),
+            step: None,
+        })
     }
 
     /// d_i for U = 1.

@@ -50,9 +50,8 @@ impl Begun {
         Ok(begun)
     }
 
-    /// From a state of another play, whose error of the evolution is not taken over yet.
+    /// From a state of another play on this mesh, whose error of the evolution is not taken over yet.
     pub fn again(given: &Problem, saved: &Saved) -> Result<Self> {
-        saved.check_mesh(given)?;
         Ok(Self::of(match &saved.state {
             Some(state) => given.stepping(step_of(&given.scene)?, state.clone())?,
             None => given.clone(),

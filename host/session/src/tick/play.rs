@@ -102,6 +102,7 @@ fn anew(given: &Problem, moments: &[ScheduledTick], budget: &Budget, done: Done)
 
 /// A play whose session was made before, for the same moment; its state in time is in the session's units for now.
 fn again(given: &Problem, saved: &Saved) -> Result<Posed> {
+    saved.check_mesh(given)?;
     let mut begun = Begun::again(given, saved)?;
     let Moment { time, .. } = saved.begun;
     begun.problem.set(&saved.begun.values().collect::<Vec<_>>(), time)?;

@@ -94,10 +94,11 @@ fn anew(
 
 /// Goes on from a state: what the command line says of inputs acts from here on.
 fn again(given: &Problem, saved: &Saved, session: &mut dyn Session) -> Result<Replaying> {
-    let mut begun = Begun::again(given, saved)?;
+    saved.check_mesh(given)?;
     let missing = |part: &str| InputError::new(format!("{part}: missing"));
     saved.state.as_ref().ok_or_else(|| missing("state"))?;
     session.restore(saved.session.as_ref().ok_or_else(|| missing("session"))?)?;
+    let mut begun = Begun::again(given, saved)?;
     match begun.problem.set_time(saved.last.time) {
         // A tick that was refused has left no mark.
         Err(error) if !is_unsolvable(&error) => return Err(error),
