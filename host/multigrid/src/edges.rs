@@ -18,6 +18,29 @@ struct Row<const WIDTH: usize> {
     values: [f32; WIDTH],
 }
 
+impl<const WIDTH: usize> Row<WIDTH> {
+    /// Row `at` of K/`unit`, where `inverse` is 1/K_ii.
+    ///
+    /// Its least entry takes what the others are rounded by, so that K times a constant is what it is in f64. Cells of one shape are
+    /// rounded alike: the product would be far from small where hardly anything holds a part.
+    fn of(problem: &Problem, at: usize, unit: f64, inverse: f32) -> Self {
+        let mut row = Self { columns: [at as u32; WIDTH], values: [0.0; WIDTH] };
+        let (mut count, mut lost) = (0, -f64::from(inverse).recip());
+        for (column, value) in problem.contact.row(at) {
+            let scaled = value / unit;
+            lost += scaled;
+            if column != at && count < WIDTH {
+                (row.columns[count], row.values[count]) = (column as u32, scaled as f32);
+                lost -= f64::from(row.values[count]);
+                count += 1;
+            }
+        }
+        let least = row.values[..count].iter_mut().min_by(|a, b| a.abs().total_cmp(&b.abs()));
+        least.into_iter().for_each(|least| *least += lost as f32);
+        row
+    }
+}
+
 /// K in f32, and the two-level preconditioner.
 #[derive(Debug)]
 pub(crate) struct Edges<const WIDTH: usize> {
@@ -39,19 +62,11 @@ impl<const WIDTH: usize> Edges<WIDTH> {
     pub fn new(problem: &Problem) -> Self {
         let n = problem.unknowns();
         let unit = (0..n).map(|at| problem.diagonal(at)).fold(f64::MIN_POSITIVE, f64::max);
-        let row = |at: usize| {
-            let mut row = Row { columns: [at as u32; WIDTH], values: [0.0; WIDTH] };
-            let others = problem.contact.row(at).filter(|&(column, _)| column != at);
-            for (place, (column, value)) in others.take(WIDTH).enumerate() {
-                (row.columns[place], row.values[place]) = (column as u32, (value / unit) as f32);
-            }
-            row
-        };
         let numbering = Numbering::of(problem);
         let hierarchy = Hierarchy::new(galerkin(problem, &numbering, 1.0 / unit));
         let inverse: Vec<f32> = (0..n).map(|at| (unit / problem.diagonal(at)) as f32).collect();
         Self {
-            rows: (0..n).map(row).collect(),
+            rows: (0..n).map(|at| Row::of(problem, at, unit, inverse[at])).collect(),
             relaxed: inverse.clone(),
             inverse,
             ends: numbering.ends,

@@ -17,6 +17,7 @@ mod hierarchy;
 mod level;
 mod problem;
 mod prolongation;
+mod sectors;
 mod solver;
 mod sparse;
 #[cfg(test)]

@@ -7,6 +7,7 @@
 //! edges whose u is given carry 0; they have no row.
 
 use crate::Problem;
+use crate::sectors::part;
 use crate::sparse::{RowSum, Sparse};
 
 /// Numbers of the vertices in the order in which edges meet them: what is near in K is near in PᵀKP.
@@ -31,8 +32,11 @@ impl Numbering {
                 count += 1;
             }
         }
-        let ends = edges.iter().map(|pair| pair.map(|vertex| number[vertex as usize].min(count)));
-        Self { ends: ends.collect(), count: count as usize }
+        let ends = edges.iter().map(|pair| pair.map(|vertex| number[vertex as usize]));
+        let mut ends: Vec<_> = ends.collect();
+        let count = part(problem, &edges_around(&ends, count as usize), &mut ends, count);
+        ends.as_flattened_mut().iter_mut().for_each(|end| *end = count.min(*end));
+        Self { ends, count: count as usize }
     }
 }
 

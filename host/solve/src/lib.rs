@@ -11,6 +11,7 @@
 pub mod adaptive;
 mod auto;
 pub mod by_factor;
+mod carried;
 mod conclude;
 pub mod cost;
 pub mod decay;
@@ -23,6 +24,7 @@ mod ldlt;
 mod level;
 mod mixed;
 mod multigrid;
+mod nested;
 pub mod norms;
 mod options;
 pub mod outputs;

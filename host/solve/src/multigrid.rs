@@ -3,9 +3,10 @@
 use serde::Serialize;
 use signorini_kernel::solver::{Outcome, Status};
 use signorini_kernel::system::Residual;
-use signorini_multigrid::{self as multigrid, Settings};
+use signorini_multigrid::{self as multigrid, Failure, Settings};
 
 use super::direct::directly;
+use super::nested;
 use super::{Attempt, Options, Ran, Reduced, ScalarKind, Solution, Solved, Task, by_kernel, unfit};
 use signorini_problem::progress::stage;
 use signorini_problem::scalar::{Scalar, widened};
@@ -44,29 +45,19 @@ pub(super) fn by_multigrid<R: Scalar>(task: &Task) -> Result<Solution> {
 
 /// Its answer, or why it has none. The matrix is that of the scalar; it is solved with in f64, and u has a low part.
 pub(super) fn attempted<R: Scalar>(task: &Task) -> Result<std::result::Result<Solution, String>> {
-    let Task { problem, parts, options, start } = *task;
-    let unfit = unfit::<R>(&problem.scene);
-    let attempt = Attempt::<R>::new(task)?;
-    let assembled = &attempt.assembled;
-    let system = assembled.system().map_err(&unfit)?;
-    let mut u = attempt.started();
-    let reduced = Reduced::new(problem, parts, assembled, &u).map_err(&unfit)?;
-    stage("conjugate gradients and multigrid");
-    let unknowns = problem.topology.counts.unknowns();
-    let (lower, spans) = (system.law().lower(), system.law().spans().lengths());
-    let (lower, spans) = (widened(lower), widened(spans));
-    let given = ends(lower.iter().copied().chain(u[unknowns..].iter().map(|u| u.wide())));
-    let posed = multigrid::Problem {
-        contact: reduced.problem(&lower, &spans),
-        ends: &problem.ends,
-        vertices: problem.mesh.vertices.len(),
-        given: given.unwrap_or_default(),
-    };
-    let own = if start.is_empty() { Vec::new() } else { widened(&u[..unknowns]) };
-    let found = match multigrid::solve(&posed, &settings(options), &own) {
+    let Task { problem, options, .. } = *task;
+    let nested;
+    let mut attempt = Attempt::<R>::new(task)?;
+    if task.start.is_empty() {
+        nested = nested::start(problem).unwrap_or_default();
+        attempt.task.start = &nested;
+    }
+    let found = match minimised(&attempt, &settings(options))? {
         Ok(found) => found,
         Err(failure) => return Ok(Err(failure.to_string())),
     };
+    let system = attempt.assembled.system().map_err(unfit::<R>(&problem.scene))?;
+    let mut u = attempt.started();
     u.iter_mut().zip(&found.u).for_each(|(u, &found)| *u = R::narrow(found));
     system.make_feasible(&mut u);
     let residual = system.residual(&u);
@@ -83,6 +74,30 @@ pub(super) fn attempted<R: Scalar>(task: &Task) -> Result<std::result::Result<So
     let (iterations, longest, sets) = (found.iterations, found.longest, found.sets);
     let work = Some(Multigrid { iterations, longest, sets });
     Ok(Ok(Solution { multigrid: work, ..attempt.conclude(solved)? }))
+}
+
+/// The minimiser in f64, from the start of the attempt, or why there is none.
+pub(super) fn minimised<R: Scalar>(
+    attempt: &Attempt<R>,
+    settings: &Settings,
+) -> Result<std::result::Result<multigrid::Solution, Failure>> {
+    let Task { problem, parts, start, .. } = attempt.task;
+    let unfit = unfit::<R>(&problem.scene);
+    let (system, u) = (attempt.assembled.system().map_err(&unfit)?, attempt.started());
+    let reduced = Reduced::new(problem, parts, &attempt.assembled, &u).map_err(&unfit)?;
+    stage("conjugate gradients and multigrid");
+    let unknowns = problem.topology.counts.unknowns();
+    let (lower, spans) = (system.law().lower(), system.law().spans().lengths());
+    let (lower, spans) = (widened(lower), widened(spans));
+    let given = ends(lower.iter().copied().chain(u[unknowns..].iter().map(|u| u.wide())));
+    let posed = multigrid::Problem {
+        contact: reduced.problem(&lower, &spans),
+        ends: &problem.ends,
+        vertices: problem.mesh.vertices.len(),
+        given: given.unwrap_or_default(),
+    };
+    let own = if start.is_empty() { Vec::new() } else { widened(&u[..unknowns]) };
+    Ok(multigrid::solve(&posed, settings, &own))
 }
 
 /// What the scalar rounds off the unknowns `found`, 0 on edges with given values; nothing where it rounds nothing.

@@ -16,7 +16,7 @@ use std::time::Instant;
 
 use super::marking::History;
 use super::{Allowed, MeshOfScene, Promise, Promised, Refining};
-use super::{Level, MOST_UNKNOWNS, Stop, carry, indicators, marking};
+use super::{Level, MOST_UNKNOWNS, Stop, indicators, marking};
 use crate::{Options, SolverKind};
 use signorini_problem::Problem;
 use signorini_problem::inputs::{InputSpace, corners, drawn};
@@ -132,7 +132,7 @@ impl<'a> Trial<'a> {
         stage(&format!("{} unknowns", problem.topology.counts.unknowns()));
         let followed = |of: &Followed| {
             let start = |problem: &Problem| match (&of.level, carried) {
-                (Some(level), Some(carried)) => carry::start(level, problem, carried),
+                (Some(level), Some(carried)) => level.carried(problem, carried),
                 _ => Vec::new(),
             };
             self.level(problem, &of.values, start)

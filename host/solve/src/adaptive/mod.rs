@@ -6,7 +6,6 @@
 //! The bound decides, not an estimate. Where it falls slowly, all cells are refined in the next round; where it stalls nevertheless,
 //! [`Stop::Stalled`] says which of its terms does, and where.
 
-mod carry;
 mod dominant;
 mod for_inputs;
 pub mod indicators;
@@ -21,6 +20,7 @@ pub use stop::{Allowed, MeshOfScene, Promise, Promised, Refining, Stop};
 
 use std::time::Instant;
 
+use crate::carried::Old;
 use crate::cost::Size;
 use crate::energy_norm;
 use crate::{Options, Ran, ScalarKind, Solution, SolverKind, solve_from};
@@ -30,7 +30,7 @@ use signorini_problem::progress::stage;
 use signorini_scene::error::Result;
 use signorini_scene::goal::Goal;
 use signorini_scene::mesh::Mesh;
-use signorini_scene::mesh::adaptive::Hierarchy;
+use signorini_scene::mesh::adaptive::{Carried, Hierarchy};
 use signorini_scene::scene::Scene;
 
 /// Request for a refined mesh.
@@ -119,7 +119,7 @@ pub fn refined_until(
         if unknowns > most {
             return Ok((level, Stop::TooLarge { unknowns, most }));
         }
-        start = carry::start(&level, &problem, &carried);
+        start = level.carried(&problem, &carried);
         number += 1;
     }
 }
@@ -137,6 +137,18 @@ impl Level {
         let energy_norm = energy_norm::of_solution(&problem, &solution)?;
         let seconds = clock.elapsed().as_secs_f64();
         Ok(Self { number, problem, solution, energy_norm, seconds })
+    }
+
+    /// u to begin with on every unknown edge of `problem`, whose mesh lies in this one as `carried` says.
+    fn carried(&self, problem: &Problem, carried: &Carried) -> Vec<f64> {
+        let Self { problem: old, solution, .. } = self;
+        let triangles = carried.triangle_sides.len();
+        let holder = |cell: usize, side: usize| match cell.checked_sub(triangles) {
+            None => carried.triangle_sides[cell][side] as usize,
+            Some(quad) => carried.quad_sides[quad][side] as usize,
+        };
+        let gap = |at: usize| solution.gap(old, at);
+        Old { problem: old, u: &solution.u, gap: &gap }.carried(problem, holder)
     }
 
     /// The bound over what it is to be at most, 0 where that is a part of nothing but rounding; none where there is no bound.

@@ -184,7 +184,7 @@ fn a_start_is_the_old_solution_on_the_new_mesh() {
                 (0..level.problem.cells()).map(|cell| cell % 7 == number).collect();
             let carried = hierarchy.refine(&marked).expect("finer");
             problem = pose(&hierarchy).expect("a problem");
-            let start = carry::start(&level, &problem, &carried);
+            let start = level.carried(&problem, &carried);
             for (edge, start) in start.iter().enumerate() {
                 let [a, b] = problem.segment(edge);
                 let exact = 1.0 + (a[0] + b[0]) - 0.5 * (a[1] + b[1]);

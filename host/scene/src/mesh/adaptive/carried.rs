@@ -1,12 +1,11 @@
-//! Where the cells, sides and boundary edges of a refined mesh lie in the mesh before.
+//! Where the cells and sides of a refined mesh lie in the mesh before.
 //!
-//! A solution goes from one mesh to the next by it, as a start. Means of u: the old u_h in the middle of a
-//! new edge, seen from the old cell that holds it. Which edges touch: what their old edges did.
+//! A solution goes from one mesh to the next by it, as a start: the old u_h in the middle of a new edge, seen from the old cell
+//! that holds it.
 //!
 //! A new cell lies in one old cell, but where closure was undone: there the old pieces of the same red
 //! cell are looked through. No search ever leaves it, so nothing crosses a slit.
 
-use super::forest::Edges;
 use super::stage::Places;
 use crate::mesh::Mesh;
 use crate::mesh::shape::{direction, mean};
@@ -22,17 +21,6 @@ pub struct Carried {
     pub triangle_sides: Vec<[u32; 3]>,
     /// The carried values of each quad.
     pub quad_sides: Vec<[u32; 4]>,
-    /// The boundary edges, ascending.
-    pub boundary: Vec<CarriedEdge>,
-}
-
-/// A boundary edge; vertices keep their numbers from mesh to mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct CarriedEdge {
-    /// Its vertices, the lower one first.
-    pub edge: [u32; 2],
-    /// Curves of the old boundary edge that it is, or is a half of.
-    pub origin: [u32; 2],
 }
 
 /// The old mesh, and which of its cells each cell of the old forest consists of.
@@ -44,12 +32,7 @@ pub(super) struct Before<'a> {
 impl Before<'_> {
     /// For each cell, triangle's side and quad's side of `mesh` the old cell; `families` has for each
     /// cell the one of the old forest that it lies in.
-    pub(super) fn carried(
-        &self,
-        mesh: &Mesh,
-        families: &[u32],
-        boundary: Vec<CarriedEdge>,
-    ) -> Carried {
+    pub(super) fn carried(&self, mesh: &Mesh, families: &[u32]) -> Carried {
         let vertices = &mesh.vertices;
         let (of_triangles, of_quads) = families.split_at(mesh.triangles.len());
         let triangles = mesh.triangles.iter().zip(of_triangles);
@@ -59,7 +42,6 @@ impl Before<'_> {
             cells: cells.map(|(cell, &of)| self.holder(of, mean(vertices, cell))).collect(),
             triangle_sides: triangles.map(|(&cell, &of)| self.sides(of, vertices, cell)).collect(),
             quad_sides: quads.map(|(&cell, &of)| self.sides(of, vertices, cell)).collect(),
-            boundary,
         }
     }
 
@@ -96,16 +78,4 @@ impl Before<'_> {
         };
         corners.iter().zip(after).map(distance).fold(f64::INFINITY, f64::min)
     }
-}
-
-/// The boundary edges made of old ones.
-pub(super) fn boundary(edges: &Edges, old: &[u32]) -> Vec<CarriedEdge> {
-    let of_old = |&old: &u32| {
-        let origin = edges.ends(old);
-        let new = edges.halved(&[old]);
-        new.into_iter().map(move |new| CarriedEdge { edge: edges.ends(new), origin })
-    };
-    let mut carried: Vec<_> = old.iter().flat_map(of_old).collect();
-    carried.sort_unstable();
-    carried
 }

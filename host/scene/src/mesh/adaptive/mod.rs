@@ -13,13 +13,15 @@
 
 mod carried;
 mod closure;
+mod coarsened;
 mod forest;
 mod marking;
 mod red;
 mod stage;
 
 use self::carried::Before;
-pub use self::carried::{Carried, CarriedEdge};
+pub use self::carried::Carried;
+pub use self::coarsened::coarsened;
 use self::red::Grown;
 use self::stage::{Stage, curves_of};
 use super::Mesh;
@@ -94,8 +96,7 @@ impl Hierarchy {
         let grown = red::grown(&now.mesh.vertices, &now.forest, &refined);
         let (next, families) = now.next(&self.base, grown)?;
         let before = Before { mesh: &now.mesh, places: &now.places };
-        let boundary = carried::boundary(&next.forest.edges, &now.boundary);
-        let carried = before.carried(&next.mesh, &families, boundary);
+        let carried = before.carried(&next.mesh, &families);
         self.now = next;
         Ok(carried)
     }

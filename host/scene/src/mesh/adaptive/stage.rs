@@ -15,8 +15,6 @@ pub(super) struct Stage {
     pub(super) forest: Forest,
     /// The edges of each curve.
     curves: Vec<Vec<u32>>,
-    /// The edges that have a single cell.
-    pub(super) boundary: Vec<u32>,
     pub(super) mesh: Mesh,
     pub(super) places: Places,
 }
@@ -25,10 +23,8 @@ impl Stage {
     /// The base mesh, where each cell is its own root.
     pub(super) fn first(base: &Mesh) -> Result<Self> {
         let (forest, curves) = Self::forest(base)?;
-        let alone = |(_, cells): &(u32, [u32; 2])| cells[1] == NONE;
-        let boundary = (0..).zip(forest.sharing()).filter(alone).map(|(edge, _)| edge).collect();
         let (.., places) = closed(&base.vertices, &forest);
-        Ok(Self { forest, curves, boundary, mesh: base.clone(), places })
+        Ok(Self { forest, curves, mesh: base.clone(), places })
     }
 
     /// The forest of a mesh, and the edges of each curve.
@@ -48,7 +44,6 @@ impl Stage {
         let Grown { vertices, forest, parents } = grown;
         let (triangles, quads, places) = closed(&vertices, &forest);
         let curves: Vec<_> = self.curves.iter().map(|curve| forest.edges.halved(curve)).collect();
-        let boundary = forest.edges.halved(&self.boundary);
         let mesh = Mesh {
             curves: curves_of(base, &forest, &curves),
             vertices,
@@ -57,7 +52,7 @@ impl Stage {
             surfaces: Vec::new(),
         };
         check(&mesh)?;
-        let mut next = Self { forest, curves, boundary, mesh, places };
+        let mut next = Self { forest, curves, mesh, places };
         next.mesh.surfaces = base.inherited(&next.roots());
         let families = next.of_cells(&parents);
         Ok((next, families))

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::mesh::adapted::adapted;
-use crate::mesh::adaptive::refined;
+use crate::mesh::adaptive::{coarsened, refined};
 use crate::mesh::check::MOST_CELLS;
 use crate::mesh::structured::{Cells, grid};
 
@@ -23,6 +23,27 @@ fn counts_and_sizes_on_every_mesh() {
             assert_eq!(fine.edges.len(), 2 * coarse.edges.len(), "{what}: {}", fine.name);
         }
     }
+}
+
+#[test]
+fn a_refinement_is_undone_and_nothing_else_is() {
+    for (what, mesh) in meshes() {
+        let fine = refined(&mesh).expect("a mesh");
+        assert_eq!(coarsened(&fine).as_ref(), Some(&mesh), "{what}");
+        let mut moved = fine.clone();
+        moved.vertices[mesh.vertices.len()][0] += 1e-9;
+        assert_eq!(coarsened(&moved), None, "{what}");
+        let mut half = fine.clone();
+        half.curves[0].edges.pop();
+        assert_eq!(coarsened(&half), None, "{what}");
+        let mut part = fine;
+        part.surfaces.push(Surface { name: "part".to_owned(), cells: vec![1, 2, 3, 4] });
+        assert_eq!(coarsened(&part), None, "{what}");
+    }
+    for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
+        assert_eq!(coarsened(&grid(4, cells)), None);
+    }
+    assert_eq!(coarsened(&Mesh::default()), None);
 }
 
 #[test]
