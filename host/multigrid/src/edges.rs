@@ -19,25 +19,29 @@ struct Row<const WIDTH: usize> {
 }
 
 impl<const WIDTH: usize> Row<WIDTH> {
-    /// Row `at` of K/`unit`, where `inverse` is 1/K_ii.
+    /// Row `at` of K/`unit`, where `diagonal` is 1/(1/K_ii) in f32, and what rounding adds to the sum of its entries.
     ///
-    /// Its least entry takes what the others are rounded by, so that K times a constant is what it is in f64. Cells of one shape are
-    /// rounded alike: the product would be far from small where hardly anything holds a part.
-    fn of(problem: &Problem, at: usize, unit: f64, inverse: f32) -> Self {
+    /// The least entry takes what the others are rounded by, and `lost`, the same of the row before. So K times a constant is what it
+    /// is in f64, over any piece of the mesh: cells of one shape are rounded alike, and a part that hardly anything holds would be
+    /// held by what they are rounded by.
+    fn of(problem: &Problem, at: usize, unit: f64, diagonal: f64, lost: f64) -> (Self, f64) {
         let mut row = Self { columns: [at as u32; WIDTH], values: [0.0; WIDTH] };
-        let (mut count, mut lost) = (0, -f64::from(inverse).recip());
+        let is_rounding = lost.abs() <= f64::from(f32::EPSILON) * diagonal;
+        let (mut count, mut lost) = (0, if is_rounding { lost - diagonal } else { -diagonal });
         for (column, value) in problem.contact.row(at) {
-            let scaled = value / unit;
-            lost += scaled;
+            lost += value / unit;
             if column != at && count < WIDTH {
-                (row.columns[count], row.values[count]) = (column as u32, scaled as f32);
+                (row.columns[count], row.values[count]) = (column as u32, (value / unit) as f32);
                 lost -= f64::from(row.values[count]);
                 count += 1;
             }
         }
         let least = row.values[..count].iter_mut().min_by(|a, b| a.abs().total_cmp(&b.abs()));
-        least.into_iter().for_each(|least| *least += lost as f32);
-        row
+        if let Some(least) = least {
+            let before = std::mem::replace(least, *least + lost as f32);
+            lost -= f64::from(*least) - f64::from(before);
+        }
+        (row, lost)
     }
 }
 
@@ -65,8 +69,15 @@ impl<const WIDTH: usize> Edges<WIDTH> {
         let numbering = Numbering::of(problem);
         let hierarchy = Hierarchy::new(galerkin(problem, &numbering, 1.0 / unit));
         let inverse: Vec<f32> = (0..n).map(|at| (unit / problem.diagonal(at)) as f32).collect();
+        let mut lost = 0.0;
+        let row = |(at, &inverse): (usize, &f32)| {
+            let row;
+            (row, lost) = Row::of(problem, at, unit, f64::from(inverse).recip(), lost);
+            row
+        };
+        let rows = inverse.iter().enumerate().map(row).collect();
         Self {
-            rows: (0..n).map(|at| Row::of(problem, at, unit, inverse[at])).collect(),
+            rows,
             relaxed: inverse.clone(),
             inverse,
             ends: numbering.ends,
