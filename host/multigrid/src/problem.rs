@@ -13,6 +13,8 @@ pub struct Problem<'a> {
     pub vertices: usize,
     /// The least and the largest given value: gaps and u are seen on this scale.
     pub given: [f64; 2],
+    /// max |b_i|/K_ii as b was before given values were eliminated: the other part of that scale.
+    pub loaded: f64,
 }
 
 impl Problem<'_> {

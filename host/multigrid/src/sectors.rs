@@ -1,11 +1,12 @@
-//! Vertices in which stiff sectors meet: each sector has a vertex of its own.
+//! Vertices at which edges are hardly coupled: each group of them has a vertex of its own.
 //!
 //! ```text
 //!     stiff │ soft         u_h is nearly constant in each stiff sector. The two may differ, as no edge is in both. A function
 //!     ──────v──────        with one value at v is far from that, and conjugate gradients take many steps for each such v:
 //!      soft │ stiff        in the matrix of the vertices it is two.
 //! ```
-//! Edges i and j at v are in one sector where they are sides of a cell and
+//! Slender cells among others do the same as different materials. Edges i and j at v are in one sector where they are sides of a
+//! cell and
 //! ```text
 //!   K_ij² > θ K_ii K_jj
 //! ```

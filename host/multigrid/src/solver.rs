@@ -27,8 +27,6 @@ pub(crate) struct Solver<'a, const WIDTH: usize> {
     count: Counts,
     /// The residual 1 of f32.
     unit: f64,
-    /// max |b_i|/K_ii
-    of_load: f64,
 }
 
 #[derive(Default)]
@@ -62,9 +60,6 @@ impl<'a, const WIDTH: usize> Solver<'a, WIDTH> {
             free,
             count: Counts::default(),
             unit: 0.0,
-            of_load: (0..n)
-                .map(|row| problem.contact.load[row].abs() / problem.diagonal(row))
-                .fold(0.0, f64::max),
         }
     }
 
@@ -152,7 +147,7 @@ impl<'a, const WIDTH: usize> Solver<'a, WIDTH> {
                 worst = violation;
             }
         }
-        let scale = (most - least).max(self.of_load).max(f64::MIN_POSITIVE);
+        let scale = (most - least).max(problem.loaded).max(f64::MIN_POSITIVE);
         Measure { scale, scaled: worst / scale }
     }
 

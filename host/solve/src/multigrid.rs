@@ -90,11 +90,14 @@ pub(super) fn minimised<R: Scalar>(
     let (lower, spans) = (system.law().lower(), system.law().spans().lengths());
     let (lower, spans) = (widened(lower), widened(spans));
     let given = ends(lower.iter().copied().chain(u[unknowns..].iter().map(|u| u.wide())));
+    let rows = system.matrix().iter().zip(system.load());
+    let loaded = rows.map(|(row, load)| load.wide().abs() / row.diagonal().wide());
     let posed = multigrid::Problem {
         contact: reduced.problem(&lower, &spans),
         ends: &problem.ends,
         vertices: problem.mesh.vertices.len(),
         given: given.unwrap_or_default(),
+        loaded: loaded.fold(0.0, f64::max),
     };
     let own = if start.is_empty() { Vec::new() } else { widened(&u[..unknowns]) };
     Ok(multigrid::solve(&posed, settings, &own))

@@ -101,6 +101,9 @@ impl Square {
             ends: &self.ends,
             vertices: self.vertices,
             given: [0.0; 2],
+            loaded: (0..load.len())
+                .map(|at| load[at].abs() / values[row_ptr[at] as usize])
+                .fold(0.0, f64::max),
         }
     }
 
