@@ -30,15 +30,11 @@ pub(crate) fn part(
     mut count: u32,
 ) -> u32 {
     for vertex in 0..count {
-        let edges: Vec<usize> =
-            around.row(vertex as usize).iter().map(|of| of.0 as usize).collect();
-        let diagonals = edges.iter().map(|&edge| problem.diagonal(edge));
-        let [least, most] = diagonals.fold([f64::INFINITY, 0.0], |[a, b]: [f64; 2], diagonal| {
-            [a.min(diagonal), b.max(diagonal)]
-        });
-        if least > TOGETHER * most {
+        let edges = || around.row(vertex as usize).iter().map(|of| of.0 as usize);
+        if edges().all(|edge| is_alike(problem, edge)) {
             continue;
         }
+        let edges: Vec<usize> = edges().collect();
         let sectors = Fan { problem, edges: &edges }.sectors();
         let mut numbered = vec![(sectors[0], vertex)];
         for (&edge, &sector) in edges.iter().zip(&sectors) {
@@ -52,6 +48,15 @@ pub(crate) fn part(
         }
     }
     count
+}
+
+/// Whether the diagonal entries of all sides of an edge's cells are near its own.
+fn is_alike(problem: &Problem, edge: usize) -> bool {
+    let own = problem.diagonal(edge);
+    problem.contact.row(edge).all(|(side, _)| {
+        let other = problem.diagonal(side);
+        own.min(other) > TOGETHER * own.max(other)
+    })
 }
 
 /// The edges at a vertex.

@@ -247,3 +247,24 @@ fn conjugate_gradients_correct_what_they_are_told() {
         IN_SINGLE.check(at, f64::from(x) - wanted);
     }
 }
+
+/// Four quarters in turn stiff and soft: the stiff ones meet in the middle alone. Two halves meet along a line.
+#[test]
+fn a_vertex_where_stiff_sectors_meet_is_two() {
+    let count = |tensor: &dyn Fn(f64, f64) -> [f64; 2]| {
+        let square = Square::with(6, tensor, false, |_, _| 1.0);
+        Numbering::of(&square.problem()).count
+    };
+    let isotropic = |is_stiff: bool| if is_stiff { [1e4; 2] } else { [1.0; 2] };
+    let all = 7 * 7;
+    assert_eq!(count(&|_, _| [1.0, 3.0]), all);
+    assert_eq!(count(&|x, _| isotropic(x > 0.5)), all);
+    assert_eq!(count(&|x, y| isotropic(x > 0.5 && y > 0.5)), all);
+    assert_eq!(count(&|x, y| isotropic((x > 0.5) == (y > 0.5))), all + 1);
+}
+
+#[test]
+fn the_matrix_of_parted_vertices_is_that_of_means_over_edges() {
+    let tensor = |x: f64, y: f64| if (x > 0.4) == (y > 0.6) { [1.0, 2.0] } else { [1e-3, 3e-3] };
+    vertex_matrix_is_product(&Square::with(5, tensor, true, |_, _| 1.0), 6 * 5 + 1);
+}

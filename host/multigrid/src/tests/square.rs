@@ -25,6 +25,16 @@ pub struct Square {
 impl Square {
     /// With A = diag(a, 1) and the load f; where it is not `held`, the side above has no flux either.
     pub fn new(n: u32, a: f64, held: bool, f: impl Fn(f64, f64) -> f64) -> Self {
+        Self::with(n, |_, _| [a, 1.0], held, f)
+    }
+
+    /// The same with A = diag(a, b) of each cell by its middle.
+    pub fn with(
+        n: u32,
+        tensor: impl Fn(f64, f64) -> [f64; 2],
+        held: bool,
+        f: impl Fn(f64, f64) -> f64,
+    ) -> Self {
         let h = 1.0 / f64::from(n);
         let at = |vertex: u32| [f64::from(vertex % (n + 1)) * h, f64::from(vertex / (n + 1)) * h];
         let corners = |cell: u32| {
@@ -55,11 +65,12 @@ impl Square {
             let along = [[q, r], [r, p], [p, q]].map(|[a, b]| [b[0] - a[0], b[1] - a[1]]);
             let area = 0.5 * h * h;
             let middle = [0, 1].map(|k| (p[k] + q[k] + r[k]) / 3.0);
+            let [a, b] = tensor(middle[0], middle[1]);
             for i in (0..3).filter(|&i| edges[i] < unknowns) {
                 load[edges[i]] += area / 3.0 * f(middle[0], middle[1]);
                 for j in (0..3).filter(|&j| edges[j] < unknowns) {
                     // The gradient is the side turned by a right angle.
-                    let value = a * along[i][1] * along[j][1] + along[i][0] * along[j][0];
+                    let value = a * along[i][1] * along[j][1] + b * along[i][0] * along[j][0];
                     rows[edges[i]].push((edges[j], value / area));
                 }
             }

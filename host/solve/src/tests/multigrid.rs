@@ -99,6 +99,7 @@ fn iterations_stay_where_they_are() -> Result<()> {
         (meshes("catalogue/h-tri.toml"), 20),
         (meshes("catalogue/h-quad.toml"), 20),
         (meshes("scenes/levee.toml"), 25),
+        (meshes("scenes/slab.toml"), 20),
         (firmware.join("dam.toml"), 45),
     ] {
         let (_, mut problem) = read(&path)?;
@@ -109,6 +110,24 @@ fn iterations_stay_where_they_are() -> Result<()> {
             assert!(work.longest <= most, "{}: {work:?}", path.display());
             assert!(found.ending().contains("by multigrid, "), "{}", found.ending());
         }
+    }
+    Ok(())
+}
+
+/// On the mesh itself, which is a refined one, and with a vertex moved by so little that it is none.
+#[test]
+fn a_coarser_mesh_has_found_most_of_the_active_set() -> Result<()> {
+    for path in [meshes("scenes/levee.toml"), meshes("scenes/slab.toml")] {
+        let (_, problem) = read(&path)?;
+        let nested = finer(&finer(&problem)?)?;
+        let mut mesh = Mesh::clone(&nested.mesh);
+        mesh.vertices.last_mut().expect("a vertex")[0] += 1e-12;
+        let cold = Problem::new(&nested.scene, mesh)?;
+        let sets = |problem| -> Result<usize> {
+            Ok(agrees("nested", problem, true)?.multigrid.expect("multigrid").sets)
+        };
+        let [nested, cold] = [sets(&nested)?, sets(&cold)?];
+        assert!(2 * nested <= cold, "{}: {nested} sets, {cold} without", path.display());
     }
     Ok(())
 }
