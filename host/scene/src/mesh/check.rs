@@ -9,7 +9,7 @@ use super::{Curve, Mesh};
 use crate::error::{InputError, Result};
 
 /// Numbers of cells above are refused: a slip of the pen, or a job for another machine.
-pub const MOST_CELLS: usize = 4_000_000;
+pub const MOST_CELLS: usize = 8_000_000;
 
 /// Cells that meet in a way no plane mesh has: three at one edge, or two on the same side of it.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -81,7 +81,7 @@ fn what_has_no_refinement_is_refused() {
     assert!(said(&mesh).contains("share the edge") || said(&mesh).contains("overlap"));
 
     let mesh = Mesh { triangles: vec![[0; 3]; MOST_CELLS / 4 + 1], ..Mesh::default() };
-    assert_eq!(said(&mesh), "the refined mesh would have 4000004 cells, expected at most 4000000");
+    assert_eq!(said(&mesh), "the refined mesh would have 8000004 cells, expected at most 8000000");
     for refine in [6, 16, 40, u32::MAX] {
         let error = adapted(grid(32, Cells::Quads), None, refine).expect_err("too fine");
         let message = format!("setting.refine: 2048 cells, refined {refine} times, make more");

@@ -116,11 +116,11 @@ fn what_cannot_be_refined_is_refused_and_the_mesh_stays() {
 
 #[test]
 fn too_many_cells_are_refused() {
-    let mut hierarchy = Hierarchy::new(grid(256, Cells::Triangles)).expect("a mesh");
-    hierarchy.refine(&vec![true; hierarchy.mesh().cells()]).expect("a million cells");
+    let mut hierarchy = Hierarchy::new(grid(360, Cells::Triangles)).expect("a mesh");
+    hierarchy.refine(&vec![true; hierarchy.mesh().cells()]).expect("two million cells");
     let marks = vec![true; hierarchy.mesh().cells()];
     let error = hierarchy.refine(&marks).expect_err("too many").to_string();
-    assert_eq!(error, "the refined mesh would have 4194304 cells, expected at most 4000000");
+    assert_eq!(error, "the refined mesh would have 8294400 cells, expected at most 8000000");
     assert_eq!(hierarchy.mesh().cells(), marks.len());
     assert!(4 * marks.len() > MOST_CELLS);
 }
