@@ -11,6 +11,9 @@ use crate::Problem;
 use crate::hierarchy::Hierarchy;
 use crate::vertex_matrix::{Numbering, galerkin};
 
+/// The part of the diagonal entry below which an entry takes nothing of what others are rounded by.
+const LARGE: f64 = 0.01;
+
 /// Entries beside the diagonal, those that a row has fewer being 0 times itself.
 #[derive(Debug, Clone, Copy)]
 struct Row<const WIDTH: usize> {
@@ -19,11 +22,11 @@ struct Row<const WIDTH: usize> {
 }
 
 impl<const WIDTH: usize> Row<WIDTH> {
-    /// Row `at` of K/`unit`, where `diagonal` is 1/(1/K_ii) in f32, and what rounding adds to the sum of its entries.
+    /// Row `at` of K/`unit`, where `diagonal` is 1/(1/K_ii) in f32, and what rounding takes from the sum of its entries.
     ///
-    /// The least entry takes what the others are rounded by, and `lost`, the same of the row before. So K times a constant is what it
-    /// is in f64, over any piece of the mesh: cells of one shape are rounded alike, and a part that hardly anything holds would be
-    /// held by what they are rounded by.
+    /// An entry takes what the others are rounded by, and `lost`, the same of the row before. So K times a constant is what it is in
+    /// f64, over any piece of the mesh: cells of one shape are rounded alike, and a part that hardly anything holds would be held by
+    /// what they are rounded by. It is the least entry that hardly changes by it: K stays symmetric to six digits.
     fn of(problem: &Problem, at: usize, unit: f64, diagonal: f64, lost: f64) -> (Self, f64) {
         let mut row = Self { columns: [at as u32; WIDTH], values: [0.0; WIDTH] };
         let is_rounding = lost.abs() <= f64::from(f32::EPSILON) * diagonal;
@@ -36,7 +39,9 @@ impl<const WIDTH: usize> Row<WIDTH> {
                 count += 1;
             }
         }
-        let least = row.values[..count].iter_mut().min_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let entries = row.values[..count].iter_mut();
+        let large = entries.filter(|entry| f64::from(entry.abs()) >= LARGE * diagonal);
+        let least = large.min_by(|a, b| a.abs().total_cmp(&b.abs()));
         if let Some(least) = least {
             let before = std::mem::replace(least, *least + lost as f32);
             lost -= f64::from(*least) - f64::from(before);

@@ -34,41 +34,51 @@ impl Old<'_> {
             }
         }
         let start = |(edge, &cell): (usize, &usize)| {
-            let (u, reference) = self.at(cell, problem.along(edge, 0.5))?;
-            let Some(at) = edge.checked_sub(counts.free) else { return Some(u) };
-            Some(self.on_its_side(cell, reference, u, problem.loads.gap[at]))
+            let (u, reference) = self.at(cell, problem.along(edge, 0.5));
+            match edge.checked_sub(counts.free) {
+                None => u,
+                Some(at) => self.on_its_side(cell, reference, u, problem.loads.gap[at]),
+            }
         };
-        holders.iter().enumerate().map(|of| start(of).unwrap_or(0.0)).collect()
+        holders.iter().enumerate().map(start).collect()
     }
 
-    /// u_h at a point of a cell, and where in the cell that is.
-    fn at(&self, cell: usize, x: [f64; 2]) -> Option<(f64, [f64; 3])> {
-        let mut means = [0.0; 4];
+    /// u_h at a point of a cell, and where in the cell that is. The point lies in the cell, whatever rounding says.
+    fn at(&self, cell: usize, x: [f64; 2]) -> (f64, [f64; 3]) {
         let edges = self.problem.topology.edges_of(cell);
+        let mut means = [0.0; 4];
         means.iter_mut().zip(edges).for_each(|(mean, &edge)| *mean = self.u[edge as usize]);
+        let reference = Cell::of(self.problem, cell).reference(x);
         let field = CellField::of_sides(self.problem, cell, means, [0.0; 4]);
-        let reference = field.locate(x)?;
-        Some((field.sample(&Point { x, reference, weight: 0.0 }).u, reference))
+        let u = field.sample(&Point { x, reference, weight: 0.0 }).u;
+        let mean = means.iter().sum::<f64>() / edges.len() as f64;
+        (if u.is_finite() { u } else { mean }, reference)
     }
 
-    /// `u` at a point of a contact edge of a cell, moved to the side of the `gap` on which that edge was.
+    /// `u` at a point of a contact edge of a cell, moved to the side of the `gap` on which the cell's nearest contact edge was.
     fn on_its_side(&self, cell: usize, reference: [f64; 3], u: f64, gap: f64) -> f64 {
-        let side = side_at(&Cell::of(self.problem, cell), reference);
-        let edge = self.problem.topology.edges_of(cell)[side] as usize;
-        let Some(at) = edge.checked_sub(self.problem.topology.counts.free) else { return u };
-        match self.u[edge].partial_cmp(&(self.gap)(at)) {
-            Some(Ordering::Greater) => u.max(gap),
-            Some(Ordering::Less) => u.min(gap),
-            _ => gap,
+        let counts = self.problem.topology.counts;
+        let apart = distances(&Cell::of(self.problem, cell), reference);
+        let sides = self.problem.topology.edges_of(cell).iter().zip(apart);
+        let contact = sides.filter_map(|(&edge, apart)| {
+            let at = (edge as usize).checked_sub(counts.free)?;
+            (at < counts.contact).then_some((at, apart))
+        });
+        let nearest = contact.min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+        let side = nearest.map(|(at, _)| self.u[counts.free + at].partial_cmp(&(self.gap)(at)));
+        match side {
+            None => u,
+            Some(Some(Ordering::Greater)) => u.max(gap),
+            Some(Some(Ordering::Less)) => u.min(gap),
+            Some(_) => gap,
         }
     }
 }
 
-/// The side of a cell that a point of its boundary lies on.
-fn side_at(cell: &Cell, [x, y, z]: [f64; 3]) -> usize {
-    let apart = match cell {
+/// How far a point of a cell is from each side, in reference coordinates.
+fn distances(cell: &Cell, [x, y, z]: [f64; 3]) -> [f64; 4] {
+    match cell {
         Cell::Triangle(_) => [z, x, y, f64::INFINITY],
         Cell::Quad(_) => [y, 1.0 - x, 1.0 - y, x],
-    };
-    (0..4).min_by(|&a, &b| apart[a].total_cmp(&apart[b])).unwrap_or_default()
+    }
 }

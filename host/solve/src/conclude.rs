@@ -20,8 +20,10 @@ pub(super) struct Task<'t> {
     pub problem: &'t Problem,
     pub parts: &'t Parts,
     pub options: &'t Options,
-    /// u to begin with; empty for a cold start.
+    /// u to begin with; empty for a start of the solver's own.
     pub start: &'t [f64],
+    /// Whether the loads are those of the scene, so that they can be had on another mesh.
+    pub is_posed: bool,
 }
 
 /// A problem in the hands of a solver: assembled in its scalar.

@@ -75,7 +75,8 @@ pub fn solve(problem: &Problem, options: &Options) -> Result<Solution> {
 }
 
 /// Solves from a start: the mean of u over each unknown edge, such as a coarser mesh or other data give it. Entries of Dirichlet
-/// edges are ignored: there the problem's own data hold. Empty, it is a cold start. The direct solver takes none.
+/// edges are ignored: there the problem's own data hold. Empty, it is a cold start, or one that multigrid has from a coarser
+/// mesh. The direct solver takes none.
 ///
 /// # Errors
 /// As for [`solve`].
@@ -89,7 +90,8 @@ pub fn solve_from(problem: &Problem, options: &Options, start: &[f64]) -> Result
 }
 
 fn solve_in_its_units(problem: &Problem, options: &Options, start: &[f64]) -> Result<Solution> {
-    let task = &Task { problem, parts: &Parts::examine(problem)?, options, start };
+    let parts = &Parts::examine(problem)?;
+    let task = &Task { problem, parts, options, start, is_posed: true };
     match (options.solver, options.scalar) {
         (SolverKind::Direct, ScalarKind::F64) => direct::directly(task),
         (SolverKind::Direct, ScalarKind::F32) => {

@@ -28,7 +28,7 @@ pub(super) fn start(problem: &Problem) -> Option<Vec<f64>> {
     }
     let nested = start(&coarse).unwrap_or_default();
     let (parts, options) = (&Parts::examine(&coarse).ok()?, &Options::default());
-    let task = Task { problem: &coarse, parts, options, start: &nested };
+    let task = Task { problem: &coarse, parts, options, start: &nested, is_posed: true };
     let found = minimised(&Attempt::<f64>::new(&task).ok()?, &ROUGHLY).ok()?.ok()?;
     let mut u = found.u;
     u.extend_from_slice(&coarse.loads.dirichlet);

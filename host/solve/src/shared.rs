@@ -39,7 +39,7 @@ impl SharedSolver {
     /// Numbers that f64 cannot hold.
     pub fn solve(&self, problem: &Problem, start: &[f64]) -> Result<Option<Solution>> {
         let (parts, options) = (&Parts::examine(problem)?, &Options::default());
-        let task = Task { problem, parts, options, start };
+        let task = Task { problem, parts, options, start, is_posed: false };
         match self {
             Self::Factor(factor) => by_factor(&Task { start: &[], ..task }, Some(factor)),
             Self::Multigrid => by_multigrid::<f64>(&task).map(Some),

@@ -20,7 +20,7 @@ use signorini_tolerances::solve::{
 pub(super) fn factored<R: Scalar>(problem: &Problem) -> Result<Option<Solution>> {
     let parts = &Parts::examine(problem)?;
     let options = &Options { scalar: ScalarKind::of::<R>(), ..Options::default() };
-    by_factor::<R>(&Task { problem, parts, options, start: &[] }, None)
+    by_factor::<R>(&Task { problem, parts, options, start: &[], is_posed: true }, None)
 }
 
 /// Asserts one answer: converged, equal active edges, u and bound.

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use crate::mesh::shape::mean;
 use crate::mesh::{Curve, Mesh, Surface};
 
-/// The mesh of which [`refined`](super::refined) makes `mesh`; none where there is no such mesh.
+/// The mesh of which [`refined`](super::refined) makes `mesh`; none where the cells of `mesh` are not numbered as those of a
+/// refinement. Slits are not looked for: one that is a single edge long is closed in the mesh before.
 pub fn coarsened(mesh: &Mesh) -> Option<Mesh> {
     let mut means = Vec::new();
     let triangles = fours(&mesh.triangles, |of| triangle(of, &mut means))?;
