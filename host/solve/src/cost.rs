@@ -6,7 +6,7 @@
 //!   sweeps      10 w N^1.5 √r                 9 to 60 √N sweeps on the standard scenes; r = 1 has the fewest
 //!   a factor    900 N + 6 N^1.5 + n³          order and pattern, columns of L, exchanges on the dense S
 //!   direct      1700 N + 3 N^1.5              the same, in supernodes
-//!   multigrid   1000 N √r + 2·10⁷             iterations that hardly depend on the mesh; small meshes stay with a factor
+//!   multigrid   500 N + 700 N √r + 2·10⁷      iterations that hardly depend on the mesh; small meshes stay with a factor
 //! ```
 //! r is the condition number of A as the cell has it: of J⁻¹AJ⁻ᵀ, J from an equilateral triangle or a square. With the sides e
 //! ```text
@@ -60,7 +60,7 @@ impl Size {
         let sweeps = 10.0 * (1.0 + width as f64) * n.powf(1.5) * self.stretch;
         let factor = 900.0 * n + 6.0 * n.powf(1.5) + contact.powi(3);
         let direct = 1700.0 * n + 3.0 * n.powf(1.5);
-        let multigrid = 1000.0 * n * self.stretch + SMALL;
+        let multigrid = 500.0 * n + 700.0 * n * self.stretch + SMALL;
         [
             (Ran::Sweeps, if sweeps <= AT_ONCE { 0.0 } else { sweeps }),
             (Ran::Factor, factor),
