@@ -4,7 +4,7 @@
 //! (`cargo bench --bench solvers`, host/benches/solvers/record.csv):
 //! ```text
 //!   sweeps      10 w N^1.5 √r                 9 to 60 √N sweeps on the standard scenes; r = 1 has the fewest
-//!   a factor    900 N + 6 N^1.5 + n³          order and pattern, columns of L, exchanges on the dense S
+//!   a factor    700 N + 9 N^1.5 + n³          order and pattern, columns of L, exchanges on the dense S
 //!   direct      1700 N + 3 N^1.5              the same, in supernodes
 //!   multigrid   500 N + 700 N √r + 2·10⁷      iterations that hardly depend on the mesh; small meshes stay with a factor
 //! ```
@@ -58,7 +58,7 @@ impl Size {
         let width = if self.quads { rows::QUADS } else { rows::TRIANGLES };
         let (n, contact) = (self.unknowns as f64, self.contact as f64);
         let sweeps = 10.0 * (1.0 + width as f64) * n.powf(1.5) * self.stretch;
-        let factor = 900.0 * n + 6.0 * n.powf(1.5) + contact.powi(3);
+        let factor = 700.0 * n + 9.0 * n.powf(1.5) + contact.powi(3);
         let direct = 1700.0 * n + 3.0 * n.powf(1.5);
         let multigrid = 500.0 * n + 700.0 * n * self.stretch + SMALL;
         [
