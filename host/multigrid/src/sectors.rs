@@ -24,15 +24,16 @@ const STIFFER: f64 = 10.0;
 /// Vertices with more edges stay whole: the work grows with the cube of their number.
 const MOST_EDGES: usize = 100;
 
-/// Gives each stiff sector at a vertex a number of its own, from `count` on; `ends` are the numbers of the vertices of the edges,
+/// Gives each stiff sector at a vertex a number of its own, from `vertices` on; `ends` are the numbers of the vertices of the edges,
 /// `around` the edges at each. How many there are then.
 pub(crate) fn part(
     problem: &Problem,
     around: &Sparse,
     ends: &mut [[u32; 2]],
-    mut count: u32,
+    vertices: u32,
 ) -> u32 {
-    for vertex in 0..count {
+    let mut count = vertices;
+    for vertex in 0..vertices {
         if around.row(vertex as usize).len() > MOST_EDGES {
             continue;
         }

@@ -79,8 +79,8 @@ table! {
         "sums of 64 polynomials of degree 8, whose values are below 100";
     MULTIGRID_NARROW: "u and fluxes of multigrid in f32 against those of the kernel's factor, over their range", 9e-5,
         "two roundings of one solution";
-    MULTIGRID: "u by multigrid against the direct solver, over the largest", 1e-9,
-        "promised; a residual of 1e-13, times what the condition makes of it";
+    MULTIGRID: "u by multigrid against the direct solver, over the largest", 1e-10,
+        "a residual of 1e-13, times what the condition makes of it; 1e-9 is promised";
     MULTIGRID_RELAXED: "u by multigrid against projected relaxation, u of size 1", 2e-13,
         "sweeps end at changes of 1e-15, with rates near 1";
     MULTIGRID_MATRIX: "entries of coarse matrices and prolongations against dense arithmetic, of size 10", 1e-14,

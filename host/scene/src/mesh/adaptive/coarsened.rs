@@ -1,4 +1,4 @@
-//! The mesh that a uniform refinement was made of: [`refined`](super::refined) undone.
+//! The mesh that a uniform refinement was made of: `refined` undone.
 
 use std::collections::BTreeMap;
 
