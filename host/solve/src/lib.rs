@@ -22,6 +22,7 @@ mod factored;
 pub mod fixtures;
 mod ldlt;
 mod level;
+mod minimised;
 mod mixed;
 mod multigrid;
 mod nested;

@@ -5,13 +5,13 @@ use std::time::Instant;
 use serde::Serialize;
 use signorini_kernel::solver::{Outcome, Status};
 use signorini_kernel::system::Residual;
-use signorini_multigrid::{self as multigrid, Failure, Settings};
+use signorini_multigrid::Settings;
 
 use super::direct::directly;
+use super::minimised::minimised;
 use super::nested;
-use super::{Attempt, Options, Ran, Reduced, ScalarKind, Solution, Solved, Task, by_kernel, unfit};
-use signorini_problem::progress::stage;
-use signorini_problem::scalar::{Scalar, widened};
+use super::{Attempt, Options, Ran, ScalarKind, Solution, Solved, Task, by_kernel, unfit};
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 
 /// Iterations at most: where as many are not enough, a factor is quicker.
@@ -91,33 +91,6 @@ fn from_its_start<R: Scalar>(task: &Task) -> Result<std::result::Result<Solution
     Ok(Ok(Solution { multigrid: work, ..attempt.conclude(solved)? }))
 }
 
-/// The minimiser in f64, from the start of the attempt, or why there is none.
-pub(super) fn minimised<R: Scalar>(
-    attempt: &Attempt<R>,
-    settings: &Settings,
-) -> Result<std::result::Result<multigrid::Solution, Failure>> {
-    let Task { problem, parts, start, .. } = attempt.task;
-    let unfit = unfit::<R>(&problem.scene);
-    let (system, u) = (attempt.assembled.system().map_err(&unfit)?, attempt.started());
-    let reduced = Reduced::new(problem, parts, &attempt.assembled, &u).map_err(&unfit)?;
-    stage("conjugate gradients and multigrid");
-    let unknowns = problem.topology.counts.unknowns();
-    let (lower, spans) = (system.law().lower(), system.law().spans().lengths());
-    let (lower, spans) = (widened(lower), widened(spans));
-    let given = ends(lower.iter().copied().chain(u[unknowns..].iter().map(|u| u.wide())));
-    let rows = system.matrix().iter().zip(system.load());
-    let loaded = rows.map(|(row, load)| load.wide().abs() / row.diagonal().wide());
-    let posed = multigrid::Problem {
-        contact: reduced.problem(&lower, &spans),
-        ends: &problem.ends,
-        vertices: problem.mesh.vertices.len(),
-        given: given.unwrap_or_default(),
-        loaded: loaded.fold(0.0, f64::max),
-    };
-    let own = if start.is_empty() { Vec::new() } else { widened(&u[..unknowns]) };
-    Ok(multigrid::solve(&posed, settings, &own))
-}
-
 /// What the scalar rounds off the unknowns `found`, 0 on edges with given values; nothing where it rounds nothing.
 fn low_part<R: Scalar>(u: &[R], found: &[f64]) -> Vec<R> {
     if ScalarKind::of::<R>() == ScalarKind::F64 {
@@ -128,11 +101,6 @@ fn low_part<R: Scalar>(u: &[R], found: &[f64]) -> Vec<R> {
         *low = R::narrow(found - u.wide());
     }
     low
-}
-
-/// The least and the largest of all.
-fn ends(all: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
-    all.map(|value| [value; 2]).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
 }
 
 fn settings(options: &Options) -> Settings {

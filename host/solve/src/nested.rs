@@ -8,7 +8,7 @@ use signorini_scene::mesh::adaptive::coarsened;
 use super::Options;
 use super::carried::Old;
 use super::conclude::{Attempt, Task};
-use super::multigrid::minimised;
+use super::minimised::minimised;
 use signorini_multigrid::Settings;
 
 /// Cells of the fine mesh in each coarse one.
