@@ -180,8 +180,9 @@ impl<'a, const WIDTH: usize> Solver<'a, WIDTH> {
             self.conjugate.restart();
         }
         let largest = self.unit;
-        for (at, rest) in self.residual.iter().enumerate() {
-            self.conjugate.residual[at] = (wanted((at, rest)) / largest) as f32;
+        for (rest, &at) in self.conjugate.residual.iter_mut().zip(&self.edges.order) {
+            let at = at as usize;
+            *rest = (wanted((at, &self.residual[at])) / largest) as f32;
         }
         let most = settings.most_iterations.saturating_sub(self.count.iterations);
         let made = self.conjugate.correct(&mut self.edges, reduction, most);
@@ -197,9 +198,9 @@ impl<'a, const WIDTH: usize> Solver<'a, WIDTH> {
         }
         let unit = largest / self.edges.unit;
         let mut change = 0.0_f64;
-        for (u, x) in self.u.iter_mut().zip(&self.conjugate.x) {
-            let step = unit * f64::from(*x);
-            *u += step;
+        for (&x, &at) in self.conjugate.x.iter().zip(&self.edges.order) {
+            let step = unit * f64::from(x);
+            self.u[at as usize] += step;
             change = change.max(step.abs());
         }
         Ok(self.conjugate.left * change)

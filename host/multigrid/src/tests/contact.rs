@@ -76,6 +76,17 @@ fn iterations_do_not_grow_with_the_mesh() {
     assert!(longest.iter().all(|&longest| longest <= 20), "{longest:?}");
 }
 
+/// Edges one by one would take PROBE at the last.
+#[test]
+fn a_direction_of_the_material_hardly_matters() {
+    let longest = [5.0, 25.0, 1e3, 1e4].map(|a| {
+        solve(&Square::new(64, a, true, slope).problem(), &SETTINGS, &[])
+            .expect("a solution")
+            .longest
+    });
+    assert!(longest.iter().all(|&longest| longest <= 20), "{longest:?}");
+}
+
 /// It goes on from what it is given.
 #[test]
 fn a_solution_is_its_own_start() {

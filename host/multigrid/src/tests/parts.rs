@@ -8,6 +8,7 @@ use crate::coarsest::Coarsest;
 use crate::conjugate::Conjugate;
 use crate::edges::Edges;
 use crate::hierarchy::Hierarchy;
+use crate::lines::Lines;
 use crate::prolongation::smoothed;
 use crate::sparse::Sparse;
 use crate::vertex_matrix::{Numbering, galerkin};
@@ -214,6 +215,50 @@ fn worst_rate(hierarchy: &mut Hierarchy, matrix: &Sparse, held: &[u32]) -> f64 {
     rate
 }
 
+/// Entries in the order of the unknowns.
+fn in_order(order: &[u32], entries: &[f32]) -> Vec<f64> {
+    let mut of = vec![0.0; order.len()];
+    order.iter().zip(entries).for_each(|(&at, &entry)| of[at as usize] = f64::from(entry));
+    of
+}
+
+/// A line along each row of cells, of all edges that cross it.
+#[test]
+fn lines_follow_the_strong_direction() {
+    let n = 8;
+    let lengths = |a: f64| -> Vec<usize> {
+        let lines = Lines::of(&Square::new(n, a, true, |_, _| 1.0).problem());
+        let mut order = lines.order.clone();
+        order.sort_unstable();
+        assert!(order.into_iter().eq(0..lines.order.len() as u32));
+        lines.lines.into_iter().map(|line| line.len()).collect()
+    };
+    assert_eq!(lengths(25.0), vec![2 * n as usize + 1; n as usize]);
+    assert!(lengths(1.0).iter().all(|&length| length <= 2));
+}
+
+/// x·M⁻¹y = y·M⁻¹x and x·M⁻¹x > 0: conjugate gradients take nothing else.
+#[test]
+fn the_preconditioner_is_symmetric_and_positive() {
+    let mut random = Random::new(7);
+    for a in [1.0, 25.0, 1e3] {
+        let square = Square::new(12, a, true, |_, _| 1.0);
+        let mut edges = Edges::<4>::new(&square.problem());
+        edges.hold((0..square.lower.len()).map(|at| at % 5 == 0));
+        let mut applied = |x: &[f32]| {
+            edges.rest.copy_from_slice(x);
+            edges.precondition(x);
+            edges.z.iter().map(|&z| f64::from(z)).collect::<Vec<f64>>()
+        };
+        let [x, y] = [0; 2].map(|_| vector(&mut random, square.load.len()));
+        let [in_x, in_y] = [&x, &y].map(|x| x.iter().map(|&x| x as f32).collect::<Vec<f32>>());
+        let [of_x, of_y] = [applied(&in_x), applied(&in_y)];
+        let size = dot(&x, &of_x);
+        assert!(size > 0.0, "{a}");
+        IN_SINGLE.check(format!("{a}"), (dot(&x, &of_y) - dot(&y, &of_x)) / size);
+    }
+}
+
 /// K z comes with z.
 #[test]
 fn the_sweep_up_tells_the_product() {
@@ -224,12 +269,13 @@ fn the_sweep_up_tells_the_product() {
     let residual: Vec<f32> = vector(&mut Random::new(1), n).iter().map(|&x| x as f32).collect();
     edges.rest.copy_from_slice(&residual);
     edges.precondition(&residual);
-    let z: Vec<f64> = edges.z.iter().map(|&z| f64::from(z)).collect();
+    let z = in_order(&edges.order, &edges.z);
     assert!(held.clone().all(|at| z[at] == 0.0));
     let product = square.times(&z);
+    let rest = in_order(&edges.order, &edges.rest);
+    let residual = in_order(&edges.order, &residual);
     for at in (0..n).filter(|at| !held.contains(at)) {
-        let told = f64::from(residual[at] + edges.rest[at]);
-        IN_SINGLE.check(at, told - product[at] / edges.unit);
+        IN_SINGLE.check(at, residual[at] + rest[at] - product[at] / edges.unit);
     }
 }
 
