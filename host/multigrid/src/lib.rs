@@ -10,6 +10,7 @@
 
 mod active_set;
 mod aggregation;
+mod around;
 mod coarsest;
 mod conjugate;
 mod edges;

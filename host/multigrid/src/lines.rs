@@ -40,9 +40,12 @@ impl Lines {
                 continue;
             }
             let start = order.len();
-            order.extend(search.line(first));
-            if order.len() > start + 1 {
-                lines.push(start..order.len());
+            match search.line(first as u32) {
+                Some(line) => {
+                    order.extend(line);
+                    lines.push(start..order.len());
+                }
+                None => order.push(first as u32),
             }
         }
         order.extend(free as u32..n as u32);
@@ -57,38 +60,34 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The line through an edge, as far as it goes both ways.
-    fn line(&mut self, first: usize) -> VecDeque<u32> {
-        let number = first as u32;
-        let mut line = VecDeque::from([number]);
-        self.of[first] = number;
-        let mut end = number;
-        while let Some(next) = self.next(end, number) {
+    /// The line through an edge, as far as it goes both ways; nothing where no edge follows it.
+    fn line(&mut self, first: u32) -> Option<VecDeque<u32>> {
+        self.of[first as usize] = first;
+        let second = self.next(first, first)?;
+        let mut line = VecDeque::from([first, second]);
+        while let Some(next) = self.next(line[line.len() - 1], first) {
             line.push_back(next);
-            end = next;
         }
-        end = number;
-        while let Some(next) = self.next(end, number) {
+        while let Some(next) = self.next(line[0], first) {
             line.push_front(next);
-            end = next;
         }
-        line
+        Some(line)
     }
 
     /// Takes the next edge into the line that ends at edge `end`.
-    fn next(&mut self, end: u32, number: u32) -> Option<u32> {
-        let end = end as usize;
-        let Self { problem, of } = self;
+    fn next(&mut self, end: u32, line: u32) -> Option<u32> {
+        let (Self { problem, of }, end) = (self, end as usize);
+        let threshold = STRONG * problem.diagonal(end);
         let is_free = |at: usize| at < problem.contact.free() && of[at] == NONE;
         let ends_nowhere_else =
-            |at: usize| problem.contact.row(at).all(|(side, _)| side == end || of[side] != number);
+            |at: usize| problem.contact.row(at).all(|(side, _)| side == end || of[side] != line);
         let strong = problem.contact.row(end).filter_map(|(at, value)| {
-            let coupling = value * value / problem.diagonal(at);
-            let is_strong = coupling > STRONG * problem.diagonal(end);
-            (is_strong && is_free(at) && ends_nowhere_else(at)).then_some((at, coupling))
+            let (square, own) = (value * value, problem.diagonal(at));
+            let is_strong = square > threshold * own;
+            (is_strong && is_free(at) && ends_nowhere_else(at)).then_some((at, square / own))
         });
         let (next, _) = strong.max_by(|a, b| a.1.total_cmp(&b.1))?;
-        self.of[next] = number;
+        of[next] = line;
         Some(next as u32)
     }
 }

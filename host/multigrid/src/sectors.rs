@@ -14,7 +14,7 @@
 //! are coupled to.
 
 use crate::Problem;
-use crate::sparse::Sparse;
+use crate::around::Around;
 
 /// θ
 const TOGETHER: f64 = 0.01;
@@ -28,20 +28,19 @@ const MOST_EDGES: usize = 100;
 /// `around` the edges at each. How many there are then.
 pub(crate) fn part(
     problem: &Problem,
-    around: &Sparse,
+    around: &Around,
     ends: &mut [[u32; 2]],
     vertices: u32,
 ) -> u32 {
     let mut count = vertices;
+    let diagonal: Vec<f64> = (0..ends.len()).map(|edge| problem.diagonal(edge)).collect();
+    let alike: Vec<bool> = (0..ends.len()).map(|edge| is_alike(problem, &diagonal, edge)).collect();
     for vertex in 0..vertices {
-        if around.row(vertex as usize).len() > MOST_EDGES {
+        let edges = around.at(vertex);
+        if edges.len() > MOST_EDGES || edges.iter().all(|&edge| alike[edge as usize]) {
             continue;
         }
-        let edges = || around.row(vertex as usize).iter().map(|of| of.0 as usize);
-        if edges().all(|edge| is_alike(problem, edge)) {
-            continue;
-        }
-        let edges: Vec<usize> = edges().collect();
+        let edges: Vec<usize> = edges.iter().map(|&edge| edge as usize).collect();
         let sectors = Fan { problem, edges: &edges }.sectors();
         let mut numbered = vec![(sectors[0], vertex)];
         for (&edge, &sector) in edges.iter().zip(&sectors) {
@@ -58,10 +57,10 @@ pub(crate) fn part(
 }
 
 /// Whether the diagonal entries of all sides of an edge's cells are near its own.
-fn is_alike(problem: &Problem, edge: usize) -> bool {
-    let own = problem.diagonal(edge);
+fn is_alike(problem: &Problem, diagonal: &[f64], edge: usize) -> bool {
+    let own = diagonal[edge];
     problem.contact.row(edge).all(|(side, _)| {
-        let other = problem.diagonal(side);
+        let other = diagonal[side];
         own.min(other) > TOGETHER * own.max(other)
     })
 }

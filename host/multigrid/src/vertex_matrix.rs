@@ -7,6 +7,7 @@
 //! edges whose u is given carry 0; they have no row.
 
 use crate::Problem;
+use crate::around::Around;
 use crate::sectors::part;
 use crate::sparse::{RowSum, Sparse};
 
@@ -16,6 +17,8 @@ pub(crate) struct Numbering {
     pub ends: Vec<[u32; 2]>,
     /// How many carry a value.
     pub count: usize,
+    /// The edges at each of these.
+    around: Around,
 }
 
 impl Numbering {
@@ -34,9 +37,11 @@ impl Numbering {
         }
         let ends = edges.iter().map(|pair| pair.map(|vertex| number[vertex as usize]));
         let mut ends: Vec<_> = ends.collect();
-        let count = part(problem, &edges_around(&ends, count as usize), &mut ends, count);
-        ends.as_flattened_mut().iter_mut().for_each(|end| *end = count.min(*end));
-        Self { ends, count: count as usize }
+        let whole = Around::new(&ends, count as usize);
+        let parted = part(problem, &whole, &mut ends, count);
+        ends.as_flattened_mut().iter_mut().for_each(|end| *end = parted.min(*end));
+        let around = if parted == count { whole } else { Around::new(&ends, parted as usize) };
+        Self { ends, count: parted as usize, around }
     }
 }
 
@@ -46,8 +51,7 @@ impl Numbering {
 /// ```
 /// so that two sides of a cell that meet make one entry, and opposite ones of a quad three.
 pub(crate) fn galerkin(problem: &Problem, numbering: &Numbering, scale: f64) -> Sparse {
-    let Numbering { ends, count } = numbering;
-    let around = edges_around(ends, *count);
+    let Numbering { ends, count, around } = numbering;
     let mut row = Row {
         matrix: Sparse::with_columns(*count),
         sum: RowSum::new(*count),
@@ -57,7 +61,7 @@ pub(crate) fn galerkin(problem: &Problem, numbering: &Numbering, scale: f64) -> 
     row.matrix.entries.reserve(7 * count);
     for vertex in 0..*count as u32 {
         row.diagonal = 0.0;
-        for &(edge, _) in around.row(vertex as usize) {
+        for &edge in around.at(vertex) {
             let edge = edge as usize;
             let [a, b] = ends[edge];
             let other = if a == vertex { b } else { a };
@@ -108,15 +112,4 @@ impl Row {
             self.add(d, value);
         }
     }
-}
-
-/// The edges at each vertex.
-fn edges_around(ends: &[[u32; 2]], count: usize) -> Sparse {
-    let mut incidence = Sparse::with_columns(count);
-    for pair in ends {
-        let carrying = pair.iter().filter(|&&end| (end as usize) < count);
-        incidence.entries.extend(carrying.map(|&end| (end, 0.5)));
-        incidence.end_row();
-    }
-    incidence.transposed()
 }

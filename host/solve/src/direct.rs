@@ -85,13 +85,15 @@ impl Reduced {
         let (system, edges) = (assembled.system()?, assembled.edges());
         let counts = problem.topology.counts;
         let mut sprung = HashSet::new();
+        let (rows, entries) = (system.matrix().rows(), system.matrix().values().len());
         let mut reduced = Self {
-            row_ptr: vec![0],
-            col_idx: Vec::new(),
-            values: Vec::new(),
+            row_ptr: Vec::with_capacity(rows + 1),
+            col_idx: Vec::with_capacity(entries),
+            values: Vec::with_capacity(entries),
             load: widened(system.load()),
             floating: Vec::new(),
         };
+        reduced.row_ptr.push(0);
         for (i, row) in system.matrix().iter().enumerate() {
             let part = parts.of_edge(edges, i);
             let support = parts.support(part);
