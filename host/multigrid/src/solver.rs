@@ -27,6 +27,8 @@ pub(crate) struct Solver<'a, const WIDTH: usize> {
     count: Counts,
     /// The residual 1 of f32.
     unit: f64,
+    /// The largest entries of the last two corrections on this set, as far as there are any.
+    changes: [f64; 2],
 }
 
 #[derive(Default)]
@@ -60,6 +62,7 @@ impl<'a, const WIDTH: usize> Solver<'a, WIDTH> {
             free,
             count: Counts::default(),
             unit: 0.0,
+            changes: [f64::INFINITY; 2],
         }
     }
 
@@ -153,11 +156,11 @@ impl<'a, const WIDTH: usize> Solver<'a, WIDTH> {
 
     fn begin_set(&mut self) {
         self.count.sets += 1;
-        self.count.of_set = 0;
+        (self.count.of_set, self.changes) = (0, [f64::INFINITY; 2]);
         self.edges.hold(self.set.sides.iter().map(|&side| side == Side::Touching));
     }
 
-    /// Adds a correction to u, and returns what is left of the largest entry of it.
+    /// Adds a correction to u, and returns what is left to correct.
     fn correct(&mut self, settings: &Settings, reduction: f64) -> Result<f64, Failure> {
         let force = |row: usize| row.checked_sub(self.free).map_or(0.0, |at| self.set.force(at));
         let is_held = |row: usize| {
@@ -203,7 +206,16 @@ impl<'a, const WIDTH: usize> Solver<'a, WIDTH> {
             self.u[at as usize] += step;
             change = change.max(step.abs());
         }
-        Ok(self.conjugate.left * change)
+        Ok(change * self.left(change))
+    }
+
+    /// The part of a correction's largest entry, `change`, that is left to correct: by its iterations, or by how the last corrections
+    /// of this set became smaller. Where cells are slender, iterations in f32 do not see all that they leave.
+    fn left(&mut self, change: f64) -> f64 {
+        let [before, last] = self.changes;
+        self.changes = [last, change];
+        let of_last = if before.is_finite() { last / before } else { 0.0 };
+        self.conjugate.left.max(change / last).max(of_last)
     }
 
     fn conclude(self) -> Solution {
