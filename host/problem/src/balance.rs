@@ -13,6 +13,8 @@ use super::Problem;
 /// Integrals over one part of the mesh.
 pub(super) struct Balance {
     support: Support,
+    /// The problem's unit of fluxes in that of the scene: a solver has units of its own.
+    unit: f64,
     /// Each datum by its key, with contact at its least flux and at its limit.
     terms: Vec<(String, [f64; 2])>,
     total: [f64; 2],
@@ -23,7 +25,8 @@ impl Balance {
     pub fn of(problem: &Problem, parts: &[Part<f64, u32>], cell: usize) -> Self {
         let root = parts[cell].root;
         let is_own = |cell: &usize| parts[*cell].root == root;
-        let mut balance = Self { support: parts[cell].support, terms: Vec::new(), total: [0.0; 2] };
+        let (support, unit) = (parts[cell].support, problem.units.flux());
+        let mut balance = Self { support, unit, terms: Vec::new(), total: [0.0; 2] };
         let cells = (0..problem.cells()).filter(is_own);
         let source: f64 = cells.map(|cell| problem.loads.of_cell(cell)).sum();
         if source != 0.0 {
@@ -43,6 +46,7 @@ impl Balance {
     }
 
     fn add(&mut self, key: String, fluxes: [f64; 2]) {
+        let fluxes = fluxes.map(|flux| self.unit * flux);
         let sum = |to: &mut [f64; 2]| (0..2).for_each(|end| to[end] += fluxes[end]);
         sum(&mut self.total);
         match self.terms.iter_mut().find(|(known, _)| *known == key) {

@@ -6,6 +6,7 @@ use signorini_scene::error::Result;
 use signorini_scene::mesh::adapted::adapted;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{Curve, Mesh};
+use signorini_scene::scene::units::Units;
 use signorini_scene::setting::CellKind;
 
 const SCENE: &str = r#"mesh = "grid"
@@ -228,8 +229,10 @@ fn loads_out_of_balance_are_told_with_their_sums() -> Result<()> {
     ] {
         let text = fixtures::changed(SCENE, &[(given, &flux(sides)), (contact, bottom)]);
         let problem = Problem::new(&scene(&text)?, grid(2, Cells::Quads))?;
-        let said = super::Parts::examine(&problem).expect_err(words).to_string();
-        assert!(said.contains(words), "{words}: {said}");
+        for problem in [problem.in_units(&Units { u: 0.25, ..Units::default() })?, problem] {
+            let said = super::Parts::examine(&problem).expect_err(words).to_string();
+            assert!(said.contains(words), "{words}: {said}");
+        }
     }
     Ok(())
 }
