@@ -13,7 +13,10 @@ fn main() -> ExitCode {
         Ok(status) => ExitCode::from(status),
         Err(error) => {
             let status = error.exit_status();
-            eprintln!("{:?}", miette::Report::new(error));
+            // One report each: that of all together would have a header for all but the first.
+            for fault in error.each() {
+                eprintln!("{:?}", miette::Report::new(fault));
+            }
             ExitCode::from(status)
         }
     }

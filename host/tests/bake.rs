@@ -189,6 +189,11 @@ fn a_scene_is_not_written_over() {
     let folder = Folder::new();
     let files = ["scenes/levee.toml", "scenes/levee.msh"]
         .map(|name| folder.write(&name["scenes/".len()..], text(meshes(name))));
+    let out = folder.word("levee.rs");
+    let said = run(&["bake", &files[0], "-o", &out]).succeeds().stderr;
+    says(&said, &[&format!("note: {out} is written: a condensed model in f32, about ")]);
+    let said = run(&["bake", &files[0], "-o", &folder.word("")]).refuses();
+    says(&said, &["-o ", "is a directory, expected a file", "name a file in it"]);
     for file in &files {
         let before = text(file);
         says(&run(&["bake", &files[0], "-o", file]).refuses(), &["-o "]);

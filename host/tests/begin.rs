@@ -52,7 +52,7 @@ fn a_new_scene_can_be_solved_once_it_is_filled_in() {
     let folder = Folder::new();
     let mesh = folder.write("bar.msh", std::fs::read(meshes("scenes/slab.msh")).expect("a mesh"));
     let said = run(&["new", &mesh]).succeeds().stdout;
-    says(&said, &["bar.toml is written", "signorini.schema.json is written", "signorini check"]);
+    says(&said, &["bar.toml is written", "signorini.schema.json is written", "bar.toml' --draw '"]);
     let scene = folder.word("bar.toml");
     let first = text(&scene);
     assert!(
@@ -146,6 +146,10 @@ fn check_asks_what_a_solution_would_ask() {
     let open = faults(&checked(&with(more)).1);
     let told = open.iter().filter(|fault| fault.ends_with("to be filled in")).count();
     assert_eq!(told, 6, "{open:#?}");
+    // What is produced inside is listed.
+    let scene = with("[source]\nf = \"2e-9*x\"\n");
+    says(&run(&["check", &scene]).succeeds().stdout, &["\n  source    f = 2e-9*x\n"]);
+    assert_eq!(checked(&scene).1["source"], "2e-9*x");
     // What `tick` alone refuses is a warning.
     let named = run(&["check", &with("[output.status]\nkind = \"force\"\n")]).succeeds();
     says(&named.stderr, &["`signorini tick` refuses an output's name", "column"]);

@@ -246,6 +246,17 @@ const WRONG_SCENES: &[(&str, &str, &str)] = &[
     ("[source]", "[time]\nstep = 0\nend = 1\n[source]", "time.step"),
 ];
 
+/// All faults look alike, the first one too.
+#[test]
+fn each_fault_is_a_report_of_its_own() {
+    let changes = [("[material.sand]", "[material]"), ("kind = \"probe\"", "kind = \"prob\"")];
+    let folder = Folder::new();
+    let scene = folder.scene("levee.toml", "scenes/levee.toml", &changes);
+    let said = run(&["check", &scene]).refuses();
+    assert_eq!((said.matches("  × ").count(), said.matches("Error").count()), (3, 0), "{said}");
+    says(&said, &["[material] has no keys of its own", "write [material.NAME]", "`prob`"]);
+}
+
 #[track_caller]
 fn refused(scene: &str, mesh: &str, expected: &str) {
     let folder = Folder::new();

@@ -89,6 +89,32 @@ fn what_is_not_reached_has_status_3_and_all_files() {
     }
 }
 
+/// A folder tells of one run; files that the program has not written stay, and the mesh, which a scene may name.
+#[test]
+fn levels_of_an_earlier_run_do_not_stay() {
+    let folder = Folder::new();
+    let run = folder.run("out", "solve", &levee(), &["--max-error", "12%"]).succeeds();
+    assert!(!run.stdout.contains("--max-error"), "{}", run.stdout);
+    folder.write("out/levels/mine.txt", "mine");
+    let (run, _) = folder.solve(&levee(), &[]);
+    says(&run.stdout, &["for a smaller error: --max-error 5%"]);
+    says(&run.succeeds().stderr, &["levels of an earlier --max-error are removed"]);
+    let exists = |name: &&str| folder.path("out").join(name).exists();
+    assert!(["levels/mine.txt", "refined.msh", "edges.csv"].iter().all(exists));
+    assert!(!["levels.csv", "levels.pvd", "levels/00.vtu", "levels/01.vtu"].iter().any(exists));
+    assert!(!folder.solve(&levee(), &[]).0.stderr.contains("removed"));
+}
+
+/// Whoever means 3 % and writes 3 is told what 3 is.
+#[test]
+fn an_absolute_goal_is_told_as_a_part() {
+    let folder = Folder::new();
+    let said = folder.run("out", "solve", &levee(), &["--max-error", "3"]).succeeds().stdout;
+    let words =
+        "--max-error 3 is an error in the unit of the energy norm, 33000 % of this solution's";
+    says(&said, &[words, "--max-error 3% asks for a part"]);
+}
+
 /// Ctrl-C ends it after the level at hand, with the files of that.
 #[cfg(unix)]
 #[test]

@@ -448,6 +448,13 @@ fn a_coarser_mesh_saves_sweeps_at_the_first_tick() {
         let ((cold, bound), (warm, same)) = (first(None), first(Some(&coarse)));
         assert!(2 * warm <= cold, "{cells:?}: {warm} sweeps, {cold} without");
         COARSE_START.check_relative(format_args!("{cells:?}"), same, bound);
+        // In millimetres it is another domain.
+        let mut mesh = grid(12, cells);
+        mesh.vertices.iter_mut().flatten().for_each(|x| *x *= 1e3);
+        let foreign = Problem::new(&scene, mesh).expect("a problem");
+        let said = play(&fine, Some(&foreign), &moments, &budget, |_, _| Ok(()));
+        let expected = "--coarse: the mesh goes from (-1000, 0) to (1000, 1000)";
+        says(&said.expect_err("another domain").to_string(), &[expected]);
     }
 }
 

@@ -1,18 +1,23 @@
 //! The contact boundary C as a picture: the multiplier λ against the exact one, and below it,
 //! over the same arc length, the opening u − ψ. Where one of them is positive the other should be 0; below the gap
-//! λ is at its limit.
+//! λ is at its limit. Stretches, one a boundary and a piece of it, stand side by side, each with its name and the
+//! point that it begins at.
 
 use super::axes::{Axes, with_zero};
-use super::scale::{Scale, extent};
-use super::svg::Svg;
+use super::legend::LETTERS;
+use super::lettering::shortened;
+use super::scale::{Scale, extent, plain};
+use super::svg::{Anchor, Svg};
 use super::{ContactEdge, ContactState, ScenePanel};
 
 const SIDES: [f64; 2] = [58.0, 538.0];
 const WIDTH: f64 = 642.0;
 /// Bottom and top of the two diagrams.
 const MULTIPLIER: [f64; 2] = [164.0, 24.0];
-const OPENING: [f64; 2] = [250.0, 196.0];
-const HEIGHT: f64 = 290.0;
+const OPENING: [f64; 2] = [266.0, 212.0];
+const HEIGHT: f64 = 306.0;
+/// The line between them that names of stretches stand on.
+const NAMES: f64 = 182.0;
 /// An exact λ may be infinite at a corner; the axis ends at this multiple of the discrete one.
 const TALLEST: f64 = 1.6;
 /// States with a ground of their own.
@@ -37,7 +42,24 @@ pub fn contact(panel: &ScenePanel) -> Option<Svg> {
     let mut axes = Axes { svg: &mut svg, across, up: with_zero(range, OPENING) };
     diagram(&mut axes, &edges, "opening", "u − ψ", |edge| edge.opening);
     axes.feet(6, "arc length along C");
+    name_stretches(&mut svg, across, &edges);
     Some(svg)
+}
+
+/// Parts stretches by a line, and writes under each whose it is and where it begins.
+fn name_stretches(svg: &mut Svg, across: Scale, edges: &[&ContactEdge]) {
+    for stretch in edges.chunk_by(|a, b| continues(a, b) && a.boundary == b.boundary) {
+        let ends = [stretch.first(), stretch.last()];
+        let [Some(first), Some(last)] = ends else { continue };
+        let [from, to] = [first.arc_length[0], last.arc_length[1]].map(|s| across.at(s));
+        let ([x, y], name) = (first.ends[0].map(plain), &first.boundary);
+        let whole = format!("{name} from ({x}, {y})");
+        let short = shortened(&whole, LETTERS, to - from - 4.0);
+        svg.abridged("tick", [from, NAMES], Anchor::Start, &short, &whole);
+        if from > SIDES[0] {
+            svg.line("axis", [from - 2.0, MULTIPLIER[1]], [from - 2.0, OPENING[0]]);
+        }
+    }
 }
 
 /// Draws a value that is constant on each edge: the area down to 0, and its upper end as a line.
@@ -68,7 +90,7 @@ fn points(
     edges: &[&ContactEdge],
     of: impl Fn(&ContactEdge) -> Vec<[f64; 2]>,
 ) -> Vec<Option<[f64; 2]>> {
-    let runs = edges.chunk_by(|a, b| touches(a.arc_length[1], b));
+    let runs = edges.chunk_by(|a, b| continues(a, b));
     let run = |run: &[&ContactEdge]| run.iter().flat_map(|edge| of(edge)).collect::<Vec<_>>();
     runs.flat_map(|edges| run(edges).into_iter().map(Some).chain([None])).collect()
 }
@@ -83,6 +105,11 @@ fn runs(edges: &[&ContactEdge], state: ContactState) -> Vec<[f64; 2]> {
         }
     }
     runs
+}
+
+/// Whether the walk goes on from one edge to the other: pieces that lie apart follow one another in arc length alone.
+fn continues(edge: &ContactEdge, next: &ContactEdge) -> bool {
+    edge.ends[1] == next.ends[0] && touches(edge.arc_length[1], next)
 }
 
 /// Whether an edge begins where the one before ended, up to rounding.
@@ -131,6 +158,24 @@ mod tests {
         assert_eq!(runs(&all, ContactState::Touching), [[0.0, 2.0], [3.0, 4.0], [5.0, 6.0]]);
         assert_eq!(runs(&all, ContactState::Open), [[2.0, 3.0]]);
         assert!(runs(&all, ContactState::Saturated).is_empty());
+    }
+
+    #[test]
+    fn stretches_have_names_and_no_line_between_them() {
+        let along = |start: f64, x: f64, boundary: &str| ContactEdge {
+            ends: [[x, 0.0], [x + 1.0, 0.0]],
+            boundary: boundary.to_owned(),
+            ..edge(start, false, 1.0)
+        };
+        // The second lies apart, the third belongs to another boundary.
+        let edges = vec![along(0.0, 0.0, "rib"), along(1.0, 5.0, "rib"), along(2.0, 6.0, "tip")];
+        let apart = points(&edges.iter().collect::<Vec<_>>(), |of| vec![of.arc_length]);
+        assert_eq!(apart, [Some([0.0, 1.0]), None, Some([1.0, 2.0]), Some([2.0, 3.0]), None]);
+        let panel = ScenePanel { contact: edges, ..ScenePanel::default() };
+        let svg = contact(&panel).expect("a picture").finish();
+        for name in [">rib from (0, 0)<", ">rib from (5.00, 0)<", ">tip from (6.00, 0)<"] {
+            assert!(svg.contains(name), "{name}: {svg}");
+        }
     }
 
     #[test]

@@ -163,6 +163,8 @@ pub struct BoundTerms {
 /// An edge of the contact boundary.
 #[derive(Debug, Clone, Default)]
 pub struct ContactEdge {
+    /// The boundary that it belongs to.
+    pub boundary: String,
     /// Its ends.
     pub ends: [[f64; 2]; 2],
     /// The arc length along C at both ends, the smaller first.

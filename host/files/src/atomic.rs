@@ -39,7 +39,7 @@ pub fn writable(option: &str, folder: &Path) -> Result<()> {
 pub fn writable_file(option: &str, file: &Path) -> Result<()> {
     if file.is_dir() {
         let message = format!("{option} {}: is a directory, expected a file", file.display());
-        return Err(InputError::new(message).hint("remove it, or name another place").into());
+        return Err(InputError::new(message).hint("name a file in it, or another place").into());
     }
     file.parent().map_or(Ok(()), |folder| writable(option, folder))
 }

@@ -53,7 +53,9 @@ fn contact_edge(
     if reversed {
         ends.reverse();
     }
+    let boundary = problem.boundary_of(edge).map(|of| of.name.value.clone());
     ContactEdge {
+        boundary: boundary.unwrap_or_default(),
         ends,
         arc_length: [start, start + problem.lengths[edge]],
         state: state(problem, solution, contact),

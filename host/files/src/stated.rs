@@ -28,7 +28,8 @@ impl<'a> Stated<'a> {
         intervals: &'a BTreeMap<String, Found>,
     ) -> Self {
         let name = &output.name.value;
-        Self { output, value: values.get(name).copied().flatten(), interval: intervals.get(name) }
+        let value = values.get(name).copied().flatten().filter(|value| value.is_finite());
+        Self { output, value, interval: intervals.get(name) }
     }
 
     /// One line: name, value, the interval or why there is none, the estimate.
@@ -134,13 +135,29 @@ pub fn around(center: f64, plus_minus: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
+    use signorini_scene::scene::Scene;
 
     #[test]
     fn powers_are_raised_in_print() {
         assert_eq!(printed_power("(3.31 ± 0.15)e-5"), "(3.31 ± 0.15)·10⁻⁵");
         assert_eq!(printed_power("(1.2 ± 0.3)e12"), "(1.2 ± 0.3)·10¹²");
         assert_eq!(printed_power("27.5 ± 3.6"), "27.5 ± 3.6");
+    }
+
+    #[test]
+    fn what_is_no_number_is_no_value() {
+        let scene = "mesh = 'm'\nmaterial.a.conductivity = 1\nboundary.a = { kind = 'contact' }\n\
+                     output.q = { kind = 'force' }";
+        let scene = Scene::parse(scene, Path::new("a.toml")).expect("a scene");
+        for value in [f64::NAN, f64::INFINITY] {
+            let values = BTreeMap::from([("q".to_owned(), Some(value))]);
+            let intervals = BTreeMap::new();
+            let stated = Stated::of(&scene.outputs[0], &values, &intervals);
+            assert_eq!(stated.line(), "q no value");
+        }
     }
 
     #[test]

@@ -114,7 +114,8 @@ impl Binding {
         faults: &Faults,
     ) {
         let mut told = HashSet::new();
-        for &ends in uncovered {
+        // Where there is no table at all, the reader has said so.
+        for &ends in uncovered.iter().filter(|_| !scene.boundaries.is_empty()) {
             let key = key(ends);
             let within = mesh.curves.iter().find(|curve| curve.edges.binary_search(&key).is_ok());
             let name = within.map_or(DEFAULT, |curve| &curve.name);
@@ -209,7 +210,7 @@ fn bind_materials(scene: &Scene, mesh: &Mesh, faults: &Faults) -> Vec<u32> {
     for cell in (0..materials.len()).filter(|&cell| materials[cell].or(default).is_none()) {
         let home = mesh.surfaces.iter().find(|s| s.cells.binary_search(&(cell as u32)).is_ok());
         let name = home.map_or(DEFAULT, |surface| &surface.name);
-        if told.insert(name) {
+        if told.insert(name) && !scene.materials.is_empty() {
             let message = format!("material.{name}: missing; cell {cell} has no material");
             let fault = InputError::new(message).file(&scene.path);
             faults.note(fault.hint(to_add("material", name)));

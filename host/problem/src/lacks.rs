@@ -118,13 +118,16 @@ impl Approach {
             // Where that leaves a matrix singular, the factor finds it out.
             Property::FloatingPart => match self {
                 Condensation | Modes | Stepped => Some(no_level),
-                Tick | FullModel => Some(|problem| no_tick(problem, "nothing holds")),
+                Tick | FullModel => {
+                    Some(|problem| no_tick(problem, Property::FloatingPart, "nothing holds"))
+                }
                 Factor | FactoredTicks | Export | Baselines => None,
             },
             Property::PartHeldByContact => match self {
-                Tick | FullModel => Some(|problem| no_tick(problem, "contact alone holds")),
-                // Where h is what may fail to hold it, its matrix is singular for some h alone.
-                Modes => Some(|problem| no_tick(problem, "contact alone holds")),
+                // Where h is what may fail to hold it, the matrix of modes is singular for some h alone.
+                Tick | FullModel | Modes => Some(|problem| {
+                    no_tick(problem, Property::PartHeldByContact, "contact alone holds")
+                }),
                 Stepped => Some(no_walk),
                 Condensation | Factor | FactoredTicks | Export | Baselines => None,
             },
@@ -174,7 +177,7 @@ fn no_level(problem: &Problem) -> InputError {
 }
 
 /// The tick's certificate needs a way out of every part that no iterate can close.
-fn no_tick(problem: &Problem, held: &str) -> InputError {
+fn no_tick(problem: &Problem, property: Property, held: &str) -> InputError {
     let scene = &problem.scene;
     if let Some(range) = problem.insulating_input().and_then(|input| input.range.as_ref()) {
         let message = format!("within it nothing may pass, and then {held} a part of the domain");
@@ -182,7 +185,10 @@ fn no_tick(problem: &Problem, held: &str) -> InputError {
         return scene.error(range, message).hint(hint);
     }
     let message = format!("boundary: the full model has no tick for a part that {held}");
-    let hint = "bake it with --condensed, or give every part a dirichlet or robin boundary";
+    let hint = match Approach::condensing(problem).treats(property) {
+        true => "bake it with --condensed, or give every part a dirichlet or robin boundary",
+        false => "give every part a dirichlet or robin boundary",
+    };
     InputError::new(message).file(&scene.path).hint(hint)
 }
 
@@ -256,5 +262,32 @@ impl fmt::Display for Lack {
 impl From<Lack> for Error {
     fn from(lack: Lack) -> Self {
         lack.refusal.into()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixtures::{changed, on_grid, wall};
+    use signorini_scene::mesh::structured::{Cells, grid};
+
+    /// No model is named that would refuse the problem, too.
+    #[test]
+    fn a_condensed_model_is_named_where_there_is_one() {
+        let held = "kind = \"dirichlet\", value = \"-1\"";
+        let loose = "kind = \"neumann\", flux = \"-1\"";
+        let stores = "conductivity = \"2\"\nmaterial.default.capacity = \"1\"\ntime.step = 1";
+        for (below, more, is_named) in [
+            ("kind = \"contact\"", "conductivity = \"2\"", true),
+            ("kind = \"contact\"", stores, false),
+            ("kind = \"neumann\", flux = \"1\"", "conductivity = \"2\"", false),
+        ] {
+            let text =
+                changed(&wall("-1", below), &[(held, loose), ("conductivity = \"2\"", more)]);
+            let (_, problem) = on_grid(&text, grid(2, Cells::Quads)).expect("a problem");
+            let refused = Approach::FullModel.check(&problem).expect_err("no tick");
+            let hint = miette::Diagnostic::help(&refused).expect("a hint").to_string();
+            assert_eq!(hint.contains("--condensed"), is_named, "{below} {more}: {hint}");
+        }
     }
 }

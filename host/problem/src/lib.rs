@@ -10,6 +10,7 @@
 //! file. Clones share what does not change: mesh, edges and A.
 
 mod assembled;
+mod balance;
 mod bilinear;
 mod binding;
 pub mod cell;

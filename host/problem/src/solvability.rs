@@ -3,6 +3,7 @@
 use signorini_kernel::mesh::components::{Part, PartCounts, Support, examine};
 use signorini_kernel::mesh::edges::{Edges, Side};
 
+use super::balance::Balance;
 use super::{Loads, Problem};
 use signorini_scene::error::{InputError, Result};
 
@@ -27,7 +28,8 @@ impl Parts {
     pub fn examine(problem: &Problem) -> Result<Self> {
         let triangles = problem.mesh.triangles.len();
         let mut cells = vec![Part::default(); triangles + problem.mesh.quads.len()];
-        let counts = Self::counts(problem, &mut cells).map_err(|error| refused(problem, error))?;
+        let counts = Self::counts(problem, &mut cells);
+        let counts = counts.map_err(|error| refused(problem, &cells, error))?;
         Ok(Self { counts, cells, triangles })
     }
 
@@ -110,28 +112,29 @@ fn near(problem: &Problem, cell: usize) -> String {
     format!("the connected part of the mesh around ({x}, {y})")
 }
 
-fn refused(problem: &Problem, error: signorini_kernel::Error) -> InputError {
+fn refused(
+    problem: &Problem,
+    cells: &[Part<f64, u32>],
+    error: signorini_kernel::Error,
+) -> InputError {
     use signorini_kernel::Error as E;
-    let near = |cell| near(problem, cell);
-    let size = format!("{BALANCE:e} of the sum of their sizes, edge by edge");
     let (message, hint) = match error {
-        E::NoSolution { cell } => (
-            format!("no solution: nothing holds {} against its loads", near(cell)),
-            format!(
-                "without a Dirichlet or Robin boundary ∫f + ∫g + ∫q must be < 0 where there is contact, and where its flux \
-                 has a limit ∫f + ∫g + ∫limit must be > 0; 0 where there is none (0: at most {size}). These are what sources, \
-                 Neumann boundaries and contact bring in"
-            ),
-        ),
-        E::NotUnique { cell } => (
-            format!(
-                "no unique solution: the loads on {} balance by themselves (their sum is at most {size})",
-                near(cell)
-            ),
-            "without a Dirichlet or Robin boundary ∫f + ∫g + ∫q must be < 0, so that contact holds it"
-                .to_owned(),
-        ),
-        other => (other.to_string(), "see the numbers of the scene".to_owned()),
+        E::NoSolution { cell } => {
+            let (near, balance) = (near(problem, cell), Balance::of(problem, cells, cell));
+            let words = balance.words();
+            let message = format!("no solution: nothing holds {near} against its loads. {words}");
+            (message, balance.hint())
+        }
+        E::NotUnique { cell } => {
+            let (near, balance) = (near(problem, cell), Balance::of(problem, cells, cell));
+            let message = format!(
+                "no unique solution: the loads on {near} balance by themselves (their sum is at most {BALANCE:e} of the \
+                 sum of their sizes, edge by edge). {}",
+                balance.words()
+            );
+            (message, balance.hint())
+        }
+        other => (other.to_string(), "see the numbers of the scene"),
     };
     let refused = InputError::new(format!("boundary: {message}")).file(&problem.scene.path);
     refused.hint(hint).because(error)

@@ -6,6 +6,7 @@ use signorini_scene::error::Result;
 use signorini_scene::mesh::adapted::adapted;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{Curve, Mesh};
+use signorini_scene::scene::units::Units;
 use signorini_scene::setting::CellKind;
 
 const SCENE: &str = r#"mesh = "grid"
@@ -203,15 +204,36 @@ fn the_hint_says_no_more_than_it_has_to() {
 }
 
 #[test]
-fn the_threshold_of_a_balance_is_said() -> Result<()> {
-    let text =
-        SCENE.replace("kind = \"dirichlet\", value = \"1\"", "kind = \"neumann\", flux = \"0\"");
-    let scene = scene(&text)?;
-    let problem = Problem::new(&scene, grid(2, Cells::Quads))?;
-    let error = super::Parts::examine(&problem).expect_err("no unique solution");
-    let said = error.to_string();
-    let balance = "balance by themselves (their sum is at most 1e-9 of the sum of their sizes";
-    assert!(said.contains(balance), "{said}");
+fn loads_out_of_balance_are_told_with_their_sums() -> Result<()> {
+    let (given, contact) = ("kind = \"dirichlet\", value = \"1\"", "kind = \"contact\"");
+    let flux = |flux: &str| format!("kind = \"neumann\", flux = \"{flux}\"");
+    for (sides, bottom, words) in [
+        (
+            "0",
+            contact,
+            "balance by themselves (their sum is at most 1e-9 of the sum of their sizes",
+        ),
+        (
+            "0",
+            contact,
+            "They sum to 0, not less than 0, with contact at its least flux: boundary.contact.flux 0",
+        ),
+        ("1", contact, "They sum to 4, not less than 0, with contact at its least flux"),
+        ("0.5", &flux("-0.001"), "They sum to 1.998, not 0: "),
+        ("0.5", &flux("-0.001"), "boundary.contact.flux -0.002"),
+        (
+            "-1",
+            "kind = \"contact\", limit = 0.25",
+            "They sum to -3.5, not more than 0, with contact at its limit",
+        ),
+    ] {
+        let text = fixtures::changed(SCENE, &[(given, &flux(sides)), (contact, bottom)]);
+        let problem = Problem::new(&scene(&text)?, grid(2, Cells::Quads))?;
+        for problem in [problem.in_units(&Units { u: 0.25, ..Units::default() })?, problem] {
+            let said = super::Parts::examine(&problem).expect_err(words).to_string();
+            assert!(said.contains(words), "{words}: {said}");
+        }
+    }
     Ok(())
 }
 

@@ -235,6 +235,14 @@ impl Error {
         self
     }
 
+    /// All faults of wrong input, each on its own; any other failure alone.
+    pub fn each(self) -> Vec<Self> {
+        match self {
+            Self::Input(fault) => fault.each().into_iter().map(Self::from).collect(),
+            other @ (Self::Io { .. } | Self::Check(_)) => vec![other],
+        }
+    }
+
     /// The exit status that this failure ends in.
     pub fn exit_status(&self) -> u8 {
         if self.input().is_some() { 2 } else { 1 }

@@ -31,6 +31,7 @@ pub(crate) fn start<R: Scalar>(
     u: &mut [R],
 ) -> Result<()> {
     if let Some(coarse) = coarse {
+        check_domain(problem, coarse)?;
         let means: Vec<R> = solved(coarse)?.into_iter().map(R::narrow).collect();
         let origins = origins(problem, coarse)?;
         return prolong(&origins, &means, u).map_err(unfit::<R>(&problem.scene));
@@ -40,6 +41,31 @@ pub(crate) fn start<R: Scalar>(
         u.iter_mut().zip(means).for_each(|(u, mean)| *u = mean);
     }
     Ok(())
+}
+
+/// How far apart the boxes of two meshes of one domain may be, as a part of its size: a coarse mesh cuts curves short.
+const APART: f64 = 0.2;
+
+/// Refuses a coarse mesh of another domain, or of the same one in another unit of length.
+fn check_domain(fine: &Problem, coarse: &Problem) -> Result<()> {
+    let boxes = [fine, coarse].map(|of| {
+        [0, 1].map(|k| {
+            let along = || of.mesh.vertices.iter().map(|vertex| vertex[k]);
+            [along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max)]
+        })
+    });
+    let [own, other] = boxes;
+    let size = own.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
+    let mut both = own.as_flattened().iter().zip(other.as_flattened());
+    if both.all(|(a, b)| (a - b).abs() <= APART * size) {
+        return Ok(());
+    }
+    let [own, other] = [own, other].map(|[[left, right], [bottom, top]]| {
+        format!("from ({left}, {bottom}) to ({right}, {top})")
+    });
+    let message = format!("--coarse: the mesh goes {other}, that of the scene {own}");
+    let hint = "expected a coarser mesh of the same domain, in the same unit of length";
+    Err(InputError::new(message).hint(hint).into())
 }
 
 /// For every edge of `fine` the sides of the coarse cell that its middle lies in.

@@ -55,7 +55,7 @@ fn lend_session(problem: &Problem, then: Then) -> Result<()> {
         (Some(ModelKind::Condensed), _) if single => with_condensed::<f32>(problem, then),
         (Some(ModelKind::Condensed), _) => with_condensed::<f64>(problem, then),
         (_, Some(property)) => {
-            refuse_tick_keys(&problem.scene, &setting, property)?;
+            refuse_tick_keys(problem, &setting, property)?;
             with_solves(problem, &setting, then)
         }
         _ if mixed => with_solves(problem, &setting, then),
@@ -65,10 +65,15 @@ fn lend_session(problem: &Problem, then: Then) -> Result<()> {
 }
 
 /// Refuses keys of the setting that mean the kernel's tick, where `property` leaves none.
-fn refuse_tick_keys(scene: &Scene, setting: &Setting, property: Property) -> Result<()> {
+fn refuse_tick_keys(problem: &Problem, setting: &Setting, property: Property) -> Result<()> {
+    let scene = &problem.scene;
+    let hint = match Approach::condensing(problem).treats(property) {
+        true => "remove it, or take model = \"condensed\"",
+        false => "remove it",
+    };
     let refused = |key: &str, what: &str| {
         let message = format!("setting.{key}: {what} is not for {property}");
-        InputError::new(message).file(&scene.path).hint("remove it, or take model = \"condensed\"")
+        InputError::new(message).file(&scene.path).hint(hint)
     };
     if setting.scalar == Some(Precision::Mixed) {
         return Err(no_mixed(scene, property).into());

@@ -52,6 +52,16 @@ impl Told {
         self.answer.solution.converged()
     }
 
+    /// The error bound as a part of the solution, where it has one.
+    pub fn relative_bound(&self) -> Option<f64> {
+        self.answer.solution.relative_bound(self.answer.energy_norm)
+    }
+
+    /// Whether what the solver has left is no answer.
+    pub fn broke_down(&self) -> bool {
+        self.answer.solution.status.is_breakdown()
+    }
+
     /// The solution as a picture, with a line for each output.
     pub fn picture(&self) -> Result<String> {
         let Answer { problem, solution, outputs, intervals, .. } = &self.answer;
@@ -158,7 +168,7 @@ fn report_bound(solution: &Solution, energy_norm: Option<f64>) {
         let reason = solution.no_bound.as_ref().map_or_else(String::new, ToString::to_string);
         return say(format_args!("  no error bound: {reason}"));
     };
-    let part = |of: f64| match energy_norm {
+    let part = |of: f64| match energy_norm.filter(|norm| !norm.is_nan()) {
         _ if solution.is_constant(energy_norm) => {
             "the solution is constant up to rounding".to_owned()
         }

@@ -14,6 +14,8 @@ use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::emit::{Emitted, emit};
 use signorini_bake::explain::warnings;
 use signorini_bake::setting;
+use signorini_files::atomic::writable_file;
+use signorini_image::chosen::Chosen;
 use signorini_image::library::{MACHINES, Machine};
 use signorini_problem::Problem;
 use signorini_problem::progress::{note, say, waiting, warn};
@@ -122,6 +124,9 @@ impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let mut scene = scene_at(&self.scene, &self.input)?;
         self.step.iter().for_each(|&step| scene.set_step(step));
+        for (option, file) in [("-o", &self.output), ("--json", &self.json)] {
+            file.as_deref().map_or(Ok(()), |file| writable_file(option, file))?;
+        }
         let (problem, promise) = promised_problem_of(&scene)?;
         let promise = promise.as_ref();
         warn(&problem.warnings);
@@ -149,11 +154,16 @@ impl Arguments {
         }
         if let Some(file) = &self.output {
             write_beside(&scene, "-o", file, source)?;
+            let Chosen { model, scalar, ram_bytes: ram, flash_bytes: flash, .. } = chosen;
+            let needs = format!("{ram} bytes of RAM and {flash} of flash");
+            let file = file.display();
+            note(&format_args!("{file} is written: a {model} model in {scalar}, about {needs}"));
         }
         if let Some(file) = &self.json {
             // Numbers, names and flags: nothing here can fail.
             let chosen = serde_json::to_string_pretty(chosen).unwrap_or_default();
             write_beside(&scene, "--json", file, &(chosen + "\n"))?;
+            note(&format_args!("{} is written", file.display()));
         }
         Ok(0)
     }

@@ -4,16 +4,20 @@ use std::path::Path;
 use std::sync::atomic::Ordering;
 
 use super::interruption::interruption;
-use super::series::Series;
+use super::series::{Series, remove};
 use signorini_files::atomic::write_atomically;
 use signorini_files::digits::percent_above;
 use signorini_files::fields::{Drawn, picture};
-use signorini_problem::progress::{say, waiting};
+use signorini_problem::progress::{note, say, waiting};
 use signorini_scene::error::{Error, Result};
+use signorini_scene::goal::Goal;
 use signorini_scene::mesh::{Mesh, gmsh::write};
 use signorini_scene::scene::Scene;
 use signorini_solve::Solution;
 use signorini_solve::adaptive::{Level, Stop, Wanted, refined_until};
+
+/// The table of levels.
+const TABLE: &str = "levels.csv";
 
 /// Solves level after level, says a line for each, and writes their files into `out`, where they are wanted: `levels.csv`,
 /// `levels.pvd`, a VTU each, and the last mesh as `refined.msh`.
@@ -35,7 +39,7 @@ pub(super) fn refined(
         });
     };
     let mut table = csv::Writer::from_writer(Vec::new());
-    let mut series = Series::new(out, "levels", 2);
+    let mut series = series(out);
     let failed = |error: csv::Error| Error::Check(format!("levels.csv: {error}"));
     table
         .write_record([
@@ -57,10 +61,34 @@ pub(super) fn refined(
     };
     let found = refining(&mut look)?;
     let text = table.into_inner().map_err(|error| Error::Check(error.to_string()))?;
-    write_atomically(&out.join("levels.csv"), &text)?;
+    write_atomically(&out.join(TABLE), &text)?;
     write_atomically(&out.join("refined.msh"), write::text(&found.0.problem.mesh).as_bytes())?;
     series.close()?;
     Ok(found)
+}
+
+/// Removes the levels of an earlier run from the folder of one that has none. Its last mesh stays: scenes may name it.
+pub(super) fn forget(out: &Path) -> Result<()> {
+    let table = out.join(TABLE);
+    if series(out).forget()? && table.exists() {
+        remove(&table)?;
+        note(&format_args!("{}: levels of an earlier --max-error are removed", out.display()));
+    }
+    Ok(())
+}
+
+fn series(out: &Path) -> Series {
+    Series::new(out, "levels", 2)
+}
+
+/// What part of the solution an absolute goal is, for whoever means a part by it.
+pub(super) fn absolute(goal: Goal, energy_norm: Option<f64>) -> Option<String> {
+    let Goal::Energy(most) = goal else { return None };
+    let norm = energy_norm.filter(|norm| *norm > 0.0)?;
+    Some(format!(
+        "  --max-error {most} is an error in the unit of the energy norm, {} % of this solution's; --max-error {most}% asks for a part",
+        percent_above(most / norm)
+    ))
 }
 
 /// Why the levels ended, with the option that ended them; nothing where that is the goal.

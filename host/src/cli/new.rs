@@ -51,7 +51,9 @@ impl Arguments {
         write_atomically(&scene, text.as_bytes())?;
         say(format_args!("{} is written", scene.display()));
         write_schema(&folder.join(schema::FILE));
-        say(format_args!("fill in each \"?\", then: signorini check '{}'", scene.display()));
+        let (place, picture) = (scene.display(), scene.with_extension("svg"));
+        say("fill in each \"?\"; what is left, and where each group lies:");
+        say(format_args!("  signorini check '{place}' --draw '{}'", picture.display()));
         Ok(0)
     }
 }

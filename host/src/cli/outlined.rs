@@ -21,6 +21,11 @@ pub(super) fn text(look: &Look) -> String {
         let _ = write!(text, "\n  mesh      {}: {cells}", scene.mesh.value.display());
         text.push_str(&groups(outline));
     }
+    // Where the scene has no such table, there is no place of it.
+    if !scene.source.span.is_empty() {
+        let source = [format!("f = {}", scene.source.value), String::new(), String::new()];
+        text.push_str(&rows("source", vec![source]));
+    }
     let inputs = scene.inputs.iter().map(|input| {
         let range = input.range.as_ref().map(|range| range.value);
         let range = range.map_or_else(String::new, |[lo, hi]| format!(", from {lo} to {hi}"));
@@ -105,6 +110,7 @@ pub(super) fn json(look: &Look) -> Json {
         "boundaries": outline.map(|of| &of.boundaries),
         "materials": outline.map(|of| &of.materials),
         "parts": outline.map(|of| &of.parts),
+        "source": scene.source.value.to_string(),
         "inputs": scene.inputs.iter().map(input_json).collect::<Vec<_>>(),
         "outputs": scene.outputs.iter().map(output_json).collect::<Vec<_>>(),
         "warnings": look.warnings,

@@ -39,6 +39,9 @@ of a controller that has run.
 `auto` takes what is quickest at the size of the mesh, by a record: sweeps, a factor, the direct solver or multigrid; \
 --max-sweeps asks for sweeps. What solved the scene is printed, and stands in summary.json as `solver_used`.";
 
+/// A bound above this part of the solution leaves the question what to do about it.
+const LARGE: f64 = 0.05;
+
 /// Arguments of `solve`.
 #[derive(Debug, Args)]
 #[command(after_help = format!("{EXAMPLES}\n\n{}", signorini_scene::expression::vocabulary()))]
@@ -59,8 +62,8 @@ pub struct Arguments {
     /// Most sweeps allowed [default: 1 000 000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     max_sweeps: Option<u32>,
-    /// Refine the mesh where the error bound says, until the bound is at most this: in the unit of the energy norm, or with % a
-    /// part of `energy_norm` in summary.json. (`trade --max-error` is about the true error.) Writes refined.msh, levels.csv and levels.pvd too
+    /// Refine the mesh where the error bound says, until the bound is at most this: 5% is a part of the solution's energy norm,
+    /// and 5 alone is an error in the unit of that norm, whatever its size (`energy_norm` in summary.json). (`trade --max-error` is about the true error.) Writes refined.msh, levels.csv and levels.pvd too
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     max_error: Option<Goal>,
     /// Intervals of outputs on every mesh [default: on those of up to 2.5 million unknowns]. Beyond 200 000
@@ -102,6 +105,12 @@ impl Arguments {
             Some(goal) => self.refined(&scene, goal, &out)?,
         };
         told.write(&out, !self.no_files)?;
+        if self.max_error.is_none() && told.relative_bound() > Some(LARGE) {
+            say("  for a smaller error: --max-error 5% refines the mesh where the bound is large");
+        }
+        if self.max_error.is_none() || self.no_files {
+            levels::forget(&out)?;
+        }
         say(format_args!("  written to {}", out.display()));
         if let Some(file) = &self.draw {
             write_atomically(file, told.picture()?.as_bytes())?;
@@ -112,7 +121,7 @@ impl Arguments {
             self.asked().follows_setting() && scene.setting.is_some_and(|set| set.sweeps.is_some());
         Ok(match told.stop {
             Some(stop) => levels::status(&stop),
-            None if told.converged() || prescribed => 0,
+            None if told.converged() || (prescribed && !told.broke_down()) => 0,
             None => 3,
         })
     }
@@ -138,6 +147,7 @@ impl Arguments {
             Wanted { goal, most_unknowns: self.max_unknowns.unwrap_or(MOST_UNKNOWNS), options };
         let out = (!self.no_files).then_some(out);
         let (level, stop) = levels::refined(scene, adapted::of_scene(scene)?, &wanted, out)?;
+        levels::absolute(goal, level.energy_norm).iter().for_each(say);
         let mut problem = level.problem;
         problem.warnings.extend(at_rest_warning(scene));
         warn(&problem.warnings);

@@ -242,7 +242,7 @@ impl Arguments {
             Some(path) => log::blamed(path, error),
             None => error,
         })?;
-        series.map_or(Ok(()), Series::close)?;
+        series.map_or_else(|| Series::new(out, "ticks", 4).forget().map(drop), Series::close)?;
         Ok(Ran { model, played, was_interrupted: interrupted.load(Ordering::Relaxed) })
     }
 

@@ -38,6 +38,7 @@ pub fn panel(n: u32, mixed: bool) -> ScenePanel {
         let exact = |x: f64| 1.5 * (-x).max(0.0).sqrt();
         let middle = 0.5 * (from[0] + to[0]);
         ContactEdge {
+            boundary: "foot".to_owned(),
             ends: [from, to],
             arc_length: [from[0] + 1.0, to[0] + 1.0],
             state: if middle < 0.0 { ContactState::Touching } else { ContactState::Open },

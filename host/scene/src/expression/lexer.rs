@@ -101,9 +101,13 @@ fn foreign(character: char, start: usize) -> ParseError {
         ']' | '}' => Some(")"),
         _ => None,
     };
+    let is_unit = "°%‰µμΩ℃€$".contains(character);
+    let number = is_unit.then(|| {
+        "numbers have no units here: write the number alone, in units that go together".to_owned()
+    });
     ParseError {
         message: format!("unexpected character `{}`", character.escape_debug()),
         span: start..start + character.len_utf8(),
-        hint: plain.map(|plain| format!("write `{plain}`")),
+        hint: plain.map(|plain| format!("write `{plain}`")).or(number),
     }
 }

@@ -193,12 +193,24 @@ impl Parser<'_> {
                     Some(format!("write `{before}*{found}`")),
                 )
             }
+            Kind::Symbol(',') if self.is_decimal_comma() => (
+                format!("expected {expected}, found `,`"),
+                Some("numbers are written with a point, as in 2.5".to_owned()),
+            ),
             Kind::Symbol('*') if before == "*" => {
                 ("unexpected `**`".to_owned(), Some("a power is written `^`".to_owned()))
             }
             _ => (format!("expected {expected}, found `{found}`"), None),
         };
         ParseError { message, span, hint }
+    }
+
+    /// Whether the comma at hand stands between digits.
+    fn is_decimal_comma(&self) -> bool {
+        let before = &self.text[..self.token.span.start];
+        let after = &self.text[self.token.span.end..];
+        let is_digit = |c: char| c.is_ascii_digit();
+        before.ends_with(is_digit) && after.starts_with(is_digit)
     }
 
     /// Whether a name is made of letters and means nothing here.

@@ -10,6 +10,7 @@ use toml::de::DeTable;
 
 use super::Located;
 use crate::error::{InputError, Result, line_of};
+use crate::expression::{Expression, ParseError, Variables};
 use crate::faults::Faults;
 
 const LARGEST_FILE: usize = 1 << 20;
@@ -28,10 +29,14 @@ impl Document {
         let root = DeTable::parse(&self.text).map_err(|error| {
             let span = error.span().unwrap_or(0..0);
             let wrong = InputError::new(format!("not TOML: {}", error.message()));
+            let hint = match self.text.starts_with("$MeshFormat") {
+                true => Some("this is a mesh: `signorini new` writes a scene for it".to_owned()),
+                false => value_before(&self.text, span.start).and_then(correction),
+            };
             let wrong = wrong.file(&self.path).excerpt(&self.text, span);
-            match self.text.starts_with("$MeshFormat") {
-                true => wrong.hint("this is a mesh: `signorini new` writes a scene for it"),
-                false => wrong,
+            match hint {
+                Some(hint) => wrong.hint(hint),
+                None => wrong,
             }
         })?;
         Ok(root.into_inner())
@@ -61,6 +66,34 @@ pub(super) fn document(bytes: &[u8], path: &Path) -> Result<Document> {
         unreadable(path, "not UTF-8 text".to_owned()).line(line)
     })?;
     Ok(Document { path: path.to_owned(), text: text.into(), faults: Faults::default() })
+}
+
+/// The value behind the `=` of the line that a byte stands in, where the byte is no part of the key.
+fn value_before(text: &str, at: usize) -> Option<&str> {
+    let at = text.floor_char_boundary(at);
+    let start = text[..at].rfind('\n').map_or(0, |newline| newline + 1);
+    let line = text[start..].lines().next()?;
+    let (key, value) = line.split_once('=')?;
+    let value = value.split_once('#').map_or(value, |(value, _)| value);
+    (start + key.len() < at).then(|| value.trim())
+}
+
+/// How a value that TOML cannot read is written, unless it is more than one number or expression.
+fn correction(value: &str) -> Option<String> {
+    if value.is_empty() {
+        return Some("write a value behind the `=`".to_owned());
+    }
+    if value.contains(['"', '\'', '[', '{']) {
+        return None;
+    }
+    if let Ok(number) = value.parse::<f64>() {
+        return Some(format!("write `{number:?}`"));
+    }
+    let begins_a_number = value.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+    match Expression::parse(value, Variables::SpaceTime) {
+        Err(ParseError { hint, .. }) if begins_a_number => hint,
+        _ => Some(format!("texts and expressions stand in quotes: write `\"{value}\"`")),
+    }
 }
 
 fn unreadable(path: &Path, message: String) -> InputError {

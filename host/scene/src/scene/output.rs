@@ -118,6 +118,10 @@ fn contact(of: &Entry, boundaries: &[Named<Condition>]) -> Result<Located<String
 
 /// A mean over a boundary or, where none has the name, over a material.
 fn mean(of: &Entry, Groups { boundaries, materials }: Groups) -> Result<Quantity> {
+    if of.array().is_some() {
+        let hint = "write an output for each, or give these curves one name in the mesh";
+        return Err(of.expected("one boundary or one material").hint(hint).into());
+    }
     let name = of.text()?.value;
     if boundaries.iter().any(|(known, _)| known.value == name) {
         return Ok(Quantity::Mean);

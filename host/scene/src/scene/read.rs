@@ -19,7 +19,7 @@ use super::keys::{Section, tables};
 use super::material::read_material;
 use super::output::{Groups, read_output};
 use super::setting::read_setting;
-use super::table::Table;
+use super::table::{Table, to_name};
 use super::{Condition, Exact, Located, Material, Named, Scene, Target, Time};
 use crate::error::{Error, InputError, Result};
 use crate::expression::{Expression, Variables};
@@ -182,9 +182,7 @@ fn at_least_one<T>(root: &Table, key: &str, read: impl Fn(&Table) -> Option<T>) 
     let known = root.document.faults.count();
     let all = each(root, key, read);
     if all.is_empty() && root.document.faults.count() == known {
-        let hint =
-            format!("write [{key}.NAME] with the name of a group of the mesh, or [{key}.default]");
-        root.document.faults.note(root.absent(key).hint(hint));
+        root.document.faults.note(root.absent(key).hint(to_name(key)));
     }
     all
 }

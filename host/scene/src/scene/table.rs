@@ -142,6 +142,18 @@ impl<'a> Table<'a> {
         let Some(parent) = self.table(key) else { return Vec::new() };
         let mut entries: Vec<_> = parent.entries.iter().collect();
         entries.sort_by_key(|(name, _)| name.span().start);
+        let header = format!("{key}.NAME");
+        let is_key = |name: &str| Section::all(&header).any(|of| of.names().any(|own| own == name));
+        let (nameless, entries): (Vec<_>, Vec<_>) =
+            entries.into_iter().partition(|(name, value)| {
+                is_key(name.get_ref()) && !matches!(value.get_ref(), DeValue::Table(_))
+            });
+        // One fault for all keys that stand there.
+        if let Some((name, _)) = nameless.first() {
+            let at = parent.locate(name.get_ref(), name.span(), ());
+            let fault = self.document.error(&at, format_args!("[{key}] has no keys of its own"));
+            self.document.faults.note(fault.hint(to_name(key)));
+        }
         let table = |(name, value)| parent.keep(parent.subtable(name, value));
         entries.into_iter().filter_map(table).collect()
     }
@@ -195,6 +207,16 @@ fn note_open(entry: &Entry) {
             document.faults.note(entry.expected("a value"));
         }
         _ => {}
+    }
+}
+
+/// What to write above the keys of a table that needs a name.
+pub(super) fn to_name(table: &str) -> String {
+    match table {
+        "boundary" | "material" => format!(
+            "write [{table}.NAME] with the name of a group of the mesh, or [{table}.default]"
+        ),
+        _ => format!("write [{table}.NAME] with a name of your choice"),
     }
 }
 

@@ -113,7 +113,7 @@ fn constants_are_folded_and_recognised() {
 }
 
 /// text, culprit, a part of the message or of the hint
-const MALFORMED: [(&str, &str, &str); 34] = [
+const MALFORMED: [(&str, &str, &str); 38] = [
     ("", "", "found the end"),
     ("  ", "", "found the end"),
     ("2x", "x", "write `2*x`"),
@@ -137,6 +137,10 @@ const MALFORMED: [(&str, &str, &str); 34] = [
     ("x)", ")", "found `)`"),
     ("()", ")", "found `)`"),
     ("x, y", ",", "found `,`"),
+    ("2,5", ",", "written with a point, as in 2.5"),
+    ("sin(1,5*x)", "sin", "takes one argument"),
+    ("-10 °C", "°", "numbers have no units here"),
+    ("(2,5 + x)", ",", "written with a point, as in 2.5"),
     ("(x, y)", ",", "expected `)`, found `,`"),
     ("sin x", "x", "expected `(`"),
     ("sin()", ")", "found `)`"),

@@ -35,6 +35,24 @@ fn the_report_underlines_the_culprit_and_says_what_to_do() {
 }
 
 #[test]
+fn what_toml_cannot_read_has_a_hint() {
+    for (value, hint) in [
+        ("2,5", "numbers are written with a point, as in 2.5"),
+        ("2.5 W/mK # dry", "numbers have no units here, and products a `*`: write `2.5`"),
+        ("-10 °C", "numbers have no units here: write the number alone"),
+        (".5", "write `0.5`"),
+        ("1.", "write `1.0`"),
+        ("2*x", "texts and expressions stand in quotes: write `\"2*x\"`"),
+        ("robin", "texts and expressions stand in quotes: write `\"robin\"`"),
+        ("", "write a value behind the `=`"),
+    ] {
+        let error = parse(&LEVEE.replacen("\"-4.0\"", value, 1)).expect_err(value);
+        let said = miette::Diagnostic::help(&error).expect(value).to_string();
+        assert!(said.starts_with(hint), "{value}: {said}");
+    }
+}
+
+#[test]
 fn deep_nesting_is_refused_before_the_stack_ends() {
     for (open, close) in [("[", "]"), ("{a=", "}"), ("a.", ""), ("{a.b.c=[", "]}")] {
         let count = 800_000 / (open.len() + close.len());
