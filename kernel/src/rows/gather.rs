@@ -41,7 +41,14 @@ impl<R: Real, I: Index, const WIDTH: usize> Rows<'_, R, I, WIDTH> {
         same_length_or_empty(Array::Storage, step.len(), self.rows.len())?;
         self.omega = omega;
         if !step.is_empty() {
-            fill(self.rows, edges.half_edges(), (edges, stiffness), load, step.iter().copied(), omega);
+            fill(
+                self.rows,
+                edges.half_edges(),
+                (edges, stiffness),
+                load,
+                step.iter().copied(),
+                omega,
+            );
         } else {
             self.gather_steady((edges, stiffness), diagonal, load);
         }

@@ -46,6 +46,7 @@ mod factor;
 mod in_step;
 mod metric;
 mod motion;
+mod moving;
 mod parts;
 mod quad;
 mod stability;

@@ -18,6 +18,7 @@
 
 use super::in_step::{Fields, OfStep, WAYS, Way};
 use super::motion::Motion;
+use super::moving;
 use super::parts::Parts;
 use super::stored::{Inside, Means, Step};
 use super::{Buffers, Continuous, Discretization, LoadCase, Verdict, admissible, boundary};
@@ -103,8 +104,11 @@ impl<R: Real, I: Index> OfStep<'_, R, I> {
     ) -> (Judged<R>, R) {
         let Self { discretization, given, step, iterate, s, perturbation } = *self;
         let (edges, missed) = (&discretization.edges, discretization.metric.missed);
-        let Way { mut parts, means, earlier: [begin, middle], algebraic } = way;
-        let ends = [begin, middle, parts.distance()];
+        let Way { mut parts, means, mut earlier, algebraic } = way;
+        let end = parts.distance();
+        let slack = moving::slack([&earlier[0], &end]);
+        earlier.iter_mut().for_each(|of| of.add([slack, R::ZERO]));
+        let ends = [earlier[0], earlier[1], end];
         let pulled = equilibrium::pulled(edges, &given.boundary, tau);
         boundary::add(discretization, given, iterate, s, tau, indicators, &mut parts);
         parts.perturbation += perturbation;
