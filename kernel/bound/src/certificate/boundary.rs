@@ -1,7 +1,7 @@
 //! Terms of the boundary in the bound: contact, transfer laws, curved data.
 
 use super::extension::{Curved, extension, is_clear, jump, of_means, of_s};
-use super::parts::Parts;
+use super::parts::{Distance, Parts};
 pub(super) use super::transfer::Transfer;
 use super::{Continuous, Discretization, LoadCase};
 use crate::equilibrium::Iterate;
@@ -13,7 +13,8 @@ use signorini_kernel::mesh::boundary::Robin;
 use signorini_kernel::mesh::edges::Side;
 use signorini_kernel::{Real, features};
 
-/// Adds it all to the sums and to the indicators of the cells, but for the [`perturbation`] of the data.
+/// Adds it all to the sums and to the indicators of the cells, but for the [`perturbation`] of the data; to `distance` what transfer
+/// laws add. Returns the sum of the terms of contact.
 #[inline(always)]
 pub(super) fn add<R: Real, I: Index>(
     discretization: &Discretization<R, I>,
@@ -22,22 +23,27 @@ pub(super) fn add<R: Real, I: Index>(
     s: Continuous<R>,
     tau: &[R],
     indicators: &mut [R],
-    parts: &mut Parts<R>,
-) {
+    (parts, distance): (&mut Parts<R>, &mut Distance<R>),
+) -> R {
     let edges = &discretization.edges;
     let counts = edges.counts();
     let mut take = |parts: &mut Parts<R>, edge: usize, term: R, terms: R| {
         parts.gap.add(term);
         parts.direct += R::from_count(8) * R::EPSILON * terms;
+        if !features::INDICATORS {
+            return;
+        }
         let cell = edges.cell_of(read(edges.half_edges(), edge)[0].at());
         if let Some(indicator) = cell.and_then(|cell| indicators.get_mut(cell)) {
             *indicator += term;
         }
     };
+    let mut of_contact = R::ZERO;
     let gap = if features::CONTACT { given.ends.gap } else { &[] };
     for at in 0..gap.len() {
         let (term, terms) = contact_term(discretization, given, contact, (s, tau), at);
         take(parts, counts.free + at, term, terms);
+        of_contact += term;
     }
     let mut moved = R::ZERO;
     let laws = if features::ROBIN { given.boundary.robin() } else { &[] };
@@ -50,6 +56,7 @@ pub(super) fn add<R: Real, I: Index>(
         };
         let [term, terms, open] = of_transfer(given, (at, law), &transfer);
         take(parts, edge, term, terms);
+        distance.add([term, open]);
         if features::PIECES {
             parts.open += open;
         }
@@ -73,6 +80,7 @@ pub(super) fn add<R: Real, I: Index>(
         take(parts, edge, term, terms);
         jump(&in_cell, of_means(discretization, u, edge).as_ref(), curved, parts);
     }
+    of_contact
 }
 
 /// The term of the transfer law `at`, the size of its terms, and the square of what is beyond it.

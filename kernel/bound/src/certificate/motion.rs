@@ -1,6 +1,6 @@
 //! Terms of a step in time, in which s goes linearly from where the step before has left it, and τ stays.
 
-use super::boundary::{self, ends};
+use super::boundary;
 use super::change::mean;
 use super::parts::Distance;
 use super::{Continuous, Discretization, LoadCase};
@@ -18,20 +18,21 @@ pub(super) struct Motion<'a, R> {
 }
 
 impl<R: Real> Motion<'_, R> {
-    /// Adds ∫_R to what `sums` have of the cells, for s at the beginning, in the middle and at the end.
+    /// Adds ∫_R to what `sums` have of the cells, for s at the beginning and in the middle.
     pub fn with_transfer<I: Index>(
         &self,
         discretization: &Discretization<R, I>,
         given: &LoadCase<R, I>,
-        mut sums: [Distance<R>; 3],
-    ) -> [Distance<R>; 3] {
+        mut sums: [Distance<R>; 2],
+    ) -> [Distance<R>; 2] {
         let laws = if features::ROBIN { given.boundary.robin() } else { &[] };
         for (at, law) in laws.iter().enumerate() {
             let edge = law.edge.at();
-            let of = |s: Continuous<R>| (ends(discretization, s, edge), [read(s.bubbles, edge)]);
+            let vertices = discretization.edges.endpoints(&discretization.mesh, edge);
+            let of = |s: Continuous<R>| (s.at(&vertices), [read(s.bubbles, edge)]);
             let (now, old) = (of(self.end), of(self.begin));
             let middle = (mean(old.0, now.0), mean(old.1, now.1));
-            for (sum, (s, [bubble])) in sums.iter_mut().zip([old, middle, now]) {
+            for (sum, (s, [bubble])) in sums.iter_mut().zip([old, middle]) {
                 let transfer = boundary::Transfer { flux: read(self.tau, edge), s, bubble };
                 let [term, _, open] = boundary::of_transfer(given, (at, law), &transfer);
                 sum.add([term, open]);
@@ -40,24 +41,19 @@ impl<R: Real> Motion<'_, R> {
         sums
     }
 
-    /// 2∫_C (τ·n − lo)(s − ψ)⁺ + (hi − τ·n)(ψ − s)⁺ at the beginning, where `openings` are those of s and the gap then, and at the end.
-    pub fn contacts<I: Index>(
+    /// 2∫_C (τ·n − lo)(s − ψ)⁺ + (hi − τ·n)(ψ − s)⁺ at the beginning, where `openings` are those of s and the gap then.
+    pub fn contact<I: Index>(
         &self,
         discretization: &Discretization<R, I>,
         given: &LoadCase<R, I>,
         law: Law<R>,
         openings: &[[R; 2]],
-    ) -> [R; 2] {
-        let free = discretization.edges.counts().free;
-        let mut sums = [R::ZERO; 2];
-        for (at, &before) in openings.iter().enumerate() {
-            let (range, tau) = (given.boundary.contact_flux(at), read(self.tau, free + at));
-            let now = boundary::opening(discretization, given, law, self.end, at);
-            for (sum, opening) in sums.iter_mut().zip([before, now]) {
-                *sum += boundary::charge(range, law, tau, opening).0;
-            }
-        }
-        sums
+    ) -> R {
+        let on_contact = self.tau.iter().skip(discretization.edges.counts().free);
+        let all = openings.iter().zip(on_contact).enumerate();
+        all.fold(R::ZERO, |sum, (at, (&opening, &tau))| {
+            sum + boundary::charge(given.boundary.contact_flux(at), law, tau, opening).0
+        })
     }
 }
 

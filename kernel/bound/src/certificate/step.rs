@@ -105,12 +105,12 @@ impl<R: Real, I: Index> OfStep<'_, R, I> {
         let Self { discretization, given, step, iterate, s, perturbation } = *self;
         let (edges, missed) = (&discretization.edges, discretization.metric.missed);
         let Way { mut parts, means, mut earlier, algebraic } = way;
-        let end = parts.distance();
+        let mut end = parts.distance();
         let slack = moving::slack([&earlier[0], &end]);
         earlier.iter_mut().for_each(|of| of.add([slack, R::ZERO]));
-        let ends = [earlier[0], earlier[1], end];
         let pulled = equilibrium::pulled(edges, &given.boundary, tau);
-        boundary::add(discretization, given, iterate, s, tau, indicators, &mut parts);
+        let sums = (&mut parts, &mut end);
+        let contact = boundary::add(discretization, given, iterate, s, tau, indicators, sums);
         parts.perturbation += perturbation;
         let of_kept = parts.algebraic;
         parts.algebraic = algebraic.unwrap_or(parts.algebraic);
@@ -121,14 +121,14 @@ impl<R: Real, I: Index> OfStep<'_, R, I> {
         let terms = verdict.certificate().map(|certificate| {
             let begin = Continuous { vertices: step.vertices, bubbles: step.bubbles };
             let motion = Motion { begin, end: s, tau };
-            let distance = motion.with_transfer(discretization, given, ends);
-            let distance = distance.map(|of| of.square(missed));
-            let contact = motion.contacts(discretization, given, iterate.law, step.openings);
+            let [begin, middle] = motion.with_transfer(discretization, given, earlier);
+            let distance = [begin, middle, end].map(|of| of.square(missed));
+            let before = motion.contact(discretization, given, iterate.law, step.openings);
             // What rounding leaves of a cell's balance may stay in a step, and not in all of them.
             let lasting = parts.unbalanced(discretization.cells.len(), discretization.stability);
             let oscillation = given.oscillation + certificate.rounding + lasting;
             let residual = [means.mean, inside.rest, inside.loose];
-            StepTerms::new(step.length, (residual, oscillation), distance, contact)
+            StepTerms::new(step.length, (residual, oscillation), distance, [before, contact])
         });
         (Judged { verdict, terms }, of_kept)
     }
