@@ -142,7 +142,7 @@ impl<R: Real, I: Index> OfStep<'_, R, I> {
         (ways, inside): &mut Sums<R>,
         fields: &mut [Fields<R>; WAYS],
     ) -> Option<()> {
-        let (rest, mut of_kept) = (inside.add(stored, change), R::ZERO);
+        let rest = inside.add(stored, change);
         for (at, (way, (tau, indicators))) in ways.iter_mut().zip(fields).enumerate() {
             if tau.is_empty() {
                 continue;
@@ -150,16 +150,17 @@ impl<R: Real, I: Index> OfStep<'_, R, I> {
             let keep = if at == 0 { R::ONE } else { stored.keep };
             let (balance, out) = balanced(cell, (stored, change, source), keep, tau)?;
             let (mut terms, earlier) = share((balance.load, out))?;
-            if at == 0 {
-                of_kept = algebraic(out);
-            }
-            terms.algebraic = of_kept;
             let of_mean = way.means.add((stored, change, rest), &balance, &out, &mut terms);
             way.earlier.iter_mut().zip(earlier).for_each(|(sum, of)| sum.add(of));
             if features::INDICATORS {
                 write(indicators, cell.number.at(), terms.gap + terms.open + of_mean);
             }
-            way.parts.add(terms);
+            if at == 0 {
+                terms.algebraic = algebraic(out);
+                way.parts.add(terms);
+            } else {
+                way.parts.add_of_flux(&terms);
+            }
         }
         Some(())
     }

@@ -84,6 +84,7 @@ pub fn certify_step_with<R: Real, I: Index>(
     let mut fields = [(tau, indicators), (handed.tau, handed.indicators)];
     let (ways, inside) = of_step.walk(&mut fields);
     let ([kept, mut handed], [of_kept, of_handed]) = (ways, fields);
+    handed.parts.take_rest(&kept.parts);
     let (kept, algebraic) = of_step.judge(kept, &inside, of_kept);
     if of_handed.0.is_empty() {
         return Ok([kept, Judged { verdict: Verdict::NotAsked, terms: None }]);
