@@ -1,7 +1,7 @@
 //! Terms of the boundary in the bound: contact, transfer laws, curved data.
 
 use super::extension::{Curved, extension, is_clear, jump, of_means, of_s};
-use super::parts::{Distance, Parts};
+use super::parts::Parts;
 pub(super) use super::transfer::Transfer;
 use super::{Continuous, Discretization, LoadCase};
 use crate::equilibrium::Iterate;
@@ -13,17 +13,17 @@ use signorini_kernel::mesh::boundary::Robin;
 use signorini_kernel::mesh::edges::Side;
 use signorini_kernel::{Real, features};
 
-/// Adds it all to the sums and to the indicators of the cells, but for the [`perturbation`] of the data; to `distance` what transfer
-/// laws add. Returns the sum of the terms of contact.
+/// Adds it all to the sums and to the indicators of the cells, but for the [`perturbation`] of the data. Returns the sum of the
+/// terms of contact; `along` is told of each transfer law its number, the vertices of its edge, and what it adds to a [`Distance`](super::parts::Distance).
 #[inline(always)]
 pub(super) fn add<R: Real, I: Index>(
     discretization: &Discretization<R, I>,
     given: &LoadCase<R, I>,
     Iterate { u, law: contact }: Iterate<R>,
-    s: Continuous<R>,
-    tau: &[R],
+    (s, tau): (Continuous<R>, &[R]),
     indicators: &mut [R],
-    (parts, distance): (&mut Parts<R>, &mut Distance<R>),
+    parts: &mut Parts<R>,
+    mut along: impl FnMut((usize, &Robin<R, I>), [I; 2], [R; 2]),
 ) -> R {
     let edges = &discretization.edges;
     let counts = edges.counts();
@@ -49,14 +49,12 @@ pub(super) fn add<R: Real, I: Index>(
     let laws = if features::ROBIN { given.boundary.robin() } else { &[] };
     for (at, law) in laws.iter().enumerate() {
         let edge = law.edge.at();
-        let transfer = Transfer {
-            flux: read(tau, edge),
-            s: ends(discretization, s, edge),
-            bubble: read(s.bubbles, edge),
-        };
+        let vertices = edges.endpoints(&discretization.mesh, edge);
+        let transfer =
+            Transfer { flux: read(tau, edge), s: s.at(&vertices), bubble: read(s.bubbles, edge) };
         let [term, terms, open] = of_transfer(given, (at, law), &transfer);
         take(parts, edge, term, terms);
-        distance.add([term, open]);
+        along((at, law), vertices, [term, open]);
         if features::PIECES {
             parts.open += open;
         }

@@ -67,7 +67,6 @@ pub use step::{Handed, Judged, certify_step, certify_step_with};
 pub use stored::{Step, StoredCell};
 pub use transfer::TransferForms;
 
-use parts::Distance;
 use quad::Values;
 
 use crate::averages;
@@ -190,8 +189,7 @@ pub fn certify_with<R: Real, I: Index>(
     if let Some(edge) = equilibrium::pulled(edges, &given.boundary, tau) {
         return Ok(Verdict::Pulled { edge });
     }
-    let sums = (&mut parts, &mut Distance::default());
-    boundary::add(discretization, given, iterate, s, tau, indicators, sums);
+    boundary::add(discretization, given, iterate, (s, tau), indicators, &mut parts, |_, _, _| ());
     parts.perturbation += boundary::perturbation(discretization, given, iterate.law, s);
     let missed = discretization.metric.missed;
     Ok(parts.conclude(cells.len(), (discretization.stability, missed), given.oscillation))

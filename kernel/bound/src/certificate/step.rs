@@ -110,8 +110,14 @@ impl<R: Real, I: Index> OfStep<'_, R, I> {
         let slack = moving::slack([&earlier[0], &end]);
         earlier.iter_mut().for_each(|of| of.add([slack, R::ZERO]));
         let pulled = equilibrium::pulled(edges, &given.boundary, tau);
-        let sums = (&mut parts, &mut end);
-        let contact = boundary::add(discretization, given, iterate, s, tau, indicators, sums);
+        let begin = Continuous { vertices: step.vertices, bubbles: step.bubbles };
+        let motion = Motion { begin, end: s, tau };
+        let along = |law: (usize, &_), vertices, at_end| {
+            end.add(at_end);
+            motion.add_transfer(given, law, vertices, &mut earlier);
+        };
+        let contact =
+            boundary::add(discretization, given, iterate, (s, tau), indicators, &mut parts, along);
         parts.perturbation += perturbation;
         let of_kept = parts.algebraic;
         parts.algebraic = algebraic.unwrap_or(parts.algebraic);
@@ -120,9 +126,7 @@ impl<R: Real, I: Index> OfStep<'_, R, I> {
             None => conclude(discretization, given.oscillation, parts, (&means, inside)),
         };
         let terms = verdict.certificate().map(|certificate| {
-            let begin = Continuous { vertices: step.vertices, bubbles: step.bubbles };
-            let motion = Motion { begin, end: s, tau };
-            let [begin, middle] = motion.with_transfer(discretization, given, earlier);
+            let [begin, middle] = earlier;
             let distance = [begin, middle, end].map(|of| of.square(missed));
             let before = motion.contact(discretization, given, iterate.law, step.openings);
             // What rounding leaves of a cell's balance may stay in a step, and not in all of them.
