@@ -125,7 +125,7 @@ impl<R: Real> Parts<R> {
         }
     }
 
-    /// Takes what does not depend on τ, and the algebraic part.
+    /// Takes the algebraic part, and what bounds numbers that do not depend on τ: it holds for either.
     pub fn take_rest(&mut self, of: &Self) {
         self.algebraic = of.algebraic;
         self.nonconforming = of.nonconforming;
