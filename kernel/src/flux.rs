@@ -141,8 +141,8 @@ pub fn recover_in_step<R: Real, I: Index>(
     flux: &mut [R],
 ) -> Result<Recovered<R>, Error> {
     let stored = (
-        |at, sides: &[I; 3]| Some(storage.in_triangle(at, sides, u)),
-        |at, sides: &[I; 4]| Some(storage.in_quad(at, sides, u)),
+        |at, sides: &[I; 3]| Some(storage.in_triangle(at, sides, pick(sides, u))),
+        |at, sides: &[I; 4]| Some(storage.in_quad(at, sides, pick(sides, u))),
     );
     recover_with(edges, stiffness, loads, [u, low], flux, stored)
 }

@@ -14,9 +14,7 @@
 use crate::csr::Csr;
 use crate::error::{Array, Error, same_length};
 use crate::index::{Index, read, write};
-use crate::mesh::diagonal::DiagonalTerms;
 use crate::mesh::edges::{EdgeCounts, Edges};
-use crate::stiffness::Stiffness;
 use crate::system::System;
 use crate::{Real, features};
 
@@ -28,7 +26,6 @@ pub const QUADS: usize = 6;
 mod gather;
 mod owned;
 
-use gather::{gather_cells, gather_triangles};
 pub use owned::{LayOut, OwnedRows};
 
 /// One row, as memory that the caller owns; its contents are the business of [`Rows`].
@@ -181,62 +178,6 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Rows<'a, R, I, WIDTH> {
             }
         }
         Ok(())
-    }
-
-    /// Numeric pass without CSR: each row from the element matrices of its one or two cells, by the
-    /// same `edges` that the rows were made for, and what `diagonal` has beyond the matrices. `load`
-    /// holds b, one entry an unknown.
-    ///
-    /// # Errors
-    /// Arrays of the wrong length, quads where a row has the [`TRIANGLES`] entries of triangles.
-    #[inline(never)]
-    pub fn gather(
-        &mut self,
-        edges: &Edges<I>,
-        stiffness: Stiffness<R>,
-        diagonal: DiagonalTerms<R, I>,
-        load: &[R],
-        omega: R,
-    ) -> Result<(), Error> {
-        same_length(Array::Rows, self.rows.len(), edges.counts().unknowns())?;
-        same_length(Array::Load, load.len(), self.rows.len())?;
-        same_length(Array::Stiffness, stiffness.triangles.len(), edges.of_triangles().len())?;
-        same_length(Array::Stiffness, stiffness.quads.len(), edges.of_quads().len())?;
-        // Where there is room for triangles only, an image shall hold no code for quads.
-        if WIDTH == TRIANGLES && !edges.of_quads().is_empty() {
-            let needed = edges.of_quads().len();
-            return Err(Error::Capacity { of: Array::Quads, needed, limit: 0 });
-        }
-        self.omega = omega;
-        let fill = |rows: &mut [_], half_edges: &[_], load: &[_], term| {
-            if WIDTH == TRIANGLES {
-                gather_triangles(rows, half_edges, stiffness.triangles, load, term, omega);
-            } else {
-                gather_cells(rows, half_edges, edges, stiffness, load, term, omega);
-            }
-        };
-        fill(self.rows, edges.half_edges(), load, R::ZERO);
-        for (edge, term) in diagonal.entries() {
-            let only = edge..edge + 1;
-            let row = self.rows.get_mut(only.clone());
-            let half_edges = edges.half_edges().get(only.clone());
-            if let (Some(row), Some(half_edges), Some(load)) = (row, half_edges, load.get(only)) {
-                fill(row, half_edges, load, term);
-            }
-        }
-        if features::LIMITED {
-            self.soften(edges, stiffness, diagonal.of_step(), omega);
-        }
-        Ok(())
-    }
-
-    /// ω / K_ii of the contact edges; `stored` is what K_ii has beyond the element matrices there, in a step of time.
-    fn soften(&mut self, edges: &Edges<I>, stiffness: Stiffness<R>, stored: &[R], omega: R) {
-        for (edge, row) in self.rows.iter_mut().enumerate().skip(self.counts.free) {
-            let own = stiffness.of_boundary_edge(edges, edge);
-            let own = if features::STORAGE { own + read(stored, edge) } else { own };
-            row.soften(omega / own);
-        }
     }
 
     /// The factor ω that the rows hold.

@@ -135,17 +135,21 @@ impl<'a, R: Real> Storage<'a, R> {
         }
     }
 
-    /// m_T (u − u_old) on the sides of a triangle.
-    pub fn in_triangle<I: Index>(self, at: usize, sides: &[I; 3], u: &[R]) -> [R; 3] {
+    /// m_T (u − u_old) on the sides of a triangle, of the means u there.
+    #[inline(always)]
+    pub fn in_triangle<I: Index>(self, at: usize, sides: &[I; 3], u: [R; 3]) -> [R; 3] {
         self.taken(read(self.triangles, at), sides, u)
     }
 
-    /// m_T (u − u_old) on the sides of a quad.
-    pub fn in_quad<I: Index>(self, at: usize, sides: &[I; 4], u: &[R]) -> [R; 4] {
+    /// m_T (u − u_old) on the sides of a quad, of the means u there.
+    #[inline(always)]
+    pub fn in_quad<I: Index>(self, at: usize, sides: &[I; 4], u: [R; 4]) -> [R; 4] {
         self.taken(read(self.quads, at), sides, u)
     }
 
-    fn taken<I: Index, const N: usize>(self, mass: R, sides: &[I; N], u: &[R]) -> [R; N] {
-        sides.map(|edge| mass * (read(u, edge.at()) - read(self.old, edge.at())))
+    #[inline(always)]
+    fn taken<I: Index, const N: usize>(self, mass: R, sides: &[I; N], mut u: [R; N]) -> [R; N] {
+        u.iter_mut().zip(sides).for_each(|(u, edge)| *u = mass * (*u - read(self.old, edge.at())));
+        u
     }
 }

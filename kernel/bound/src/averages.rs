@@ -39,15 +39,15 @@ pub fn fill<R: Real, I: Index>(
     tau.fill(R::ZERO);
     if features::TRIANGLES {
         match stored {
-            None => of_triangles(cells, loads.triangles, u, vertices, tau, |_, flux| flux),
-            Some(of) => of_triangles(cells, loads.triangles, u, vertices, tau, |cell, flux| {
+            None => of_triangles(cells, loads.triangles, u, vertices, tau, |_, _, flux| flux),
+            Some(of) => of_triangles(cells, loads.triangles, u, vertices, tau, |cell, u, flux| {
                 plus(flux, of.in_triangle(cell.number.at(), &cell.edges, u))
             }),
         }
     }
     if features::QUADS {
         let quad = |cell: &Quad<R, I>| cell.number.at().wrapping_sub(cells.triangles.len());
-        of_quads(cells, loads.quads, distortions, u, vertices, tau, |cell, flux| match stored {
+        of_quads(cells, loads.quads, distortions, u, vertices, tau, |cell, u, flux| match stored {
             None => flux,
             Some(of) => plus(flux, of.in_quad(quad(cell), &cell.edges, u)),
         });
@@ -65,11 +65,12 @@ fn of_triangles<R: Real, I: Index>(
     u: &[R],
     vertices: &mut [R],
     tau: &mut [R],
-    with_stored: impl Fn(&Triangle<R, I>, [R; 3]) -> [R; 3],
+    with_stored: impl Fn(&Triangle<R, I>, [R; 3], [R; 3]) -> [R; 3],
 ) {
     for cell in cells.triangles {
         let Some(means) = pick(&cell.edges, u) else { break };
-        let out = with_stored(cell, on_triangle(&cell.k, &means, read(loads, cell.number.at())));
+        let flux = on_triangle(&cell.k, &means, read(loads, cell.number.at()));
+        let out = with_stored(cell, means, flux);
         let flux = cell.turned(out.map(|flux| flux * cell.softness));
         add(&cell.edges, flux, tau);
         let at_vertices = crouzeix_raviart::at_vertices(&means);
@@ -85,14 +86,14 @@ fn of_quads<R: Real, I: Index>(
     u: &[R],
     vertices: &mut [R],
     tau: &mut [R],
-    with_stored: impl Fn(&Quad<R, I>, [R; 4]) -> [R; 4],
+    with_stored: impl Fn(&Quad<R, I>, [R; 4], [R; 4]) -> [R; 4],
 ) {
     let triangles = cells.triangles.len();
     for cell in cells.quads {
         let Some(means) = pick(&cell.edges, u) else { break };
         let quad = cell.number.at().wrapping_sub(triangles);
         let load = read(loads, quad);
-        let out = with_stored(cell, on_quad(&cell.k, &means, load));
+        let out = with_stored(cell, means, on_quad(&cell.k, &means, load));
         let flux = cell.turned(out.map(|flux| flux * cell.softness));
         add(&cell.edges, flux, tau);
         let at_vertices = match distortions.get(quad) {

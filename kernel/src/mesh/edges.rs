@@ -272,9 +272,10 @@ fn side(triangles: usize, half_edge: usize) -> Side {
 /// Start and end vertex of a half-edge.
 pub(crate) fn endpoints<R: Real, I: Index>(mesh: &Mesh<R, I>, half_edge: usize) -> [I; 2] {
     match side(mesh.triangles().len(), half_edge) {
-        Side::Triangle(at, k) => {
-            let vertices = read(mesh.triangles(), at);
-            [read(&vertices, k), read(&vertices, (k + 1) % 3)]
+        // Vertices of all triangles one after the other are numbered as half-edges are.
+        Side::Triangle(_, k) => {
+            let next = if k == 2 { half_edge - 2 } else { half_edge + 1 };
+            [half_edge, next].map(|at| read(mesh.triangles().as_flattened(), at))
         }
         Side::Quad(at, k) => {
             let vertices = read(mesh.quads(), at);

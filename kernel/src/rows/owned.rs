@@ -87,9 +87,11 @@ fn are_inside<R, I: Index, const WIDTH: usize>(
     counts: EdgeCounts,
 ) -> bool {
     let (mut largest, mut bits) = (0, 0);
-    for offset in rows.iter().flat_map(|row| row.offsets) {
-        largest = offset.at().max(largest);
-        bits |= offset.at();
+    for row in rows {
+        for offset in &row.offsets {
+            largest = offset.at().max(largest);
+            bits |= offset.at();
+        }
     }
     let size = size_of::<R>();
     bits % size == 0 && largest / size < counts.edges().max(1)

@@ -13,43 +13,48 @@ use signorini_kernel::mesh::boundary::Robin;
 use signorini_kernel::mesh::edges::Side;
 use signorini_kernel::{Real, features};
 
-/// Adds it all to the sums and to the indicators of the cells, but for the [`perturbation`] of the data.
+/// Adds it all to the sums and to the indicators of the cells, but for the [`perturbation`] of the data. Returns the sum of the
+/// terms of contact; `along` is told of each transfer law its number, the vertices of its edge, and what it adds to a [`Distance`](super::parts::Distance).
 #[inline(always)]
 pub(super) fn add<R: Real, I: Index>(
     discretization: &Discretization<R, I>,
     given: &LoadCase<R, I>,
     Iterate { u, law: contact }: Iterate<R>,
-    s: Continuous<R>,
-    tau: &[R],
+    (s, tau): (Continuous<R>, &[R]),
     indicators: &mut [R],
     parts: &mut Parts<R>,
-) {
+    mut along: impl FnMut((usize, &Robin<R, I>), [I; 2], [R; 2]),
+) -> R {
     let edges = &discretization.edges;
     let counts = edges.counts();
     let mut take = |parts: &mut Parts<R>, edge: usize, term: R, terms: R| {
         parts.gap.add(term);
         parts.direct += R::from_count(8) * R::EPSILON * terms;
+        if !features::INDICATORS {
+            return;
+        }
         let cell = edges.cell_of(read(edges.half_edges(), edge)[0].at());
         if let Some(indicator) = cell.and_then(|cell| indicators.get_mut(cell)) {
             *indicator += term;
         }
     };
+    let mut of_contact = R::ZERO;
     let gap = if features::CONTACT { given.ends.gap } else { &[] };
     for at in 0..gap.len() {
         let (term, terms) = contact_term(discretization, given, contact, (s, tau), at);
         take(parts, counts.free + at, term, terms);
+        of_contact += term;
     }
     let mut moved = R::ZERO;
     let laws = if features::ROBIN { given.boundary.robin() } else { &[] };
     for (at, law) in laws.iter().enumerate() {
         let edge = law.edge.at();
-        let transfer = Transfer {
-            flux: read(tau, edge),
-            s: ends(discretization, s, edge),
-            bubble: read(s.bubbles, edge),
-        };
+        let vertices = edges.endpoints(&discretization.mesh, edge);
+        let transfer =
+            Transfer { flux: read(tau, edge), s: s.at(&vertices), bubble: read(s.bubbles, edge) };
         let [term, terms, open] = of_transfer(given, (at, law), &transfer);
         take(parts, edge, term, terms);
+        along((at, law), vertices, [term, open]);
         if features::PIECES {
             parts.open += open;
         }
@@ -73,6 +78,7 @@ pub(super) fn add<R: Real, I: Index>(
         take(parts, edge, term, terms);
         jump(&in_cell, of_means(discretization, u, edge).as_ref(), curved, parts);
     }
+    of_contact
 }
 
 /// The term of the transfer law `at`, the size of its terms, and the square of what is beyond it.

@@ -1,6 +1,7 @@
 //! The walk over the cells of a step in time: each is balanced in every way, and gives its share of the bounds of step and evolution.
 
 use super::change::{Change, mean, minus, of_quad, of_triangle};
+use super::moving::Moving;
 use super::parts::{CellTerms, Distance, Parts};
 use super::quad::Values;
 use super::stored::{Balance, Inside, Means, Step, StoredCell};
@@ -73,25 +74,25 @@ impl<R: Real, I: Index> OfStep<'_, R, I> {
         sums: &mut Sums<R>,
         fields: &mut [Fields<R>; WAYS],
     ) -> Option<()> {
-        let (number, metric, u) = (cell.number.at(), self.discretization.metric, self.iterate.u);
+        let (number, metric) = (cell.number.at(), self.discretization.metric);
         let source = read(self.given.loads.triangles, number);
         let [now, old] = [self.s.vertices, self.step.vertices];
         let (now, old) = (pick(&cell.vertices, now)?, pick(&cell.vertices, old)?);
+        let means = pick(&cell.edges, self.iterate.u)?;
         let stored = read(self.step.cells, number);
         let change = of_triangle(now, old);
-        let own = on_triangle(&cell.k, &pick(&cell.edges, u)?, source);
-        let kept = self.step.storage.in_triangle(number, &cell.edges, u);
+        let own = on_triangle(&cell.k, &means, source);
+        let kept = self.step.storage.in_triangle(number, &cell.edges, means);
         let algebraic = |out: [R; 3]| {
             triangle::energy(cell, metric.varying(number), minus(minus(out, own), kept))
         };
-        let middle = mean(old, now);
+        let moving = Moving::new(cell, [now, old], means);
         let share = |by: (R, [R; 3])| {
             if metric.varying(number).is_none() {
-                let earlier = [old, middle].map(|s| [triangle::gap(cell, s, by), R::ZERO]);
-                return Some((share_of_triangle(metric, cell, now, u, by)?, earlier));
+                return Some(moving.share(by));
             }
-            let of = |s: [R; 3]| share_of_triangle(metric, cell, s, u, by);
-            Some((of(now)?, [of(old)?.distance(), of(middle)?.distance()]))
+            let of = |s: [R; 3]| share_of_triangle(metric, cell, s, self.iterate.u, by);
+            Some((of(now)?, [of(old)?.distance(), of(mean(old, now))?.distance()]))
         };
         self.add(cell, (&stored, &change, source), (share, algebraic), sums, fields)
     }
@@ -111,8 +112,9 @@ impl<R: Real, I: Index> OfStep<'_, R, I> {
             |s: &Values<R>| [cell.vertices_in_mesh(s.corners), cell.sides_in_mesh(s.bubbles)];
         let stored = read(self.step.cells, number);
         let change = of_quad(in_mesh(&now), in_mesh(&old), stored.tilt);
-        let own = on_quad(&cell.k, &pick(&cell.edges, u)?, source);
-        let kept = self.step.storage.in_quad(quad, &cell.edges, u);
+        let means = pick(&cell.edges, u)?;
+        let own = on_quad(&cell.k, &means, source);
+        let kept = self.step.storage.in_quad(quad, &cell.edges, means);
         let algebraic =
             |out: [R; 4]| quad::energy(cell, metric.varying(number), minus(minus(out, own), kept));
         let middle = Values {
@@ -140,7 +142,7 @@ impl<R: Real, I: Index> OfStep<'_, R, I> {
         (ways, inside): &mut Sums<R>,
         fields: &mut [Fields<R>; WAYS],
     ) -> Option<()> {
-        let (rest, mut of_kept) = (inside.add(stored, change), R::ZERO);
+        let rest = inside.add(stored, change);
         for (at, (way, (tau, indicators))) in ways.iter_mut().zip(fields).enumerate() {
             if tau.is_empty() {
                 continue;
@@ -148,16 +150,17 @@ impl<R: Real, I: Index> OfStep<'_, R, I> {
             let keep = if at == 0 { R::ONE } else { stored.keep };
             let (balance, out) = balanced(cell, (stored, change, source), keep, tau)?;
             let (mut terms, earlier) = share((balance.load, out))?;
-            if at == 0 {
-                of_kept = algebraic(out);
-            }
-            terms.algebraic = of_kept;
             let of_mean = way.means.add((stored, change, rest), &balance, &out, &mut terms);
             way.earlier.iter_mut().zip(earlier).for_each(|(sum, of)| sum.add(of));
             if features::INDICATORS {
                 write(indicators, cell.number.at(), terms.gap + terms.open + of_mean);
             }
-            way.parts.add(terms);
+            if at == 0 {
+                terms.algebraic = algebraic(out);
+                way.parts.add(terms);
+            } else {
+                way.parts.add_of_flux(&terms);
+            }
         }
         Some(())
     }

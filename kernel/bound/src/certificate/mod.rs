@@ -46,6 +46,7 @@ mod factor;
 mod in_step;
 mod metric;
 mod motion;
+mod moving;
 mod parts;
 mod quad;
 mod stability;
@@ -188,7 +189,7 @@ pub fn certify_with<R: Real, I: Index>(
     if let Some(edge) = equilibrium::pulled(edges, &given.boundary, tau) {
         return Ok(Verdict::Pulled { edge });
     }
-    boundary::add(discretization, given, iterate, s, tau, indicators, &mut parts);
+    boundary::add(discretization, given, iterate, (s, tau), indicators, &mut parts, |_, _, _| ());
     parts.perturbation += boundary::perturbation(discretization, given, iterate.law, s);
     let missed = discretization.metric.missed;
     Ok(parts.conclude(cells.len(), (discretization.stability, missed), given.oscillation))

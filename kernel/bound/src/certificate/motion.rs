@@ -1,13 +1,14 @@
 //! Terms of a step in time, in which s goes linearly from where the step before has left it, and τ stays.
 
-use super::boundary::{self, ends};
+use super::boundary;
 use super::change::mean;
 use super::parts::Distance;
 use super::{Continuous, Discretization, LoadCase};
 use signorini_kernel::error::{Array, Error, same_length};
 use signorini_kernel::index::read;
 use signorini_kernel::law::Law;
-use signorini_kernel::{Index, Real, features};
+use signorini_kernel::mesh::boundary::Robin;
+use signorini_kernel::{Index, Real};
 
 /// s when a step begins and ends; τ by ∫_E τ·n along every edge's direction (borrowed).
 #[derive(Clone, Copy)]
@@ -18,46 +19,39 @@ pub(super) struct Motion<'a, R> {
 }
 
 impl<R: Real> Motion<'_, R> {
-    /// Adds ∫_R to what `sums` have of the cells, for s at the beginning, in the middle and at the end.
-    pub fn with_transfer<I: Index>(
+    /// Adds ∫ along the edge of a transfer law, between these vertices, to `sums` for s at the beginning and in the middle.
+    #[inline(always)]
+    pub fn add_transfer<I: Index>(
         &self,
-        discretization: &Discretization<R, I>,
         given: &LoadCase<R, I>,
-        mut sums: [Distance<R>; 3],
-    ) -> [Distance<R>; 3] {
-        let laws = if features::ROBIN { given.boundary.robin() } else { &[] };
-        for (at, law) in laws.iter().enumerate() {
-            let edge = law.edge.at();
-            let of = |s: Continuous<R>| (ends(discretization, s, edge), [read(s.bubbles, edge)]);
-            let (now, old) = (of(self.end), of(self.begin));
-            let middle = (mean(old.0, now.0), mean(old.1, now.1));
-            for (sum, (s, [bubble])) in sums.iter_mut().zip([old, middle, now]) {
-                let transfer = boundary::Transfer { flux: read(self.tau, edge), s, bubble };
-                let [term, _, open] = boundary::of_transfer(given, (at, law), &transfer);
-                sum.add([term, open]);
-            }
+        (at, law): (usize, &Robin<R, I>),
+        vertices: [I; 2],
+        sums: &mut [Distance<R>; 2],
+    ) {
+        let edge = law.edge.at();
+        let of = |s: Continuous<R>| (s.at(&vertices), [read(s.bubbles, edge)]);
+        let (now, old) = (of(self.end), of(self.begin));
+        let middle = (mean(old.0, now.0), mean(old.1, now.1));
+        for (sum, (s, [bubble])) in sums.iter_mut().zip([old, middle]) {
+            let transfer = boundary::Transfer { flux: read(self.tau, edge), s, bubble };
+            let [term, _, open] = boundary::of_transfer(given, (at, law), &transfer);
+            sum.add([term, open]);
         }
-        sums
     }
 
-    /// 2∫_C (τ·n − lo)(s − ψ)⁺ + (hi − τ·n)(ψ − s)⁺ at the beginning, where `openings` are those of s and the gap then, and at the end.
-    pub fn contacts<I: Index>(
+    /// 2∫_C (τ·n − lo)(s − ψ)⁺ + (hi − τ·n)(ψ − s)⁺ at the beginning, where `openings` are those of s and the gap then.
+    pub fn contact<I: Index>(
         &self,
         discretization: &Discretization<R, I>,
         given: &LoadCase<R, I>,
         law: Law<R>,
         openings: &[[R; 2]],
-    ) -> [R; 2] {
-        let free = discretization.edges.counts().free;
-        let mut sums = [R::ZERO; 2];
-        for (at, &before) in openings.iter().enumerate() {
-            let (range, tau) = (given.boundary.contact_flux(at), read(self.tau, free + at));
-            let now = boundary::opening(discretization, given, law, self.end, at);
-            for (sum, opening) in sums.iter_mut().zip([before, now]) {
-                *sum += boundary::charge(range, law, tau, opening).0;
-            }
-        }
-        sums
+    ) -> R {
+        let on_contact = self.tau.iter().skip(discretization.edges.counts().free);
+        let all = openings.iter().zip(on_contact).enumerate();
+        all.fold(R::ZERO, |sum, (at, (&opening, &tau))| {
+            sum + boundary::charge(given.boundary.contact_flux(at), law, tau, opening).0
+        })
     }
 }
 

@@ -108,15 +108,28 @@ impl<R: Real> Parts<R> {
 
     #[inline(always)]
     pub fn add(&mut self, share: CellTerms<R>) {
-        self.gap.add(share.gap);
+        self.add_of_flux(&share);
         self.algebraic += share.algebraic;
         self.nonconforming += share.nonconforming;
-        self.uncertainty += share.uncertainty;
         self.uncertainty_of_u += share.uncertainty_of_u;
+    }
+
+    /// Adds what depends on τ; the rest is that of another τ for the same u and s ([`Parts::take_rest`]).
+    #[inline(always)]
+    pub fn add_of_flux(&mut self, share: &CellTerms<R>) {
+        self.gap.add(share.gap);
+        self.uncertainty += share.uncertainty;
         self.terms += share.terms;
         if features::VARYING {
             self.open += share.open;
         }
+    }
+
+    /// Takes the algebraic part, and what bounds numbers that do not depend on τ: it holds for either.
+    pub fn take_rest(&mut self, of: &Self) {
+        self.algebraic = of.algebraic;
+        self.nonconforming = of.nonconforming;
+        self.uncertainty_of_u = of.uncertainty_of_u;
     }
 
     /// `cells`: how many there are.

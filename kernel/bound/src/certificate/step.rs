@@ -18,6 +18,7 @@
 
 use super::in_step::{Fields, OfStep, WAYS, Way};
 use super::motion::Motion;
+use super::moving;
 use super::parts::Parts;
 use super::stored::{Inside, Means, Step};
 use super::{Buffers, Continuous, Discretization, LoadCase, Verdict, admissible, boundary};
@@ -83,6 +84,7 @@ pub fn certify_step_with<R: Real, I: Index>(
     let mut fields = [(tau, indicators), (handed.tau, handed.indicators)];
     let (ways, inside) = of_step.walk(&mut fields);
     let ([kept, mut handed], [of_kept, of_handed]) = (ways, fields);
+    handed.parts.take_rest(&kept.parts);
     let (kept, algebraic) = of_step.judge(kept, &inside, of_kept);
     if of_handed.0.is_empty() {
         return Ok([kept, Judged { verdict: Verdict::NotAsked, terms: None }]);
@@ -103,10 +105,19 @@ impl<R: Real, I: Index> OfStep<'_, R, I> {
     ) -> (Judged<R>, R) {
         let Self { discretization, given, step, iterate, s, perturbation } = *self;
         let (edges, missed) = (&discretization.edges, discretization.metric.missed);
-        let Way { mut parts, means, earlier: [begin, middle], algebraic } = way;
-        let ends = [begin, middle, parts.distance()];
+        let Way { mut parts, means, mut earlier, algebraic } = way;
+        let mut end = parts.distance();
+        let slack = moving::slack([&earlier[0], &end]);
+        earlier.iter_mut().for_each(|of| of.add([slack, R::ZERO]));
         let pulled = equilibrium::pulled(edges, &given.boundary, tau);
-        boundary::add(discretization, given, iterate, s, tau, indicators, &mut parts);
+        let begin = Continuous { vertices: step.vertices, bubbles: step.bubbles };
+        let motion = Motion { begin, end: s, tau };
+        let along = |law: (usize, &_), vertices, at_end| {
+            end.add(at_end);
+            motion.add_transfer(given, law, vertices, &mut earlier);
+        };
+        let contact =
+            boundary::add(discretization, given, iterate, (s, tau), indicators, &mut parts, along);
         parts.perturbation += perturbation;
         let of_kept = parts.algebraic;
         parts.algebraic = algebraic.unwrap_or(parts.algebraic);
@@ -115,16 +126,14 @@ impl<R: Real, I: Index> OfStep<'_, R, I> {
             None => conclude(discretization, given.oscillation, parts, (&means, inside)),
         };
         let terms = verdict.certificate().map(|certificate| {
-            let begin = Continuous { vertices: step.vertices, bubbles: step.bubbles };
-            let motion = Motion { begin, end: s, tau };
-            let distance = motion.with_transfer(discretization, given, ends);
-            let distance = distance.map(|of| of.square(missed));
-            let contact = motion.contacts(discretization, given, iterate.law, step.openings);
+            let [begin, middle] = earlier;
+            let distance = [begin, middle, end].map(|of| of.square(missed));
+            let before = motion.contact(discretization, given, iterate.law, step.openings);
             // What rounding leaves of a cell's balance may stay in a step, and not in all of them.
             let lasting = parts.unbalanced(discretization.cells.len(), discretization.stability);
             let oscillation = given.oscillation + certificate.rounding + lasting;
             let residual = [means.mean, inside.rest, inside.loose];
-            StepTerms::new(step.length, (residual, oscillation), distance, contact)
+            StepTerms::new(step.length, (residual, oscillation), distance, [before, contact])
         });
         (Judged { verdict, terms }, of_kept)
     }

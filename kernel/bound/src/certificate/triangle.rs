@@ -45,47 +45,39 @@ pub(super) fn share<R: Real, I: Index>(
     }
 }
 
-/// ‖A^½∇s − A^{−½}τ‖² for outward fluxes τ that balance `load`.
-#[inline(always)]
-pub(super) fn gap<R: Real, I: Index>(
-    cell: &Triangle<R, I>,
-    s: [R; 3],
-    (load, tau): (R, [R; 3]),
-) -> R {
-    let third = load * R::THIRD;
-    let ([t01, t12, t20], [o0, o1, o2]) = (flows(&cell.k, s), tau.map(|flux| flux + third));
-    square(cell, [t01 - t20 - o0, t12 - t01 - o1, t20 - t12 - o2], third)
-}
-
 /// The square of a field with these fluxes of its mean, whose outward ones leave three times `third`.
 #[inline(always)]
 fn square<R: Real, I: Index>(cell: &Triangle<R, I>, fluxes: [R; 3], third: R) -> R {
-    let k = &cell.k;
-    let linear = R::HALF * (k[0] + k[1] + k[2]) * third * third;
-    cell.compliance * (form(k, fluxes) - linear)
+    cell.compliance * (form(&cell.k, fluxes) - spread(&cell.k, third))
+}
+
+/// 4 det A · ‖A^{−½}·‖² of the field that spreads three times `third` evenly over the cell, with the sign turned.
+#[inline(always)]
+pub(super) fn spread<R: Real>(k: &[R; 3], third: R) -> R {
+    R::HALF * (k[0] + k[1] + k[2]) * third * third
 }
 
 /// K_ij (mean of s on j − mean of s on i) for 01, 12, 20, from the vertex values of s.
 #[inline(always)]
-fn flows<R: Real>(k: &[R; 3], [s0, s1, s2]: [R; 3]) -> [R; 3] {
+pub(super) fn flows<R: Real>(k: &[R; 3], [s0, s1, s2]: [R; 3]) -> [R; 3] {
     [k[0] * (R::HALF * (s2 - s0)), k[1] * (R::HALF * (s0 - s1)), k[2] * (R::HALF * (s1 - s2))]
 }
 
 /// 4 det A · ‖A^{−½}·‖² of the constant field with these fluxes, which add up to 0.
 #[inline(always)]
-fn form<R: Real>(&[k01, k12, k20]: &[R; 3], [d0, d1, d2]: [R; 3]) -> R {
+pub(super) fn form<R: Real>(&[k01, k12, k20]: &[R; 3], [d0, d1, d2]: [R; 3]) -> R {
     -(k12 * d0 * d0 + k20 * d1 * d1 + k01 * d2 * d2)
 }
 
 /// The squares of K_ij (mean of u on j − mean of u on i).
 #[inline(always)]
-fn of_means<R: Real>(k: &[R; 3], [u0, u1, u2]: [R; 3]) -> R {
+pub(super) fn of_means<R: Real>(k: &[R; 3], [u0, u1, u2]: [R; 3]) -> R {
     let (t01, t12, t20) = (k[0] * (u1 - u0), k[1] * (u2 - u1), k[2] * (u0 - u2));
     t01 * t01 + t12 * t12 + t20 * t20
 }
 
 #[inline(always)]
-fn squares<R: Real>(tau: [R; 3], load: R) -> R {
+pub(super) fn squares<R: Real>(tau: [R; 3], load: R) -> R {
     tau[0] * tau[0] + tau[1] * tau[1] + tau[2] * tau[2] + load * load
 }
 

@@ -1,0 +1,91 @@
+//! A triangle with constant A whose s moves in a step: all that τ does not change is worked out once for every way to balance it.
+//!
+//! Let d be the fluxes of A∇s − τ through the sides at the end of the step, δ those by which A∇s has changed in it, and
+//! Q(d) = ‖A^{−½}d‖² with its product B, as in [`super::triangle`]. Then
+//! ```text
+//!   at the end Q(d),     at the beginning Q(d − δ) = Q(d) − 2B(d, δ) + Q(δ),     in the middle Q(d) − B(d, δ) + Q(δ)/4
+//! ```
+//! s of the beginning and of the middle cost one product each way. The linear part of τ is orthogonal to δ. What cancels is of the size
+//! of Q(d) and Q(δ): [`slack`] bounds what rounding makes of it.
+
+use super::parts::{CellTerms, Distance};
+use super::triangle::{flows, form, of_means, spread, squares};
+use crate::cells::Triangle;
+use signorini_kernel::element::crouzeix_raviart::product;
+use signorini_kernel::{Index, Real};
+
+pub(super) struct Moving<'a, R, I> {
+    cell: &'a Triangle<R, I>,
+    /// Fluxes of A∇s at the end.
+    end: [R; 3],
+    /// B(d, δ) = Σ `product`_i d_i
+    product: [R; 3],
+    /// Q(δ)
+    moved: R,
+    /// Σ of the squares that `end` is a difference of.
+    size: R,
+    nonconforming: R,
+    uncertainty_of_u: R,
+}
+
+impl<'a, R: Real, I: Index> Moving<'a, R, I> {
+    /// Of s at the vertices at the end and at the beginning, and of the means u over the sides.
+    #[inline(always)]
+    pub fn new(cell: &'a Triangle<R, I>, [now, old]: [[R; 3]; 2], u: [R; 3]) -> Self {
+        let (k, ends) = (&cell.k, [flows(&cell.k, now), flows(&cell.k, old)]);
+        let [[t01, t12, t20], [o01, o12, o20]] = ends;
+        let end = [t01 - t20, t12 - t01, t20 - t12];
+        // Of the differences, which are as exact as the fluxes themselves.
+        let [c01, c12, c20] = [t01 - o01, t12 - o12, t20 - o20];
+        let delta = [c01 - c20, c12 - c01, c20 - c12];
+        let weights = [k[1], k[2], k[0]].map(|entry| -(cell.compliance * entry));
+        let own = product(k, &u);
+        let jump = [end[0] - own[0], end[1] - own[1], end[2] - own[2]];
+        let size = t01 * t01 + t12 * t12 + t20 * t20;
+        let product = [weights[0] * delta[0], weights[1] * delta[1], weights[2] * delta[2]];
+        Self {
+            cell,
+            end,
+            product,
+            moved: product[0] * delta[0] + product[1] * delta[1] + product[2] * delta[2],
+            size,
+            nonconforming: cell.compliance * form(k, jump),
+            uncertainty_of_u: cell.uncertainty * (size + of_means(k, u)),
+        }
+    }
+
+    /// The terms for outward fluxes τ that balance `load`, without their algebraic part, and the squared distances at the beginning
+    /// and in the middle.
+    #[inline(always)]
+    pub fn share(&self, (load, tau): (R, [R; 3])) -> (CellTerms<R>, [[R; 2]; 2]) {
+        let (cell, third) = (self.cell, load * R::THIRD);
+        let d = [
+            self.end[0] - (tau[0] + third),
+            self.end[1] - (tau[1] + third),
+            self.end[2] - (tau[2] + third),
+        ];
+        let linear = spread(&cell.k, third);
+        let gap = cell.compliance * (form(&cell.k, d) - linear);
+        let cross = self.product[0] * d[0] + self.product[1] * d[1] + self.product[2] * d[2];
+        let middle = gap - cross + R::QUARTER * self.moved;
+        let begin = gap - (cross + cross) + self.moved;
+        let terms = squares(tau, load);
+        let share = CellTerms {
+            gap,
+            algebraic: R::ZERO,
+            nonconforming: self.nonconforming,
+            uncertainty: cell.uncertainty * (terms + self.size),
+            uncertainty_of_u: self.uncertainty_of_u,
+            terms,
+            open: R::ZERO,
+        };
+        (share, [[begin, R::ZERO], [middle, R::ZERO]])
+    }
+}
+
+/// What rounding may take from squared distances at the beginning and in the middle: Q(δ) is at most 2Q(d) + 2Q(d − δ), and no term of
+/// either is rounded more than 8 times.
+pub(super) fn slack<R: Real>([begin, end]: [&Distance<R>; 2]) -> R {
+    let size = begin.gap.value().or_larger(R::ZERO) + end.gap.value();
+    R::from_count(64) * R::EPSILON * size
+}
