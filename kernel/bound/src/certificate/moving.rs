@@ -5,10 +5,16 @@
 //! ```text
 //!   at the end Q(d),     at the beginning Q(d − δ) = Q(d) − 2B(d, δ) + Q(δ),     in the middle Q(d) − B(d, δ) + Q(δ)/4
 //! ```
-//! s of the beginning and of the middle cost one product each way. The linear part of τ is orthogonal to δ. What cancels is of the size
-//! of Q(d) and Q(δ): [`slack`] bounds what rounding makes of it.
+//! s of the beginning and of the middle cost one product each way. The linear part of τ is orthogonal to δ.
+//!
+//! With the weights w of Q no term is larger than Σ|w| (d² + δ²), which may be far above Q where w have two signs, and none is rounded
+//! more than 16 times. So
+//! ```text
+//!   32 ε Σ|w| (d² + δ²)
+//! ```
+//! is added to both squares.
 
-use super::parts::{CellTerms, Distance};
+use super::parts::CellTerms;
 use super::triangle::{flows, form, of_means, spread, squares};
 use crate::cells::Triangle;
 use signorini_kernel::element::crouzeix_raviart::product;
@@ -20,8 +26,8 @@ pub(super) struct Moving<'a, R, I> {
     end: [R; 3],
     /// B(d, δ) = Σ `product`_i d_i
     product: [R; 3],
-    /// Q(δ)
-    moved: R,
+    /// Q(δ) and Σδ²
+    moved: [R; 2],
     /// Σ of the squares that `end` is a difference of.
     size: R,
     nonconforming: R,
@@ -47,7 +53,7 @@ impl<'a, R: Real, I: Index> Moving<'a, R, I> {
             cell,
             end,
             product,
-            moved: product[0] * delta[0] + product[1] * delta[1] + product[2] * delta[2],
+            moved: [dot(product, delta), dot(delta, delta)],
             size,
             nonconforming: cell.compliance * form(k, jump),
             uncertainty_of_u: cell.uncertainty * (size + of_means(k, u)),
@@ -66,9 +72,11 @@ impl<'a, R: Real, I: Index> Moving<'a, R, I> {
         ];
         let linear = spread(&cell.k, third);
         let gap = cell.compliance * (form(&cell.k, d) - linear);
-        let cross = self.product[0] * d[0] + self.product[1] * d[1] + self.product[2] * d[2];
-        let middle = gap - cross + R::QUARTER * self.moved;
-        let begin = gap - (cross + cross) + self.moved;
+        let (cross, [moved, squares_of_moved]) = (dot(self.product, d), self.moved);
+        let rounded = R::from_count(32) * R::EPSILON * cell.uncertainty;
+        let gap_up = gap + rounded * (dot(d, d) + squares_of_moved);
+        let middle = gap_up - cross + R::QUARTER * moved;
+        let begin = gap_up - (cross + cross) + moved;
         let terms = squares(tau, load);
         let share = CellTerms {
             gap,
@@ -83,9 +91,7 @@ impl<'a, R: Real, I: Index> Moving<'a, R, I> {
     }
 }
 
-/// What rounding may take from squared distances at the beginning and in the middle: Q(δ) is at most 2Q(d) + 2Q(d − δ), and no term of
-/// either is rounded more than 8 times.
-pub(super) fn slack<R: Real>([begin, end]: [&Distance<R>; 2]) -> R {
-    let size = begin.gap.value().or_larger(R::ZERO) + end.gap.value();
-    R::from_count(64) * R::EPSILON * size
+#[inline(always)]
+fn dot<R: Real>(a: [R; 3], b: [R; 3]) -> R {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

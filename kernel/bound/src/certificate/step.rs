@@ -18,7 +18,6 @@
 
 use super::in_step::{Fields, OfStep, WAYS, Way};
 use super::motion::Motion;
-use super::moving;
 use super::parts::Parts;
 use super::stored::{Inside, Means, Step};
 use super::{Buffers, Continuous, Discretization, LoadCase, Verdict, admissible, boundary};
@@ -107,8 +106,6 @@ impl<R: Real, I: Index> OfStep<'_, R, I> {
         let (edges, missed) = (&discretization.edges, discretization.metric.missed);
         let Way { mut parts, means, mut earlier, algebraic } = way;
         let mut end = parts.distance();
-        let slack = moving::slack([&earlier[0], &end]);
-        earlier.iter_mut().for_each(|of| of.add([slack, R::ZERO]));
         let pulled = equilibrium::pulled(edges, &given.boundary, tau);
         let begin = Continuous { vertices: step.vertices, bubbles: step.bubbles };
         let motion = Motion { begin, end: s, tau };
