@@ -3,8 +3,9 @@
 //! ```text
 //!   z = M⁻¹ r,   β = −q·z / last p·q,   p ← z + β p,   q ← K z + β q = K p,   α = p·r / p·q,   x ← x + α p,   r ← r − α q
 //! ```
-//! The direction outlives a correction, so that β is not r·z over the last one. K z comes with z ([`crate::edges`]). √(r·z) follows the error in the energy norm. Where u is large beside its last
-//! correction f32 has nothing more to say: then a new residual in f64 begins another correction.
+//! The direction outlives a correction, so that β is not r·z over the last one. K z comes with z ([`crate::relaxation`]). √(r·z) follows
+//! the error in the energy norm. Where u is large beside its last correction f32 has nothing more to say: then a new residual in
+//! f64 begins another correction.
 
 use crate::edges::Edges;
 

@@ -95,3 +95,47 @@ impl<'a, R: Real, I: Index> Moving<'a, R, I> {
 fn dot<R: Real>(a: [R; 3], b: [R; 3]) -> R {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::certificate::change::mean;
+    use crate::certificate::triangle::share;
+
+    /// A triangle with A = 1: K_ij = e_i·e_j/|T| of the sides e.
+    fn cell([p, q, r]: [[f64; 2]; 3]) -> Triangle<f64, u16> {
+        let side = |from: [f64; 2], to: [f64; 2]| [to[0] - from[0], to[1] - from[1]];
+        let [a, b, c] = [side(p, q), side(q, r), side(r, p)];
+        let area = 0.5 * (a[0] * b[1] - a[1] * b[0]);
+        let k = [(a, b), (b, c), (c, a)].map(|(a, b)| (a[0] * b[0] + a[1] * b[1]) / area);
+        let size: f64 = k.iter().map(|entry| entry.abs()).sum();
+        Triangle { k, compliance: 0.25, uncertainty: 0.25 * size, ..Triangle::EMPTY }
+    }
+
+    /// The squares at the beginning and in the middle are those of s there, and what rounding takes is on top, flat cells included.
+    #[test]
+    fn earlier_squares_are_those_of_earlier_s() {
+        for height in [1.0, 0.1, 1e-3] {
+            let cell = cell([[0.0, 0.0], [1.0, 0.0], [0.4, height]]);
+            let (now, old, u) = ([0.3, -1.2, 0.7], [1.1, 0.2, -0.4], [0.1, -0.6, 0.8]);
+            let by = (0.7, [0.2, -0.9, 1.4]);
+            let (terms, earlier) = Moving::new(&cell, [now, old], u).share(by);
+            let direct = |s| share(&cell, s, by.1, u, by.0);
+            let middle = mean(old, now);
+            let size = direct(now).uncertainty + direct(old).uncertainty;
+            let near = |what, found: f64, wanted: f64| {
+                let over = found - wanted;
+                assert!(
+                    (0.0..=1000.0 * f64::EPSILON * size).contains(&over),
+                    "{what} {height}: {over:e}"
+                );
+            };
+            let [[begin, _], [half, _]] = earlier;
+            near("beginning", begin, direct(old).gap);
+            near("middle", half, direct(middle).gap);
+            assert_eq!(terms.gap, direct(now).gap);
+            let uncertainty = direct(now).uncertainty;
+            assert!((terms.uncertainty - uncertainty).abs() <= 4.0 * f64::EPSILON * uncertainty);
+        }
+    }
+}
